@@ -8,10 +8,12 @@
     COMMAND(playCommand)                 \
     CHOOSING(exportCommand)              \
     COMMAND(newCommand)                  \
+    COMMAND(materialsCommand)            \
     COMMAND(checkCommand)                \
     COMMAND(infoCommand)                 \
     COMMAND(chartCommand)                \
     COMMAND(atlasCommand)                \
+    COMMAND(realityCommand)              \
     COMMAND(planCommand)                 \
     COMMAND(testCommand)                 \
     COMMAND(recordCommand)               \

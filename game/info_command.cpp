@@ -5,6 +5,7 @@
 #include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,9 @@
 #include "game/exit_code.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
+#include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
+#include "taut/mechanics/sheet_moduli.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/private/body_size.h"
@@ -204,6 +207,22 @@ void printJson(const Facts& facts) {
     printResult("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
 }
 
+// What each material is as a continuum, of the first cloth made of it.
+void printMaterials(const world::SceneSpec& spec) {
+    std::vector<std::string> known;
+    for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
+        if (std::find(known.begin(), known.end(), cloth.material) != known.end()) continue;
+        known.push_back(cloth.material);
+        const mechanics::SheetStiffness sheet = mechanics::sheetStiffness(cloth.build(spec));
+        printResult("\nmaterial {} in the cells of cloth.{}\n", cloth.material, cloth.name);
+        for (const double angle : {0.0, 22.5, 45.0, 90.0}) {
+            const mechanics::StripModuli strip = sheet.at(angle * std::numbers::pi / 180.0);
+            if (strip.young > 0)
+                printResult("  at {:>4}°    {:.4g} N/m, Poisson's ratio {:.3f}\n", angle, strip.young, strip.poisson);
+        }
+    }
+}
+
 void printIsland(const world::IslandInfo& i) {
     printResult("\n{}\n", fmt::join(i.bodies, ", "));
     printResult("  points      {} ({} held), {:.4g} kg\n", i.points, i.heldPoints, i.mass);
@@ -292,6 +311,7 @@ void printTable(const Facts& facts) {
                 spec.picture.size.y);
     for (const world::IslandInfo& island : facts.islands) printIsland(island);
     for (const world::JointInfo& joint : facts.joints) printJoint(joint);
+    printMaterials(spec);
     printContact(facts.contact);
 
     int points = 0;

@@ -74,7 +74,7 @@ position = [{x}, 1.0, 0.0]          # its centre
 rotation_deg = [25.0, 20.0, 10.0]
 density_kg_per_m3 = 200.0
 young_Pa = 20000.0                   # stiffness
-bulk_Pa = 40000.0
+poisson = 0.43                       # how much it narrows when it is stretched
 damping_time_s = 4e-3
 finish = {{ colour = "#3f8f6b", accent = "#dff0d8", pattern = "checker", repeat_m = 0.125 }}
 )"},
@@ -130,8 +130,8 @@ std::string sceneText(const std::string& title, const std::vector<std::string>& 
     const auto count = static_cast<double>(with.size());
     std::string text = fmt::format(fmt::runtime(head), fmt::arg("title", title));
     for (std::size_t i = 0; i < with.size(); ++i) {
-        const auto piece = std::find_if(std::begin(pieces), std::end(pieces),
-                                        [&](const Piece& each) { return each.word == with[i]; });
+        const auto piece =
+            std::find_if(std::begin(pieces), std::end(pieces), [&](const Piece& each) { return each.word == with[i]; });
         const auto before = std::count(with.begin(), with.begin() + static_cast<std::ptrdiff_t>(i), with[i]);
         const std::string name = before == 0 ? "first" : fmt::format("first{}", before + 1);
         const double x = apart * (static_cast<double>(i) - 0.5 * (count - 1.0));

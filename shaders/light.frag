@@ -12,7 +12,7 @@ vec3 lightFrom(vec3 way, float cone) { return hemisphere(way); }
 #endif
 uniform sampler2D tints;
 uniform usampler2D shapes;
-uniform sampler2D materials;  // two texels a row: colour of the back, roughness; sheen, dulled, two-sided, woven
+uniform sampler2D materials;  // two texels a row: colour of the back, roughness; sheen, dulled, translucency, woven
 uniform vec3 firstWay;        // from the eye through the picture's lower left corner, 1 m ahead
 uniform vec3 rightWay;        // from one pixel to the next
 uniform vec3 upWay;
@@ -90,7 +90,8 @@ void main() {
     diffuse += fromLamps.direct;
 #endif
     vec3 light = albedo * open * diffuse;
-    light += (0.18 * kind.z) * albedo * through * lightColour.rgb * (max(-lightSide, 0.0) * sun);
+    vec3 shining = sqrt(albedo * through);  // of the light that has come through both sides
+    light += kind.z * shining * lightColour.rgb * (max(-lightSide, 0.0) * sun);
 
     // Gloss of a dielectric, and the bright rim of fibres.
     vec3 halfWay = normalize(lightWay.xyz + toEye);
@@ -100,7 +101,7 @@ void main() {
     float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
     light += lightColour.rgb * (0.04 * gloss * direct * open);
 #if LAMPS > 0
-    light += (0.18 * kind.z) * albedo * through * fromLamps.behind + 0.04 * open * fromLamps.mirrored;
+    light += kind.z * shining * fromLamps.behind + 0.04 * open * fromLamps.mirrored;
 #endif
     vec3 mirrored = reflect(-toEye, normal);
     light += lightFrom(mirrored, 2.0 * roughness * roughness) * (fresnel * (1.0 - roughness) * 0.6 * open);

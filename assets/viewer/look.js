@@ -82,7 +82,8 @@ class Picture {
       ...this.light, front: vector(loaded.color.toArray()), back: vector(finish.back), accent: vector(finish.accent),
       pattern: picture ? 4 : ['plain', 'checker', 'stripes', 'tartan'].indexOf(finish.pattern) % 4,
       isTwoSided: loaded.side === THREE.DoubleSide, repeat: finish.repeat, weave: finish.weave, thread: finish.thread,
-      sheen: finish.sheen, roughness: loaded.roughness, picture,
+      sheen: finish.sheen, translucency: loaded.side === THREE.DoubleSide ? finish.translucency : 0,
+      roughness: loaded.roughness, picture,
     }, {side: loaded.side});
   }
 

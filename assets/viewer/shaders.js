@@ -115,7 +115,7 @@ in vec2 along;
 uniform int pattern;  // 0 plain, 1 checker, 2 stripes, 3 tartan, 4 picture
 uniform bool isTwoSided;
 uniform vec3 front, back, accent;
-uniform float repeat, weave, thread, sheen, roughness;
+uniform float repeat, weave, thread, sheen, roughness, translucency;
 uniform sampler2D picture;
 
 // The part of an interval of width w around x in which the fraction of x lies between a and b.
@@ -182,7 +182,7 @@ void main() {
   if (weave > 0.0) direct *= smoothstep(-0.02, 0.12, lightSide);  // threads on the far side stay dark
   vec3 diffuse = lightColour * direct + hemisphere(normal) * open;
   vec3 light = albedo * open * diffuse;
-  if (isTwoSided) light += 0.18 * albedo * through * lightColour * (max(-lightSide, 0.0) * sun);
+  light += translucency * sqrt(albedo * through) * lightColour * (max(-lightSide, 0.0) * sun);
 
   // Gloss of a dielectric, and the bright rim of fibres.
   vec3 halfWay = normalize(lightWay + toEye);

@@ -70,14 +70,16 @@ TEST_P(TouchingImpact, AddsNoEnergy) {
     spec.run.fps = impact.fps;
     spec.solver.precision = impact.precision;
     world::BlockSpec stiff = block("stiff", 0.2, {0.0, 0.12, 0.0}, 0.0);
-    stiff.young = stiff.bulk = 5e5;
+    stiff.young = 5e5;
+    stiff.bulk = 5e5;
     stiff.velocity = {0.0, -2.0, 0.0};
     spec.bodies.add(stiff);
     world::SolverOverride solver;
     solver.integrator = impact.integrator;
     if (impact.young > 0) {
         world::BlockSpec soft = block("soft", 0.2, {0.03, -0.12, 0.03}, 0.0);
-        soft.young = soft.bulk = impact.young;
+        soft.young = impact.young;
+        soft.bulk = impact.young;
         soft.velocity = {0.0, 2.0, 0.0};
         soft.solver = solver;
         spec.bodies.add(soft);
@@ -117,7 +119,8 @@ world::SceneSpec laidDown(double degrees, double fps) {
     cloth.hold = {"all"};
     spec.bodies.add(cloth);
     world::BlockSpec top = block("top", 0.2, {0.013, 0.1 + keep + 1e-5, 0.007}, 5e-3);
-    top.young = top.bulk = 1e5;
+    top.young = 1e5;
+    top.bulk = 1e5;
     spec.bodies.add(top);
     return spec;
 }
@@ -170,7 +173,8 @@ TEST(TouchingEnergy, OfAStiffBlockOnASoftClothDoesNotRise) {
     spec.bodies.add(cloth);
     world::BlockSpec stiff = block("stiff", 0.12, {0.01, 0.08, 0.0}, 0.0);
     stiff.density = 20.0;
-    stiff.young = stiff.bulk = 8e4;
+    stiff.young = 8e4;
+    stiff.bulk = 8e4;
     stiff.velocity = {0.0, -1.0, 0.0};
     spec.bodies.add(stiff);
     World world(spec);

@@ -130,6 +130,7 @@ inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog"
     bar.position = {0, 1.0, 2};
     bar.hold = {"left"};
     bar.plasticity.yieldStrain = 0.05;
+    bar.workingStretch = 2;  // where it yields
     bar.dampingTime = 2e-3;
     scene.bodies.add(bar);
     world::WindSpec wind;

@@ -50,7 +50,7 @@ TEST(Completion, BashOffersCommandsFlagsTheirWordsScenesFilesAndFolders) {
     std::filesystem::create_directories(folder / "here/films");
     writeText(folder / "here/flare.toml", "");
     writeText(folder / "here/flute.txt", "");
-    EXPECT_EQ(offered(folder, "re"), (Words{"record", "render", "replay"}));
+    EXPECT_EQ(offered(folder, "re"), (Words{"reality", "record", "render", "replay"}));
     EXPECT_EQ(offered(folder, "render --metr"), (Words{"--metrics", "--metrics-of"}));
     EXPECT_EQ(offered(folder, "render fl"), (Words{"flag", "flare.toml"}));
     EXPECT_EQ(offered(folder, "test torn-"), (Words{"torn-banner"}));

@@ -1,5 +1,6 @@
 list(APPEND TAUT_UNIT_TESTS
   mechanics_anchor_generator_test.cpp
+  mechanics_block_moduli_test.cpp
   mechanics_builders_block_test.cpp
   mechanics_builders_cloth_test.cpp
   mechanics_builders_groups_test.cpp
@@ -9,6 +10,7 @@ list(APPEND TAUT_UNIT_TESTS
   mechanics_gravity_generator_test.cpp
   mechanics_gust_generator_test.cpp
   mechanics_index_runs_generator_test.cpp
+  mechanics_sheet_moduli_test.cpp
   mechanics_volume_generator_test.cpp
   mechanics_wind_generator_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::mechanics)

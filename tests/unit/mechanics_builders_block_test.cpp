@@ -2,8 +2,9 @@
 
 #include <map>
 
-#include "taut/mechanics/builders.h"
 #include "mechanics_lattice_facts.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/private/cell_shape.h"
 
 namespace taut::mechanics {
 namespace {
@@ -18,6 +19,7 @@ BlockShape cubes(int n) {
     shape.centre = {0.5, 1.0, -2.0};
     shape.size = {0.9, 0.6, 0.3};
     shape.cells = {3 * n, 2 * n, n};
+    shape.bulk = 2e4;
     return shape;
 }
 
@@ -108,19 +110,22 @@ TEST(BlockBuilder, SpringsOfAKindShareOneRestLength) {
     EXPECT_LE(lengths.size(), 6U);
 }
 
-TEST(BlockBuilder, TetrahedraAreRightHandedAndFillTheBlock) {
+TEST(BlockBuilder, CellsAndTheirTetrahedraAreRightHandedAndFillTheBlock) {
     BlockShape shape = cubes(2);
     shape.axes = glm::dmat3(0.6, 0.8, 0.0, -0.8, 0.6, 0.0, 0.0, 0.0, 1.0);
     const Model model = buildBlock(shape);
-    EXPECT_EQ(model.cells.size(), 6U * 6U * 4U * 2U);
+    EXPECT_EQ(model.cells.size(), 6U * 4U * 2U);
     double volume = 0.0;
     for (const VolumeCell& cell : model.cells) {
-        const glm::dvec3 p = at(model.positions, cell.points[0]);
-        const double now =
-            glm::dot(at(model.positions, cell.points[1]) - p,
-                     glm::cross(at(model.positions, cell.points[2]) - p, at(model.positions, cell.points[3]) - p)) /
-            6.0;
-        EXPECT_NEAR(now, cell.restVolume, 1e-15);  // 5.6e-4 m³ from coordinates of about 2
+        // 3.4e-3 m³ from coordinates of about 2.
+        EXPECT_NEAR(volumeOf(cornersOf(cell, model.positions)), cell.restVolume, 1e-15);
+        for (std::size_t t = 0; t < cellTetrahedra.size(); ++t) {
+            const auto [a, b, c, d] = tetrahedronOf(cell, t);
+            const glm::dvec3 p = at(model.positions, a);
+            EXPECT_NEAR(glm::dot(at(model.positions, b) - p,
+                                 glm::cross(at(model.positions, c) - p, at(model.positions, d) - p)),
+                        cell.restVolume, 1e-15);  // each a sixth of the cell
+        }
         volume += cell.restVolume;
     }
     EXPECT_NEAR(volume, 0.9 * 0.6 * 0.3, blockRounding);
@@ -166,7 +171,7 @@ TEST(BlockBuilder, GroupsAreWhereTheirNamesSay) {
     EXPECT_EQ(model.groups.at("corners").size(), 8U);
 }
 
-TEST(BlockBuilder, WithoutBulkHasNoTetrahedra) {
+TEST(BlockBuilder, WithoutBulkHasNoCells) {
     BlockShape shape = cubes(1);
     shape.bulk = 0.0;
     EXPECT_TRUE(buildBlock(shape).cells.empty());

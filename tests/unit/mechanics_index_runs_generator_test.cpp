@@ -61,15 +61,15 @@ TEST(IndexRuns, HoldEveryElementOnceWhateverTheirOrder) {
     }
 }
 
-TEST(IndexRuns, BlockOfTetrahedraIsMostlyRuns) {
+TEST(IndexRuns, BlockOfCellsIsOneRun) {
     BlockShape shape;
     shape.cells = glm::ivec3(6);
     const Model model = buildBlock(shape);
-    std::vector<std::array<int, 4>> cells;
+    std::vector<std::array<int, 8>> cells;
     for (const VolumeCell& cell : model.cells) cells.push_back(cell.points);
-    const IndexRuns<4> runs{std::span<const std::array<int, 4>>(cells)};
+    const IndexRuns<8> runs{std::span<const std::array<int, 8>>(cells)};
     EXPECT_EQ(runs.lanes().looseCount, 0);
-    EXPECT_EQ(runs.lanes().runCount, 6);  // one for each tetrahedron of a cell
+    EXPECT_EQ(runs.lanes().runCount, 1);
     EXPECT_EQ(cornersByElement(runs, cells.size()), cells);
 }
 

@@ -3,6 +3,7 @@ list(APPEND TAUT_UNIT_TESTS
   scene_action_reader_test.cpp
   scene_check_errors_test.cpp
   scene_contradiction_errors_test.cpp
+  scene_fabrics_test.cpp
   scene_field_table_test.cpp
   scene_fields_test.cpp
   scene_files_test.cpp

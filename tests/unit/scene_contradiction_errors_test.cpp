@@ -33,14 +33,21 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "s.toml:3:59: error: no sheet is so soft at 45° with this warp and weft\n"
          "  bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 9e-6 }\n"
          "                                                            ^ it must be above (√warp - √weft)²/4 = 1e-05 N m"},
-        {"a ring that is straight at rest",
+        {"a block of a ratio and a pressure",
+         "[block.b]\n"
+         "bulk_Pa = 1e5\n"
+         "poisson = 0.3\n",
+         "s.toml:4:11: error: a block has either poisson or bulk_Pa\n"
+         "  poisson = 0.3\n"
+         "            ^ leave one out; with poisson, young_Pa is that of the block"},
+        {"a curve that nothing keeps",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"
          "closed = true\n"
-         "bending_rigidity_N_m2 = 1e-5\n",
-         "s.toml:5:25: error: a closed rope has no bending rigidity\n"
-         "  bending_rigidity_N_m2 = 1e-5\n"
-         "                          ^ use bend_N"},
+         "rest_curved = true\n",
+         "s.toml:5:15: error: without a bending rigidity nothing keeps the curve\n"
+         "  rest_curved = true\n"
+         "                ^ give bending_rigidity_N_m2 too"},
         {"a plane with a radius",
          "[collider.s]\n"
          "shape = \"plane\"\n"

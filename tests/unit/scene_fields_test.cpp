@@ -2,16 +2,16 @@
 #include <cmath>
 #include <set>
 
-#include "taut/core/trig.h"
-#include "taut/scene/private/document.h"
-#include "taut/scene/private/sections.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/net.h"
 #include "taut/bodies/rope.h"
+#include "taut/core/trig.h"
 #include "taut/forces/anchor.h"
 #include "taut/forces/wind.h"
-#include "taut/bodies/joints/joints.h"
+#include "taut/scene/private/document.h"
+#include "taut/scene/private/sections.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 
@@ -153,7 +153,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 63);
+    EXPECT_EQ(flag.source.line, 64);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 
@@ -221,6 +221,7 @@ TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
     EXPECT_EQ(jelly.density, 950.0);
     EXPECT_EQ(jelly.young, 1e4);
     EXPECT_EQ(jelly.bulk, 3e4);
+    EXPECT_EQ(named(scene.bodies.of<world::BlockSpec>(), "rubber").poisson, 0.45);
     EXPECT_EQ(jelly.dampingTime, 4e-4);
     EXPECT_EQ(jelly.drag, 0.7);
     EXPECT_EQ(jelly.workingStretch, 2.0);
@@ -236,7 +237,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 122);
+    EXPECT_EQ(net.points[1].source.line, 125);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");

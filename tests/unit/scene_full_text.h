@@ -55,12 +55,13 @@ fade_start = 9
 fade_end = 31
 [material.silk]
 density_kg_per_m2 = 0.07
-stretch_N_per_m = 300
+stretch_N_per_m = { warp = 300, weft = 280 }
 shear_N_per_m = 120
 bend_N_per_m = 0.2
 bending_rigidity_N_m = { warp = 3e-6, weft = 2e-6, bias = 1e-6 }
 damping_time_s = 2e-4
 drag_per_s = 0.4
+air_kg_per_m2 = 0.03
 lumping = "uniform"
 yield_strain = 0.05
 break_strain = 0.5
@@ -83,7 +84,7 @@ friction = 0.9
 thickness = 0.01
 collide = false
 touch = "others"
-finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, thread_m = 0.02, roughness = 0.5, sheen = 0.6, hem_m = 0.004, texture = "square.png" }
+finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, thread_m = 0.02, roughness = 0.5, sheen = 0.6, translucency = 0.35, hem_m = 0.004, texture = "square.png" }
 solver = { integrator = "euler", dt = 2e-4, safety = 0.7, newton_steps = 5, cg_tolerance = 1e-8, cg_iterations = 400 }
 array = { count = [2, 3, 4], step_x = [1, 0, 0], step_y = [0, 2, 0], step_z = [0, 0, 3] }
 [cloth.shirt]
@@ -123,6 +124,8 @@ lumping = "uniform"
 yield_strain = 0.07
 break_strain = 0.7
 break_cell_m = 0.07
+[block.rubber]
+poisson = 0.45
 [net.cradle]
 points = [{ name = "a", position = [0, 1, 0], mass_kg = 3, hold = true }, { name = "b", position = [1, 1, 0] }]
 springs = [{ a = "a", b = "b", stiffness_N_per_m = 20, rest_length_m = 0.5, damping_time_s = 5e-4 }]
@@ -302,6 +305,8 @@ size = [320, 180]
 ends = [[0, 5, 1], [1, 5, 1]]
 through = [{ position = [0.4, 5.2, 1] }, { position = [0.6, 5, 1.3] }]
 closed = true
+bending_rigidity_N_m2 = 2e-6
+rest_curved = true
 )toml";
 
 }  // namespace taut::scene

@@ -41,6 +41,24 @@ TEST(SceneInheritance, TablesAreLaidOverEachOtherKeyByKey) {
     EXPECT_EQ(rope(scene, 0).finish.roughness, 0.25);
 }
 
+// A cloth's own keys, then those of the cloth that it is like, then its material's, then the defaults.
+TEST(SceneInheritance, AMaterialHasKeysForItsCloth) {
+    const Loaded scene = loaded(
+        "[defaults.cloth]\nthickness = 0.01\nfriction = 0.1\njitter_m = 0.001\n"
+        "[material.a.cloth]\nthickness = 0.02\nfriction = 0.2\nfinish = { weave = 0.5, roughness = 0.25 }\n"
+        "[material.b]\nlike = \"a\"\n"
+        "[cloth.x]\nmaterial = \"b\"\nfinish = { weave = 0.75 }\n[cloth.y]\nlike = \"x\"\nfriction = 0.3\n");
+    const world::ClothSpec& x = scene.spec.bodies.of<world::ClothSpec>().at(0);
+    const world::ClothSpec& y = scene.spec.bodies.of<world::ClothSpec>().at(1);
+    EXPECT_EQ(x.thickness, 0.02);
+    EXPECT_EQ(x.friction, 0.2);
+    EXPECT_EQ(x.jitter, 0.001);
+    EXPECT_EQ(x.finish.weave, 0.75);
+    EXPECT_EQ(x.finish.roughness, 0.25);
+    EXPECT_EQ(y.thickness, 0.02);
+    EXPECT_EQ(y.friction, 0.3);
+}
+
 TEST(SceneInheritance, WhatDoesNotGoWithAFormIsLeftOut) {
     const Loaded scene = loaded(
         "[defaults.collider]\nshape = \"sphere\"\nradius = 0.2\nfriction = 0.9\n"

@@ -124,6 +124,7 @@ TEST(PlanModel, EveryGeneratorIsListedAndCanBeLeftOut) {
     scene.materials["m"] = {};
     world::BlockSpec block;
     block.name = "b";
+    block.bulk = 2e4;
     scene.bodies.add(block);
     scene.forces.add(world::WindSpec{});
     scene.forces.of<world::WindSpec>()[0].name = "w";

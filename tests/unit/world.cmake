@@ -1,5 +1,6 @@
 list(APPEND TAUT_UNIT_TESTS
   contact_faces_test.cpp
+  world_air_test.cpp
   world_actions_test.cpp
   world_bodies_test.cpp
   world_callbacks_test.cpp

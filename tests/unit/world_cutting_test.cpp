@@ -226,6 +226,7 @@ double offsetAfterBending(std::optional<double> yieldStrain) {
     bar.size = {0.8, 0.1, 0.1};
     bar.cells = {8, 1, 1};
     bar.hold = {"left"};
+    bar.young = 1e5;  // comes back at ω²/drag: thin bars bend easily
     bar.drag = 6;
     bar.dampingTime = 2e-3;
     bar.plasticity.yieldStrain = yieldStrain;

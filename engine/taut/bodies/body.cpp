@@ -101,6 +101,20 @@ void addMasses(std::vector<Body>& bodies, const SceneSpec& spec) {
     }
 }
 
+// The air that goes along with bodies in a wind is a part of their mass; with others none goes along.
+void addAir(std::vector<Body>& bodies, const SceneSpec& spec) {
+    std::vector<const Body*> surrounded;
+    const std::vector<Body*> all = pointersTo(bodies);
+    for (const ForceSpec& force : spec.forces)
+        for (const std::string& target : force.surroundedBodies())
+            for (Body* body : matchBodies(all, target)) surrounded.push_back(body);
+    for (Body& body : bodies) {
+        mechanics::Model& model = body.model;
+        if (std::find(surrounded.begin(), surrounded.end(), &body) == surrounded.end()) model.airMasses.clear();
+        for (std::size_t i = 0; i < model.airMasses.size(); ++i) model.masses[i] += model.airMasses[i];
+    }
+}
+
 }  // namespace
 
 dvec3 jitterOf(const Body& body, int point) {
@@ -176,6 +190,7 @@ std::vector<Body> buildBodies(const SceneSpec& spec) {
     for (const BodySpec& body : spec.bodies) addCopies(bodies, body, spec);
     std::sort(bodies.begin(), bodies.end(), sortsBefore);
     addMasses(bodies, spec);
+    addAir(bodies, spec);
     for (Body& body : bodies) startBody(body);
     return bodies;
 }

@@ -36,12 +36,13 @@ mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scen
     const MaterialSpec m = found == scene.materials.end() ? MaterialSpec{} : found->second;
     return {.density = m.density,
             .stretch = m.stretch,
-            .shear = m.shear.value_or(0.5 * m.stretch),
+            .shear = m.shear.value_or(m.defaultShear()),
             .bend = m.bend,
             .dampingTime = m.dampingTime,
             .dragRate = m.drag,
             .lumping = m.lumping,
-            .rigidity = rigidityOf(m.rigidity)};
+            .rigidity = rigidityOf(m.rigidity),
+            .weftStretch = m.weftStretch};
 }
 
 mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {
@@ -51,6 +52,7 @@ mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {
         shape.positions.push_back(spec.position + rotated(turn, spec.scale * x));
     shape.uv = spec.meshData->uv;
     shape.triangles = spec.meshData->triangles;
+    shape.cornerUv = spec.meshData->cornerUv;
     shape.groups = spec.meshData->groups;
     shape.numbers = spec.meshData->numbers;
     return shape;
@@ -109,16 +111,20 @@ Section ClothSpec::section() {
 }
 
 mechanics::Model ClothSpec::build(const SceneSpec& scene) const {
+    mechanics::Model model = buildSheet(scene);
+    const auto found = scene.materials.find(material);
+    if (found == scene.materials.end() || found->second.air == 0) return model;
+    for (const double mass : model.masses) model.airMasses.push_back(mass * found->second.air / found->second.density);
+    return model;
+}
+
+mechanics::Model ClothSpec::buildSheet(const SceneSpec& scene) const {
     const mechanics::ClothMaterial made = materialOf(*this, scene);
     if (!meshData) {
         const dvec3 u = unit(across);
         const dvec3 v = unit(down - glm::dot(down, u) * u);
         return mechanics::buildCloth({origin, u, v, size, cells, made});
     }
-    if (made.rigidity.along > 0)
-        throw core::Error(core::ErrorKind::badContent,
-                          at(source) + "bending_rigidity_N_m of [material." + material +
-                              "] is for cloth grids only; a cloth from a mesh has bend_N_per_m");
     mechanics::MeshClothShape shape = shapeOf(*this);
     shape.material = made;
     try {

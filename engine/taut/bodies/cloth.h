@@ -27,6 +27,9 @@ struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     BodyOutline outline(const SceneSpec& scene) const override;
     using BodySpec::meshSource;
     const MeshSource* meshSource() const override { return this; }
+
+  private:
+    mechanics::Model buildSheet(const SceneSpec& scene) const;  // without air
 };
 
 }  // namespace taut::world

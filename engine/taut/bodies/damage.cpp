@@ -30,6 +30,12 @@ double Damage::share(int a, int b) const {
     return a < b ? found->second : 1.0 - found->second;
 }
 
+bool Damage::isCellGone(std::size_t cell) const {
+    if (tetrahedra_.empty()) return false;
+    const auto first = tetrahedra_.begin() + static_cast<std::ptrdiff_t>(cellTetrahedra * cell);
+    return std::find(first, first + cellTetrahedra, true) != first + cellTetrahedra;
+}
+
 // The springs, triangles and cells at each point of a model.
 struct Damage::Index {
     struct Way {
@@ -74,7 +80,7 @@ Damage::Assessed Damage::assess(const mechanics::Model& model) {
     if (fresh_.empty()) return assessed;
     if (!index_) index_ = std::make_shared<const Index>(model);
     triangles_.resize(model.triangles.size(), false);
-    cells_.resize(model.cells.size(), false);
+    tetrahedra_.resize(cellTetrahedra * model.cells.size(), false);
     const Index& index = *index_;
     // A bending spring goes when no point between its ends is tied to both any more.
     const auto isLoose = [&](int a, int b) {
@@ -101,9 +107,11 @@ Damage::Assessed Damage::assess(const mechanics::Model& model) {
     for (const auto& [a, b] : fresh_) {
         for (const std::size_t t : index.triangles[static_cast<std::size_t>(a)])
             look(model.triangles[t], triangles_, t, b);
-        for (const std::size_t c : index.cells[static_cast<std::size_t>(a)]) look(model.cells[c].points, cells_, c, b);
+        for (const std::size_t c : index.cells[static_cast<std::size_t>(a)])
+            for (std::size_t n = 0; n < cellTetrahedra; ++n)
+                look(tetrahedronOf(model.cells[c], n), tetrahedra_, cellTetrahedra * c + n, b);
     }
-    goneCells_ = static_cast<std::size_t>(std::count(cells_.begin(), cells_.end(), true));
+    goneTetrahedra_ = static_cast<std::size_t>(std::count(tetrahedra_.begin(), tetrahedra_.end(), true));
     goneTriangles_ = static_cast<std::size_t>(std::count(triangles_.begin(), triangles_.end(), true));
     assessed.severed = std::exchange(fresh_, {});
     return assessed;

@@ -23,11 +23,15 @@ class Damage {
     const std::map<Edge, double>& edges() const { return edges_; }  // with the share from the lower point
     // Always false for a triangle that is not of the model.
     bool isTriangleGone(std::size_t triangle) const { return triangle < triangles_.size() && triangles_[triangle]; }
-    bool isCellGone(std::size_t cell) const { return !cells_.empty() && cells_[cell]; }
-    std::size_t goneCells() const { return goneCells_; }  // how many
-    // Number of cells and triangles that are gone, for a body with cells. While it stays the same, so do the bare
+    // A tetrahedron of a cell, 0 to 5. The cell is gone with the first of them.
+    bool isTetrahedronGone(std::size_t cell, std::size_t number) const {
+        return !tetrahedra_.empty() && tetrahedra_[cellTetrahedra * cell + number];
+    }
+    bool isCellGone(std::size_t cell) const;
+    std::size_t goneTetrahedra() const { return goneTetrahedra_; }  // how many
+    // Number of tetrahedra and triangles that are gone, for a body with cells. While it stays the same, so do the bare
     // faces.
-    std::size_t goneAround() const { return goneCells_ > 0 ? goneCells_ + goneTriangles_ : 0; }
+    std::size_t goneAround() const { return goneTetrahedra_ > 0 ? goneTetrahedra_ + goneTriangles_ : 0; }
 
     // Severs an edge at a share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
     void sever(int a, int b, double share);
@@ -44,10 +48,11 @@ class Damage {
     struct Index;  // of the model
 
     std::map<Edge, double> edges_;
-    std::vector<Edge> fresh_;              // not assessed yet
-    std::shared_ptr<const Index> index_;   // made when first needed
-    std::vector<bool> triangles_, cells_;  // (of the model) gone; empty while no edge is severed
-    std::size_t goneCells_ = 0, goneTriangles_ = 0;
+    std::vector<Edge> fresh_;             // not assessed yet
+    std::shared_ptr<const Index> index_;  // made when first needed
+    static constexpr std::size_t cellTetrahedra = mechanics::cellTetrahedra.size();
+    std::vector<bool> triangles_, tetrahedra_;  // (of the model) gone; empty while no edge is severed
+    std::size_t goneTetrahedra_ = 0, goneTriangles_ = 0;
 };
 
 }  // namespace taut::world

@@ -223,6 +223,7 @@ std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
     finish->thread = static_cast<float>(spec.thread);
     finish->roughness = static_cast<float>(spec.roughness);
     finish->sheen = static_cast<float>(spec.sheen);
+    finish->translucency = static_cast<float>(spec.translucency);
     finish->texture = spec.texture;
     return finish;
 }

@@ -224,7 +224,7 @@ class Planner {
             int& island = numberOf[static_cast<std::size_t>(welds_.find(global({number, i})))];
             if (island < 0) {
                 island = static_cast<int>(plan.points.size());
-                plan.points.push_back({model.masses[k], model.dragRates[k], model.held[k]});
+                plan.points.push_back({model.masses[k], model.dragRates[k], model.held[k], airMassOf(model, k)});
                 plan.positions.push_back(model.positions[k]);
                 plan.velocities.push_back(model.velocities[k]);
             } else {
@@ -247,6 +247,10 @@ class Planner {
         plan.bodies.push_back(&b);
     }
 
+    static double airMassOf(const mechanics::Model& model, std::size_t k) {
+        return model.airMasses.empty() ? 0.0 : model.airMasses[k];
+    }
+
     // Merges two points: masses add, drag is weighted by mass, momentum is kept, held if either is.
     static void weldOnto(IslandPlan& plan, int island, const mechanics::Model& model, std::size_t k) {
         auto& point = plan.points[static_cast<std::size_t>(island)];
@@ -255,6 +259,7 @@ class Planner {
         velocity = (point.mass * velocity + model.masses[k] * model.velocities[k]) / mass;
         point.dragRate = (point.mass * point.dragRate + model.masses[k] * model.dragRates[k]) / mass;
         point.mass = mass;
+        point.airMass += airMassOf(model, k);
         point.held = point.held || model.held[k];
         if (point.held) velocity = dvec3(0.0);
     }
@@ -451,15 +456,37 @@ std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan) {
     return all;
 }
 
-mechanics::Bending bendingOf(const IslandPlan& plan, const Body& body) {
+namespace {
+
+// (points of the body) which are held, and of which of them the direction is held too.
+struct HeldPoints {
+    std::vector<bool> isHeld, isClamped;
+};
+
+HeldPoints heldPointsOf(const IslandPlan& plan, const Body& body) {
     const std::vector<bool> isHeld = heldPointsOf(plan);
-    std::vector<bool> held, isClamped;
+    HeldPoints of;
     for (std::size_t i = 0; i < body.pointOf.size(); ++i) {
-        held.push_back(isHeld[static_cast<std::size_t>(body.pointOf[i])]);
-        isClamped.push_back(held[i] && !body.clamped.empty() && body.clamped[i]);
+        of.isHeld.push_back(isHeld[static_cast<std::size_t>(body.pointOf[i])]);
+        of.isClamped.push_back(of.isHeld[i] && !body.clamped.empty() && body.clamped[i]);
     }
-    return without(clamped(body.model.bending, held, isClamped, body.model.positions),
+    return of;
+}
+
+}  // namespace
+
+mechanics::Bending gridBendingOf(const IslandPlan& plan, const Body& body) {
+    if (body.model.bending.isEmpty()) return {};
+    const auto [isHeld, isClamped] = heldPointsOf(plan, body);
+    return without(clamped(body.model.bending, isHeld, isClamped, body.model.positions),
                    [&](int a, int b) { return body.damage.isSevered(a, b); });
+}
+
+std::vector<mechanics::BendingElement> bendingElementsOf(const IslandPlan& plan, const Body& body) {
+    if (body.model.freeform.isEmpty()) return {};
+    const auto [isHeld, isClamped] = heldPointsOf(plan, body);
+    return mechanics::bendingElements(body.model, isHeld, isClamped,
+                                      [&](int a, int b) { return body.damage.isSevered(a, b); });
 }
 
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/mechanics/bending_elements.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/mechanics/pose_path.h"
 #include "taut/ode/method_table.h"
@@ -115,8 +116,9 @@ std::vector<double> inverseMassesOf(const IslandPlan& plan);
 std::vector<mechanics::VolumeCell> cellsOf(const Body& body);
 std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan);
 // The present bending of a body: without cut or torn parts, with the direction of clamped points held while the points
-// are.
-mechanics::Bending bendingOf(const IslandPlan& plan, const Body& body);
+// are. Of a grid or a straight rope, and of all else; each empty for a body that has the other or none.
+mechanics::Bending gridBendingOf(const IslandPlan& plan, const Body& body);
+std::vector<mechanics::BendingElement> bendingElementsOf(const IslandPlan& plan, const Body& body);
 // The body of a point and the point's number in it; for a weld the first of its bodies. Null and the point itself if no
 // body has it.
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point);

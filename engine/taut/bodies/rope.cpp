@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "taut/bodies/body.h"
+#include "taut/bodies/drawing.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
-#include "taut/view/private/tube.h"
-#include "taut/bodies/body.h"
 #include "taut/spec/common_rows.h"
-#include "taut/bodies/drawing.h"
+#include "taut/view/private/tube.h"
 
 namespace taut::world {
 
@@ -135,9 +135,12 @@ Section RopeSpec::section() {
         .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
         .ramps(Affects::springs);
     list.number("bending_rigidity_N_m2", &RopeSpec::rigidity, "N m²", positive,
-                "Bending rigidity EI, the same for any number of segments; it is straight at rest. Not of closed "
-                "ropes.")
-        .ramps(Affects::springs);
+                "Bending rigidity EI, the same for any number of segments.")
+        .ramps(Affects::springs)
+        .flag(
+            "rest_curved", &RopeSpec::isCurvedAtRest,
+            "Whether that resists bending away from the curve in which the rope is laid; else the rope is straight at "
+            "rest.");
     section.fields = withPlasticity(withLosses(list))
                          .number("radius", &RopeSpec::radius, "m", lengthRange,
                                  "As it is drawn; its thickness too, if that is not given.")
@@ -154,9 +157,9 @@ Section RopeSpec::section() {
             input.problems.addError(input.at("ends"), "the two ends are the same point");
         if (rope.isClosed && rope.segments < leastOfRing)
             input.problems.addError(input.at("segments"), "a closed rope has at least 3 segments");
-        if (rope.rigidity && rope.isClosed)
-            input.problems.addError(input.at("bending_rigidity_N_m2"), "a closed rope has no bending rigidity",
-                                    "use bend_N");
+        if (rope.isCurvedAtRest && !rope.rigidity)
+            input.problems.addError(input.at("rest_curved"), "without a bending rigidity nothing keeps the curve",
+                                    "give bending_rigidity_N_m2 too");
         if (rope.length > 0.0 && rope.isClosed)
             input.problems.addError(input.at("length_m"), "a closed rope is as long as its way round",
                                     "leave length_m out");
@@ -180,6 +183,7 @@ mechanics::Model RopeSpec::build(const SceneSpec&) const {
                                  .stretch = stretch,
                                  .bend = bend,
                                  .rigidity = rigidity.value_or(0.0),
+                                 .isCurvedAtRest = isCurvedAtRest,
                                  .dampingTime = dampingTime,
                                  .dragRate = drag,
                                  .lumping = lumping});

@@ -18,14 +18,15 @@ struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
     int segments = 40;
     double length = 0.0;  // natural length [m]; 0: the distance of the ends
     std::vector<RopePlaceSpec> through;
-    bool isClosed = false;      // a ring
-    double mass = 1.0;          // [kg]
-    double stretch = 1e4;       // EA [N]
-    double bend = 0.0;          // EA of the span-2 springs [N]
+    bool isClosed = false;           // a ring
+    double mass = 1.0;               // [kg]
+    double stretch = 1e4;            // EA [N]
+    double bend = 0.0;               // EA of the span-2 springs [N]
     std::optional<double> rigidity;  // EI of bending [N m²]; none: no bending rigidity
-    double dampingTime = 1e-4;  // [s]
-    double drag = 0.3;          // [1/s]
-    double radius = 0.02;       // [m] for drawing
+    bool isCurvedAtRest = false;     // it keeps the curve in which it is laid
+    double dampingTime = 1e-4;       // [s]
+    double drag = 0.3;               // [1/s]
+    double radius = 0.02;            // [m] for drawing
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
 

@@ -12,8 +12,7 @@ class Cutter {
     explicit Cutter(const Body& body) : model_(body.model), damage_(body.damage), fans_(model_.positions.size()) {
         for (const mechanics::Spring& s : model_.springs)
             if (s.kind != mechanics::SpringKind::bend && !damage_.isSevered(s.a, s.b)) held_.insert(edge(s.a, s.b));
-        for (std::size_t c = 0; c < model_.cells.size(); ++c)
-            if (!damage_.isCellGone(c)) addFan(model_.cells[c].points);
+        eachTetrahedron(false, [this](const std::array<int, 4>& corners) { addFan(corners); });
         if (!model_.cells.empty()) return;
         for (std::size_t t = 0; t < model_.triangles.size(); ++t)
             if (!damage_.isTriangleGone(t)) addFan(model_.triangles[t]);
@@ -21,13 +20,20 @@ class Cutter {
 
     Skin cut() {
         for (std::size_t t = 0; t < model_.triangles.size(); ++t) addTriangle(static_cast<int>(t));
-        for (std::size_t c = 0; c < model_.cells.size(); ++c)
-            if (damage_.isCellGone(c)) addCutFaces(model_.cells[c].points);
+        eachTetrahedron(true, [this](const std::array<int, 4>& corners) { addCutFaces(corners); });
         return std::move(skin_);
     }
 
   private:
     using Corners = std::vector<int>;
+
+    // Visits the corners of the tetrahedra that are gone, or of those that are whole.
+    template <class Visit>
+    void eachTetrahedron(bool isGone, Visit&& visit) const {
+        for (std::size_t c = 0; c < model_.cells.size(); ++c)
+            for (std::size_t n = 0; n < mechanics::cellTetrahedra.size(); ++n)
+                if (damage_.isTetrahedronGone(c, n) == isGone) visit(tetrahedronOf(model_.cells[c], n));
+    }
 
     static Damage::Edge edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
     const dvec3& rest(int point) const { return model_.positions[static_cast<std::size_t>(point)]; }

@@ -8,14 +8,25 @@
 namespace taut::world {
 namespace {
 
+// Of all mass, the air's too, or of the air alone, from which it takes its weight back.
+enum class Weighs { allMass, airBack };
+
 class GravityForce final : public ForceOf<GravityForce> {
   public:
-    explicit GravityForce(const dvec3& acceleration)
-        : ForceOf("world.gravity"), acceleration_{acceleration, acceleration} {}
+    GravityForce(const dvec3& acceleration, Weighs weighs)
+        : ForceOf("world.gravity"), acceleration_{acceleration, acceleration}, weighs_(weighs) {}
 
     template <class Real>
-    std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan&) const {
-        return std::make_unique<mechanics::Gravity<Real>>(acceleration_);
+    std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan& plan) const {
+        if (weighs_ == Weighs::allMass) return std::make_unique<mechanics::Gravity<Real>>(acceleration_);
+        std::vector<Real> back;
+        bool hasAir = false;
+        for (const mechanics::PointMass& point : plan.points) {
+            back.push_back(static_cast<Real>(-point.airMass));
+            hasAir = hasAir || point.airMass > 0;
+        }
+        if (!hasAir) return nullptr;
+        return std::make_unique<mechanics::Gravity<Real>>(acceleration_, std::move(back));
     }
     void changeEvenly(const GravityForce& from, const GravityForce& to, double t0, double t1) {
         acceleration_ = mechanics::LinearPath::between(from.acceleration_.to, to.acceleration_.to, t0, t1);
@@ -29,17 +40,20 @@ class GravityForce final : public ForceOf<GravityForce> {
 
   private:
     mechanics::LinearPath acceleration_;  // [m/s²]
+    Weighs weighs_;
 };
 
 }  // namespace
 
 ForceList sceneForces(const SceneSpec& spec) {
-    ForceList all{std::make_shared<GravityForce>(spec.world.gravity)};
+    ForceList all{std::make_shared<GravityForce>(spec.world.gravity, Weighs::allMass)};
     const auto add = [&](const auto& forces) {
         for (const ForceSpec& force : forces)
             if (auto made = force.make(spec)) all.push_back(std::move(made));
     };
     add(spec.forces.of<WindSpec>());
+    if (!spec.forces.of<WindSpec>().empty())
+        all.push_back(std::make_shared<GravityForce>(spec.world.gravity, Weighs::airBack));
     add(spec.forces.of<AnchorSpec>());
     for (const ForceSpec& force : spec.forces)
         if (force.kind() != WindSpec::kindName && force.kind() != AnchorSpec::kindName)

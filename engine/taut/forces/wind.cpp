@@ -22,7 +22,7 @@ class WindForce final : public ForceOf<WindForce> {
     WindForce(const WindSpec& wind, double airDensity)
         : ForceOf(wind.fullName()),
           velocity_{wind.velocity, wind.velocity},
-          targets_(wind.on.empty() ? std::vector<std::string>{"cloth.*"} : wind.on) {
+          targets_(wind.surroundedBodies()) {
         settings_.airDensity = airDensity;
         settings_.drag = wind.drag;
         settings_.lift = wind.lift;
@@ -97,6 +97,10 @@ Section WindSpec::section() {
             .texts("on", &WindSpec::on, Role::bodies, "Bodies it acts on, e.g. \"cloth.*\"; every cloth if not given.")
             .take();
     return section;
+}
+
+std::vector<std::string> WindSpec::surroundedBodies() const {
+    return on.empty() ? std::vector<std::string>{"cloth.*"} : on;
 }
 
 std::shared_ptr<const Force> WindSpec::make(const SceneSpec& scene) const {

@@ -22,6 +22,7 @@ struct WindSpec final : SpecOf<WindSpec, ForceSpec> {
 
     static fields::Section section();
     std::shared_ptr<const Force> make(const SceneSpec& scene) const override;
+    std::vector<std::string> surroundedBodies() const override;
 };
 
 }  // namespace taut::world

@@ -58,8 +58,11 @@ std::set<Damage::Edge> edgesOf(const mechanics::Model& model) {
     for (const auto& t : model.triangles)
         for (std::size_t i = 0; i < 3; ++i) add(t[i], t[(i + 1) % 3]);
     for (const auto& cell : model.cells)
-        for (std::size_t i = 0; i < 4; ++i)
-            for (std::size_t j = i + 1; j < 4; ++j) add(cell.points[i], cell.points[j]);
+        for (std::size_t n = 0; n < mechanics::cellTetrahedra.size(); ++n) {
+            const std::array<int, 4> corners = tetrahedronOf(cell, n);
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = i + 1; j < 4; ++j) add(corners[i], corners[j]);
+        }
     return edges;
 }
 

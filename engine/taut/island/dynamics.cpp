@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "taut/mechanics/private/anchor.h"
+#include "taut/mechanics/private/element_bending.h"
 #include "taut/mechanics/private/grid_bending.h"
 #include "taut/island/private/island_contacts.h"
 #include "taut/island/report.h"
@@ -52,7 +53,7 @@ class DynamicsOf final : public Dynamics {
             for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
         if (isMaterial && !volumes_.empty()) bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
         if (isMaterial || changes.has(Change::points) || changes.has(Change::grips))
-            for (const auto& [body, bending] : bendings_) bending->set(bendingOf(plan_, *body));
+            setBendings();
         if (changes.has(Change::grips)) addGrips();
     }
 
@@ -73,7 +74,8 @@ class DynamicsOf final : public Dynamics {
     void setForces(const ForceList& forces) override {
         system_.removeGenerators();
         volumes_.clear();
-        bendings_.clear();
+        gridBendings_.clear();
+        elementBendings_.clear();
         acting_.clear();
         contacts_.rewatch();
         for (std::size_t number = 0; number < forces.size(); ++number) {
@@ -249,9 +251,9 @@ class DynamicsOf final : public Dynamics {
         for (const auto& generator : system_.generators()) generator->addStability(motion(t), share);
         return share;
     }
-    void addEnergies(double t, const std::vector<bool>& only, double& uniform, double& other) const override {
+    void addEnergies(double t, const std::vector<bool>& only, double& weight, double& other) const override {
         for (const auto& generator : system_.generators())
-            (generator->isUniform() ? uniform : other) += generator->potentialEnergy(motion(t), only);
+            (generator->isWeight() ? weight : other) += generator->potentialEnergy(motion(t), only);
     }
     void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const override {
         core::AlignedArray<Real> in(state_.layout.size()), sum(state_.layout.size());
@@ -360,16 +362,28 @@ class DynamicsOf final : public Dynamics {
     void addInnerForces() {
         addVolumes();
         for (const Body* body : plan_.bodies) {
-            if (body->model.bending.isEmpty()) continue;
-            auto bending = std::make_unique<mechanics::GridBending<Real>>(bendingOf(plan_, *body), body->pointOf,
-                                                                          turnOf(*body));
-            bendings_.emplace_back(body, bending.get());
-            system_.add(std::move(bending));
+            if (!body->model.bending.isEmpty()) {
+                auto bending = std::make_unique<mechanics::GridBending<Real>>(gridBendingOf(plan_, *body),
+                                                                              body->pointOf, turnOf(*body));
+                gridBendings_.emplace_back(body, bending.get());
+                system_.add(std::move(bending));
+            }
+            if (!body->model.freeform.isEmpty()) {
+                auto bending = std::make_unique<mechanics::ElementBending<Real>>(
+                    bendingElementsOf(plan_, *body), body->model.freeform.dampingTime, body->pointOf, turnOf(*body));
+                elementBendings_.emplace_back(body, bending.get());
+                system_.add(std::move(bending));
+            }
         }
+    }
+    void setBendings() {
+        for (const auto& [body, bending] : gridBendings_) bending->set(gridBendingOf(plan_, *body));
+        for (const auto& [body, bending] : elementBendings_)
+            bending->set(bendingElementsOf(plan_, *body), body->model.freeform.dampingTime);
     }
 
     // Directions that a collider holds turn with the collider.
-    typename mechanics::GridBending<Real>::Turn turnOf(const Body& body) const {
+    std::function<glm::dquat(double)> turnOf(const Body& body) const {
         if (body.carried.empty() || body.clamped.empty()) return {};
         return [this, holder = body.spec->holdOn, back = glm::conjugate(body.carriedFrom)](double t) {
             for (const Grip& grip : plan_.grips)
@@ -425,7 +439,8 @@ class DynamicsOf final : public Dynamics {
     System system_;
     // Among the system's generators:
     std::vector<std::pair<const Body*, mechanics::VolumePreservation<Real>*>> volumes_;
-    std::vector<std::pair<const Body*, mechanics::GridBending<Real>*>> bendings_;
+    std::vector<std::pair<const Body*, mechanics::GridBending<Real>*>> gridBendings_;
+    std::vector<std::pair<const Body*, mechanics::ElementBending<Real>*>> elementBendings_;
     std::vector<std::pair<std::size_t, Generator*>> acting_;  // the forces that act here, by their number
     std::size_t firstGrip_ = 0;
     std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones

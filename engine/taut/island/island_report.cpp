@@ -7,6 +7,7 @@
 #include "taut/bodies/joints/constraint.h"
 #include "taut/island/metric_table.h"
 #include "taut/island/private/divergence.h"
+#include "taut/mechanics/private/cell_shape.h"
 
 namespace taut::world {
 namespace {
@@ -44,15 +45,9 @@ void addSprings(const IslandPlan& plan, std::span<const dvec3> x, const std::vec
 }
 
 void addCells(const Body& body, std::span<const dvec3> x, Metrics& metrics) {
-    for (std::size_t c = 0; c < body.model.cells.size(); ++c) {
-        if (body.damage.isCellGone(c)) continue;
-        const mechanics::VolumeCell& cell = body.model.cells[c];
-        const auto corner = [&](std::size_t k) {
-            return x[static_cast<std::size_t>(body.pointOf[static_cast<std::size_t>(cell.points[k])])];
-        };
-        const dvec3 p = corner(0);
+    for (const mechanics::VolumeCell& cell : cellsOf(body)) {
         metrics.restVolume += cell.restVolume;
-        metrics.volume += glm::dot(corner(1) - p, glm::cross(corner(2) - p, corner(3) - p)) / 6.0;
+        metrics.volume += mechanics::volumeOf(mechanics::cornersOf(cell, x));
     }
 }
 
@@ -143,7 +138,7 @@ IslandInfo infoOf(const Island& island, const TickTime& time) {
         info.bodies.push_back(body->fullName());
         info.cells += static_cast<int>(body->model.cells.size());
     }
-    for (const auto& point : plan.points) info.mass += point.mass;
+    for (const auto& point : plan.points) info.mass += point.weighedMass();
     const std::vector<bool> isHeld = heldPointsOf(plan);
     info.heldPoints = static_cast<int>(std::count(isHeld.begin(), isHeld.end(), true));
     info.points = static_cast<int>(plan.points.size());

@@ -11,12 +11,6 @@
 
 namespace taut::mechanics {
 
-// Of an orthotropic sheet, per metre of width:
-//   energy per area = ½ [ along κ_uu² + across κ_vv² + 2 both κ_uu κ_vv + twist κ_uv² ]
-struct BendingRigidity {
-    double along = 0, across = 0, both = 0, twist = 0;  // B_u, B_v, B_1, 4 D_k [N m]
-};
-
 // From what is measured: the rigidity of a sheet that is bent to a cylinder across the warp (u), across the weft (v),
 // and at 45° between them, 4 B₄₅ = B_u + B_v + 2 B_1 + 4 D_k. B_1 is 0 where D_k > 0 is left then; else it is half way
 // to its limit -√(B_u B_v). Without a bias it is that of an isotropic sheet with the mean √(B_u B_v). None where no

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/mechanics/private/builder_support.h"
 #include "taut/mechanics/builders.h"
+#include "taut/mechanics/private/builder_support.h"
 
 namespace taut::mechanics {
 namespace {
@@ -39,15 +39,29 @@ LatticeStiffness stiffnessOf(double young, const dvec3& s) {
     return k;
 }
 
+// Springs alone have λ = μ, which is ν = 1/4. They take all of the shear modulus μ; a pressure κ (V/V0 - 1) takes the
+// rest of λ = 2 μ ν/(1 - 2ν).
+struct Moduli {
+    double springs;   // Young's modulus of the springs alone, 5/2 μ [Pa]
+    double pressure;  // κ [Pa]
+};
+
+Moduli moduliOf(const BlockShape& shape) {
+    if (shape.bulk) return {shape.young, *shape.bulk};
+    const double shear = shape.young / (2.0 * (1.0 + shape.poisson));
+    return {2.5 * shear, shear * (2.0 * shape.poisson / (1.0 - 2.0 * shape.poisson) - 1.0)};
+}
+
 class LatticeBuilder {
   public:
-    explicit LatticeBuilder(const BlockShape& shape) : shape_(shape), n_(shape.cells), s_(shape.size / dvec3(n_)) {}
+    explicit LatticeBuilder(const BlockShape& shape)
+        : shape_(shape), moduli_(moduliOf(shape)), n_(shape.cells), s_(shape.size / dvec3(n_)) {}
 
     Model build() {
         detail::addRestingPoints(model_, (n_.x + 1) * (n_.y + 1) * (n_.z + 1), shape_.dragRate);
         addPoints();
         addSprings();
-        addTetrahedra();
+        addCells();
         for (int axis = 0; axis < 3; ++axis) {
             addFace(axis, false);
             addFace(axis, true);
@@ -89,7 +103,7 @@ class LatticeBuilder {
     }
 
     void addSprings() {
-        const LatticeStiffness k = stiffnessOf(shape_.young, s_);
+        const LatticeStiffness k = stiffnessOf(moduli_.springs, s_);
         auto add = [this](ivec3 from, ivec3 to, double stiffness, double restLength, SpringKind kind) {
             model_.springs.push_back({at(from), at(to), stiffness, restLength, shape_.dampingTime, kind});
         };
@@ -116,21 +130,13 @@ class LatticeBuilder {
         }
     }
 
-    // Kuhn's split: each of the six orders of the axes gives a path of three edges from the cell's lowest to its
-    // highest corner. Its points make a tetrahedron. An odd order is left-handed, so its middle points are swapped.
-    void addTetrahedra() {
+    void addCells() {
         if (shape_.bulk == 0.0) return;
-        static constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-        const double volume = s_.x * s_.y * s_.z / 6.0;
         forBox(ivec3(0), n_ - 1, [&](ivec3 p) {
-            for (int o = 0; o < 6; ++o) {
-                ivec3 one = p, two = p;
-                one[orders[o][0]] += 1;
-                two[orders[o][0]] += 1;
-                two[orders[o][1]] += 1;
-                if (o >= 3) std::swap(one, two);
-                model_.cells.push_back({{at(p), at(one), at(two), at(p + 1)}, volume, shape_.bulk});
-            }
+            VolumeCell cell{{}, s_.x * s_.y * s_.z, moduli_.pressure};
+            for (int c = 0; c < 8; ++c)
+                cell.points[static_cast<std::size_t>(c)] = at(p + ivec3(c & 1, c >> 1 & 1, c >> 2));
+            model_.cells.push_back(cell);
         });
     }
 
@@ -149,6 +155,7 @@ class LatticeBuilder {
     }
 
     const BlockShape& shape_;
+    Moduli moduli_;
     ivec3 n_;
     dvec3 s_;  // [m] sides of a cell
     Model model_;
@@ -160,6 +167,7 @@ Model buildBlock(const BlockShape& shape) {
     TAUT_EXPECTS(shape.cells.x >= 1 && shape.cells.y >= 1 && shape.cells.z >= 1);
     TAUT_EXPECTS(shape.size.x > 0.0 && shape.size.y > 0.0 && shape.size.z > 0.0);
     TAUT_EXPECTS(glm::determinant(shape.axes) > 0.0);
+    TAUT_EXPECTS(shape.bulk || (shape.poisson >= 0.25 && shape.poisson < 0.5));
     return LatticeBuilder(shape).build();
 }
 

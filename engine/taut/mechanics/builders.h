@@ -27,10 +27,12 @@ struct RopeShape {
     // Its last segment leads back to the first point: a level ring whose diameter goes from start to end, or through
     // those places, from end on to start; `length` is not looked at either.
     bool isClosed = false;
-    double mass = 1.0;         // whole rope [kg]
-    double stretch = 1e4;      // EA [N]
-    double bend = 0.0;         // EA of the span-2 springs [N]
-    double rigidity = 0.0;     // EI, of bending [N m²]
+    double mass = 1.0;      // whole rope [kg]
+    double stretch = 1e4;   // EA [N]
+    double bend = 0.0;      // EA of the span-2 springs [N]
+    double rigidity = 0.0;  // EI, of bending [N m²]
+    bool isCurvedAtRest =
+        false;  // the rigidity resists bending away from the shape as it is laid, not from a straight one
     double dampingTime = 0.0;  // τ [s]
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
@@ -43,13 +45,14 @@ std::vector<std::string> ropeGroups();  // besides all, as the others
 
 struct ClothMaterial {
     double density = 0.2;      // [kg/m²]
-    double stretch = 900.0;    // structural spring constant of a square cell k_s [N/m]
+    double stretch = 900.0;    // structural spring constant of a square cell k_s [N/m], along the warp (u)
     double shear = 450.0;      // diagonal k_d [N/m]
     double bend = 1.0;         // span-2 k_b [N/m]
     double dampingTime = 0.0;  // τ [s]
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
-    BendingRigidity rigidity{};  // of grids
+    BendingRigidity rigidity{};
+    std::optional<double> weftStretch{};  // k_s along the weft (v) [N/m]; none: as along the warp
 };
 
 struct ClothShape {
@@ -68,10 +71,13 @@ Model buildCloth(const ClothShape& shape);
 std::vector<std::string> clothGroups();
 
 struct MeshClothShape {
-    std::vector<glm::dvec3> positions;               // (vertices) [m] welded, each used by a triangle
-    std::vector<glm::dvec2> uv;                      // (vertices) [m], or empty: then made from the longest two axes
-    std::vector<std::array<int, 3>> triangles;       // (triangles) vertices; consistently oriented, edge-manifold
-    ClothMaterial material;                          // shear is not used: triangles carry it
+    std::vector<glm::dvec3> positions;          // (vertices) [m] welded, each used by a triangle
+    std::vector<glm::dvec2> uv;                 // (vertices) [m], or empty: then made from the longest two axes
+    std::vector<std::array<int, 3>> triangles;  // (triangles) vertices; consistently oriented, edge-manifold
+    // (triangles) texture coordinates of the corners, whose u runs along the warp; or empty: the material then bends
+    // alike all ways. Only looked at for a rigidity.
+    std::vector<std::array<glm::dvec2, 3>> cornerUv;
+    ClothMaterial material;
     std::map<std::string, std::vector<int>> groups;  // more of them, vertices ascending
     std::vector<int> numbers;                        // (vertices) what messages call them; empty: from 1
 };
@@ -80,11 +86,12 @@ struct MeshFault : core::Error {
     MeshFault(const std::string& what, int of) : Error(core::ErrorKind::badContent, what), triangle(of) {}
     int triangle;
 };
-// Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch; bend springs across inner edges. Groups: boundary,
+// Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch in an isotropic sheet, and along φ from the warp
+// 4/3 (warp cos⁴φ + weft sin⁴φ + 4 shear sin²φ cos²φ) in any other; bend springs across inner edges. Groups: boundary,
 // all, and top, bottom, left, right: the points within 1 % of the size of that extreme; top-left, top-right,
 // bottom-left, bottom-right: the one point furthest into that corner, width and height counted alike; and the groups of
-// the shape that have other names. Throws MeshFault, which says what is wrong and what helps: no triangle, an edge of
-// three triangles, a zero area.
+// the shape that have other names. A rigidity resists bending away from the shape as it is. Throws MeshFault, which
+// says what is wrong and what helps: no triangle, an edge of three triangles, a zero area, no direction of the warp.
 Model buildMeshCloth(const MeshClothShape& shape);
 std::vector<std::string> meshClothGroups();
 
@@ -93,15 +100,17 @@ struct BlockShape {
     glm::dmat3 axes{1.0};    // columns: the block's own x, y, z
     glm::dvec3 size{1.0};    // [m]
     glm::ivec3 cells{4};
-    double density = 300.0;    // [kg/m³]
-    double young = 2e4;        // E [Pa]: lattice springs k = 0.4 E ℓ on edges and face diagonals
-    double bulk = 2e4;         // K [Pa] of the volume term
+    double density = 300.0;  // [kg/m³]
+    double young = 2e4;      // E [Pa]
+    double poisson = 0.4;    // ν of the block, 1/4 and more, below 1/2
+    // K [Pa] of the cells' pressure, in place of ν: then E is that of the springs alone, whose ν is 1/4. 0: no cells.
+    std::optional<double> bulk{};
     double dampingTime = 0.0;  // τ [s]
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
 };
 // Points x fastest, then y, then z. Springs shared by several cells add up, so that faces and edges carry their
-// share. Six tetrahedra a cell. Groups: left right bottom top back front (-x +x -y +y -z +z), corners, all.
+// share. One pressure a cell. Groups: left right bottom top back front (-x +x -y +y -z +z), corners, all.
 // Expects at least one cell, and a size above zero, each way, and right-handed axes.
 Model buildBlock(const BlockShape& shape);
 std::vector<std::string> blockGroups();

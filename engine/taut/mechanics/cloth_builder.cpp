@@ -15,6 +15,7 @@ using glm::dvec3;
 //  two diagonals of length d, d² = a² + b²:       C12 = C66 = 2 k ab/d²         = k_d        ->  k = k_d d²/(2ab)
 //  span 2, one starts at every point:             force per metre  2·k (2 ε a)/b = 4 k_b ε    ->  k = k_b b/a
 //
+// k_s is that of the warp along a and that of the weft along b.
 // So shear and cross contraction are k_d for every cell. C11 = k_s + k_d a²/b² + 4 k_b: the diagonals of a cell that is
 // longer than wide carry more along its length. Square cells have C11 = k_s + k_d + 4 k_b.
 struct CellStiffness {
@@ -22,8 +23,8 @@ struct CellStiffness {
 };
 
 CellStiffness stiffnessOf(const ClothMaterial& material, double a, double b) {
-    return {material.stretch * b / a, material.stretch * a / b, material.shear * (a * a + b * b) / (2.0 * a * b),
-            material.bend * b / a, material.bend * a / b};
+    return {material.stretch * b / a, material.weftStretch.value_or(material.stretch) * a / b,
+            material.shear * (a * a + b * b) / (2.0 * a * b), material.bend * b / a, material.bend * a / b};
 }
 
 class GridBuilder {

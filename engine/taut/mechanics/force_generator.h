@@ -45,6 +45,9 @@ class ForceGenerator {
     virtual bool isUniform() const { return false; }
     virtual glm::dvec3 uniformAcceleration(double /*t*/) const { return glm::dvec3(0.0); }  // [m/s²]
 
+    // Whether its potential energy is that of weight.
+    virtual bool isWeight() const { return isUniform(); }
+
     // Potential energy [J] at the motion's positions; 0 for a force that has none. `only` (points) restricts it to the
     // energy between the marked points; empty: all points.
     virtual double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const = 0;

@@ -6,7 +6,7 @@ namespace taut::mechanics {
 
 template <class Real>
 void Gravity<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
-    const Real* mass = motion.mass;
+    const Real* mass = masses(motion);
     const glm::dvec3 acceleration = acceleration_.at(motion.t);
     for (int axis = 0; axis < 3; ++axis) {
         const Real g = static_cast<Real>(acceleration[axis]);
@@ -20,13 +20,14 @@ void Gravity<Real>::addForces(const Motion<Real>& motion, int first, int last, R
 template <class Real>
 double Gravity<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
     const glm::dvec3 acceleration = acceleration_.at(motion.t);
+    const Real* mass = masses(motion);
     double energy = 0.0;
     for (int i = 0; i < motion.count; ++i) {
         if (!only.empty() && !only[static_cast<std::size_t>(i)]) continue;
         const Real* x = motion.x + i;
         const std::ptrdiff_t stride = motion.stride;
         const glm::dvec3 position(x[0], x[stride], x[2 * stride]);
-        energy -= static_cast<double>(motion.mass[i]) * glm::dot(acceleration, position);
+        energy -= static_cast<double>(mass[i]) * glm::dot(acceleration, position);
     }
     return energy;
 }

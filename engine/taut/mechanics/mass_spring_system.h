@@ -32,9 +32,12 @@ struct LedPoints {
 inline constexpr double speedLimit = 3000.0;
 
 struct PointMass {
-    double mass;      // [kg] > 0
+    double mass;      // [kg] > 0, with the air
     double dragRate;  // γ/m [1/s]
     bool held;
+    double airMass = 0;  // [kg] of air that goes along: it has inertia and no weight
+
+    double weighedMass() const { return mass - airMass; }
 };
 
 template <class Real>

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/mechanics/private/builder_support.h"
 #include "taut/mechanics/builders.h"
+#include "taut/mechanics/private/builder_support.h"
 
 namespace taut::mechanics {
 namespace {
@@ -145,10 +145,20 @@ void addSprings(Model& model, const std::map<Edge, EdgeUse>& edges, const ClothM
     auto distance = [&](int a, int b) {
         return glm::length(model.positions[static_cast<std::size_t>(b)] - model.positions[static_cast<std::size_t>(a)]);
     };
-    // Van Gelder (1998): k = E₂D (A1 + A2)/c². A square cloth has k_s = ¾ E₂D.
-    const double young = material.stretch * 4.0 / 3.0;
+    // Van Gelder (1998): k = E₂D (A1 + A2)/c². A square cloth has k_s = ¾ E₂D. An edge at φ to the warp takes what an
+    // orthotropic sheet has along it, without the share of its cross contraction; half the stretch as shear gives the
+    // same for every φ.
+    const double weft = material.weftStretch.value_or(material.stretch);
+    const auto youngAlong = [&](const Edge& edge) {
+        const dvec2 e = model.uv[static_cast<std::size_t>(edge.second)] - model.uv[static_cast<std::size_t>(edge.first)];
+        const double length2 = glm::dot(e, e);
+        if (!(length2 > 0.0)) return material.stretch * 4.0 / 3.0;
+        const double cc = e.x * e.x / length2, ss = e.y * e.y / length2;
+        return (material.stretch * cc * cc + weft * ss * ss + 4.0 * material.shear * cc * ss) * 4.0 / 3.0;
+    };
     for (const auto& [edge, use] : edges) {
         const double c = distance(edge.first, edge.second);
+        const double young = youngAlong(edge);
         model.springs.push_back(
             {edge.first, edge.second, young * use.area / (c * c), c, material.dampingTime, SpringKind::structural});
     }
@@ -162,6 +172,32 @@ void addSprings(Model& model, const std::map<Edge, EdgeUse>& edges, const ClothM
         model.springs.push_back(
             {across.first, across.second, material.bend, restLength, material.dampingTime, SpringKind::bend});
     }
+}
+
+// The direction in which u grows and v stays; of a sheet that is alike all ways that of the first side.
+dvec3 warpOf(const MeshClothShape& shape, std::size_t t, bool isIsotropic) {
+    const auto& [a, b, c] = shape.triangles[t];
+    const dvec3 e1 = position(shape, b) - position(shape, a), e2 = position(shape, c) - position(shape, a);
+    if (isIsotropic) return glm::normalize(e1);
+    const auto& uv = shape.cornerUv[t];
+    const dvec2 d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
+    const double area = d1.x * d2.y - d1.y * d2.x;
+    if (!(std::abs(area) > 1e-6 * std::max(glm::dot(d1, d1), glm::dot(d2, d2))))
+        reject("the texture coordinates of this face lie on a line, so that its warp has no direction: unwrap it", t);
+    return glm::normalize((d2.y * e1 - d1.y * e2) / area);
+}
+
+void addBending(Model& model, const MeshClothShape& shape) {
+    const BendingRigidity& of = shape.material.rigidity;
+    if (!(of.along > 0.0) && !(of.across > 0.0)) return;
+    const double mean = std::sqrt(of.along * of.across);
+    const bool isIsotropic =
+        shape.cornerUv.empty() || (of.along == of.across && of.both == 0.0 && of.twist == 2.0 * of.along);
+    model.freeform.rigidity = isIsotropic ? BendingRigidity{mean, mean, 0.0, 2.0 * mean} : of;
+    model.freeform.rest = model.positions;
+    for (std::size_t t = 0; t < shape.triangles.size(); ++t)
+        model.freeform.warp.push_back(warpOf(shape, t, isIsotropic));
+    model.freeform.dampingTime = shape.material.dampingTime;
 }
 
 }  // namespace
@@ -193,6 +229,7 @@ Model buildMeshCloth(const MeshClothShape& shape) {
         model.masses.assign(model.masses.size(), shape.material.density * total / model.pointCount());
 
     addSprings(model, edges, shape.material);
+    addBending(model, shape);
     addGroups(model, edges, low, high);
     for (const auto& group : shape.groups) model.groups.insert(group);
     return model;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -26,12 +27,33 @@ struct Spring {
     SpringKind kind = SpringKind::structural;
 };
 
-// A tetrahedron whose signed volume is preserved: E = ½ K V0 (V/V0 - 1)².
+// A hexahedron whose signed volume is preserved, with one pressure for all of it: E = ½ K V0 (V/V0 - 1)². V is that of
+// the trilinear map of a cube onto the corners.
+//
+//        6------7
+//      / |    / |      Corner c is at the far end of axis 0, 1, 2 if bit 0, 1, 2 of c is set.
+//     4--|---5  |
+//     |  2---|--3
+//     | /    | /
+//     0------1
+//
 struct VolumeCell {
-    std::array<int, 4> points{};  // right-handed: det[p1-p0, p2-p0, p3-p0] > 0 at rest
+    std::array<int, 8> points{};  // V > 0 at rest
     double restVolume = 0;        // V0 [m³] > 0
     double bulkModulus = 0;       // K [Pa]
 };
+
+// Corners of the six right-handed tetrahedra that a cell is cut up into where it needs faces: each of the six orders of
+// the axes gives a path of three edges from corner 0 to corner 7 (Kuhn 1960). Cells that meet cut their common face
+// alike.
+inline constexpr std::array<std::array<std::size_t, 4>, 6> cellTetrahedra = {
+    {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}, {0, 6, 4, 7}, {0, 3, 2, 7}}};
+
+// Points of the tetrahedron `number` (0 to 5) of a cell.
+inline std::array<int, 4> tetrahedronOf(const VolumeCell& cell, std::size_t number) {
+    const auto& t = cellTetrahedra[number];
+    return {cell.points[t[0]], cell.points[t[1]], cell.points[t[2]], cell.points[t[3]]};
+}
 
 // Resistance to bending of a grid of points, row by row: quadratic in places (Bergou et al. 2006), so that its forces
 // are linear and a flat sheet has a stiffness.
@@ -60,11 +82,31 @@ struct Bending {
     bool isEmpty() const { return columns == 0; }
 };
 
+// Of an orthotropic sheet, per metre of width:
+//   energy per area = ½ [ along κ_uu² + across κ_vv² + 2 both κ_uu κ_vv + twist κ_uv² ]
+struct BendingRigidity {
+    double along = 0, across = 0, both = 0, twist = 0;  // B_u, B_v, B_1, 4 D_k [N m]
+};
+
+// Resistance to bending of what is not a flat grid or a straight rope: of the triangles of a mesh, of a ring, of a rope
+// that is curved at rest. bending_elements.h makes elements of it.
+struct FreeformBending {
+    BendingRigidity rigidity;      // of a rope only `along`, EI [N m²]
+    std::vector<glm::dvec3> rest;  // (points) [m] places at rest; empty: nothing bends
+    std::vector<glm::dvec3> warp;  // (triangles) unit, the direction of u in the plane of the triangle; of a rope empty
+    bool isClosed = false;         // of a rope: its last point is next to its first
+    bool isCurved = true;          // of a rope: it is curved at rest, else straight
+    double dampingTime = 0;        // τ [s]: forces are those of x + τ v
+
+    bool isEmpty() const { return rest.empty(); }
+};
+
 struct Model {
     // (points)
     std::vector<glm::dvec3> positions;   // [m]
     std::vector<glm::dvec3> velocities;  // [m/s]
     std::vector<double> masses;          // [kg] > 0, also of held points
+    std::vector<double> airMasses;       // [kg] the part of them that is air, without weight; empty: none
     std::vector<double> dragRates;       // γ/m [1/s] >= 0
     std::vector<bool> held;              // inverse mass 0
     std::vector<glm::dvec2> uv;          // [m] along the material; (0, 0) where it has none
@@ -74,6 +116,7 @@ struct Model {
     std::vector<VolumeCell> cells;
     double workingStretch = 1;  // of a cell's edges, up to which a step must hold
     Bending bending;
+    FreeformBending freeform;
 
     // Points by name: "left", "top-left", "all", … as each builder documents. Indices ascend.
     std::map<std::string, std::vector<int>> groups;

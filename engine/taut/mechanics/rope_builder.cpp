@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/private/bisect.h"
 #include "taut/core/error.h"
+#include "taut/core/private/bisect.h"
 #include "taut/core/trig.h"
-#include "taut/mechanics/private/builder_support.h"
 #include "taut/mechanics/builders.h"
+#include "taut/mechanics/private/builder_support.h"
 
 namespace taut::mechanics {
 namespace {
@@ -192,6 +192,16 @@ double layLoop(const RopeShape& shape, std::vector<dvec3>& positions) {
     return link;
 }
 
+void addFreeformBending(Model& model, const RopeShape& shape) {
+    if (!(shape.rigidity > 0.0)) return;
+    model.freeform = {.rigidity = {.along = shape.rigidity},
+                      .rest = model.positions,
+                      .warp = {},
+                      .isClosed = shape.isClosed,
+                      .isCurved = shape.isCurvedAtRest,
+                      .dampingTime = shape.dampingTime};
+}
+
 // As a rope with ends, except that every point has two neighbours.
 Model buildRing(const RopeShape& shape) {
     TAUT_EXPECTS(shape.segments >= 3 && shape.mass > 0.0);
@@ -220,6 +230,7 @@ Model buildRing(const RopeShape& shape) {
         for (int i = 0; i < n; ++i)
             model.springs.push_back(
                 {i, (i + 2) % n, shape.bend / (2.0 * link), 2.0 * link, shape.dampingTime, SpringKind::bend});
+    addFreeformBending(model, shape);
     model.groups["start"] = {0};
     model.groups["end"] = {far};
     model.groups["ends"] = {0, far};
@@ -263,7 +274,9 @@ Model buildRope(const RopeShape& shape) {
             model.springs.push_back(
                 {i, i + 2, shape.bend / (2.0 * link), 2.0 * link, shape.dampingTime, SpringKind::bend});
 
-    if (shape.rigidity > 0.0) {
+    if (shape.isCurvedAtRest) {
+        addFreeformBending(model, shape);
+    } else if (shape.rigidity > 0.0) {
         model.bending = lineBending(n + 1, shape.rigidity, link);
         model.bending.dampingTime = shape.dampingTime;
     }

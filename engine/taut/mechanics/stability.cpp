@@ -95,28 +95,22 @@ void addSpring(std::vector<Matrix>& sum, const Spring& spring, double factor, st
     }
 }
 
-// Edges of cells, the lower point first, each with the h [N/m] that the pressures of its cells cause.
+// Pairs of points that cells couple, the lower point first, each with the h [N/m] that the pressures of its cells
+// cause.
 using PressureCouplings = std::map<std::pair<int, int>, glm::dvec3>;
-
-CellCorners cornersOf(const VolumeCell& cell, std::span<const glm::dvec3> positions) {
-    CellCorners p;
-    for (std::size_t c = 0; c < 4; ++c) p[c] = positions[static_cast<std::size_t>(cell.points[c])];
-    return p;
-}
 
 // Adds `factor` times the cell's stiffness at its corners.
 void addCell(std::vector<Matrix>& sum, const VolumeCell& cell, double factor, const CellCorners& p) {
     const CellCorners g = gradientsOf(p);
-    for (std::size_t c = 0; c < 4; ++c)
+    for (std::size_t c = 0; c < p.size(); ++c)
         addOuter(sum[static_cast<std::size_t>(cell.points[c])], factor * cell.bulkModulus / cell.restVolume, g[c]);
 }
 
 void addPressure(PressureCouplings& pressed, const VolumeCell& cell, const CellCorners& p) {
     const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0);
-    for (const auto& [i, j, k, l] : cellEdges) {
-        const int a = cell.points[i], b = cell.points[j];
-        pressed.try_emplace(std::minmax(a, b), 0.0).first->second +=
-            (a < b ? pressure : -pressure) * (p[k] - p[l]) / 6.0;
+    for (const CellPair& pair : cellPairs) {
+        const int a = cell.points[pair.i], b = cell.points[pair.j];
+        pressed.try_emplace(std::minmax(a, b), 0.0).first->second += (a < b ? pressure : -pressure) * pair.coupling(p);
     }
 }
 

@@ -94,19 +94,19 @@ void StateBound<Real>::setCells(std::span<const VolumeCell> cells, std::span<con
                 static_cast<Real>(restPositions[static_cast<std::size_t>(i)][axis]);
     cells_.assign(cells.begin(), cells.end());
     looks_.resize(cells_.size());
-    edges_.clear();
-    edgesOf_.clear();
+    pairs_.clear();
+    pairsOf_.clear();
     std::map<std::pair<int, int>, int> numbers;
     for (const VolumeCell& cell : cells_) {
-        edgesOf_.emplace_back();
-        for (std::size_t e = 0; e < cellEdges.size(); ++e) {
-            const auto ends = std::minmax(cell.points[cellEdges[e].i], cell.points[cellEdges[e].j]);
-            const auto [entry, isNew] = numbers.try_emplace(ends, static_cast<int>(edges_.size()));
-            if (isNew) edges_.push_back({ends.first, ends.second});
-            edgesOf_.back()[e] = entry->second;
+        pairsOf_.emplace_back();
+        for (std::size_t e = 0; e < cellPairs.size(); ++e) {
+            const auto ends = std::minmax(cell.points[cellPairs[e].i], cell.points[cellPairs[e].j]);
+            const auto [entry, isNew] = numbers.try_emplace(ends, static_cast<int>(pairs_.size()));
+            if (isNew) pairs_.push_back({ends.first, ends.second});
+            pairsOf_.back()[e] = entry->second;
         }
     }
-    pressed_.resize(edges_.size());
+    pressed_.resize(pairs_.size());
     rows_.resize(static_cast<std::size_t>(points_));
 }
 
@@ -199,7 +199,7 @@ void StateBound<Real>::sumCells(const Real* weights) {
             for (int i : cell.points) weight += static_cast<double>(weights[i]);
             factor *= weight;
         }
-        for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t c = 0; c < g.size(); ++c) {
             const int i = cell.points[c];
             const glm::dvec3 n = g[c], f = factor * n;
             plane(0)[i] += static_cast<Real>(f.x * n.x);
@@ -270,16 +270,16 @@ double StateBound<Real>::largestRow(const Real* inverseMass) {
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         const VolumeCell& cell = cells_[c];
         const CellCorners& p = looks_[c].corners;
-        const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0) / 6.0;
-        for (std::size_t e = 0; e < cellEdges.size(); ++e) {
-            const CellEdge& edge = cellEdges[e];
-            pressed_[static_cast<std::size_t>(edgesOf_[c][e])] +=
-                (cell.points[edge.i] < cell.points[edge.j] ? pressure : -pressure) * (p[edge.k] - p[edge.l]);
+        const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0);
+        for (std::size_t e = 0; e < cellPairs.size(); ++e) {
+            const CellPair& pair = cellPairs[e];
+            pressed_[static_cast<std::size_t>(pairsOf_[c][e])] +=
+                (cell.points[pair.i] < cell.points[pair.j] ? pressure : -pressure) * pair.coupling(p);
         }
     }
     double largest = 0;
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-        const auto a = static_cast<std::size_t>(edges_[e].a), b = static_cast<std::size_t>(edges_[e].b);
+    for (std::size_t e = 0; e < pairs_.size(); ++e) {
+        const auto a = static_cast<std::size_t>(pairs_[e].a), b = static_cast<std::size_t>(pairs_[e].b);
         const double entry = std::sqrt(static_cast<double>(inverseMass[a]) * static_cast<double>(inverseMass[b]) *
                                        glm::dot(pressed_[e], pressed_[e]));
         rows_[a] += entry;

@@ -24,8 +24,8 @@ auto volumeKernel() -> void (*)(const VolumeBatch<Real>&) {
     return sse2::addVolume;
 }
 
-std::vector<std::array<int, 4>> pointsOf(std::span<const VolumeCell> cells) {
-    std::vector<std::array<int, 4>> points;
+std::vector<std::array<int, 8>> pointsOf(std::span<const VolumeCell> cells) {
+    std::vector<std::array<int, 8>> points;
     for (const VolumeCell& cell : cells) points.push_back(cell.points);
     return points;
 }
@@ -37,11 +37,10 @@ double largestChange(double s) {
 
 bool isBeyond(const Corners& rest, const Corners& now, double ratio, double s) {
     if (std::abs(ratio - 1.0) > largestChange(s)) return true;
-    for (std::size_t a = 0; a < 4; ++a)
-        for (std::size_t b = a + 1; b < 4; ++b)
-            if (glm::length(now[b] - now[a]) > s * glm::length(rest[b] - rest[a])) return true;
+    for (const CellPair& pair : cellPairs)
+        if (glm::length(now[pair.j] - now[pair.i]) > s * glm::length(rest[pair.j] - rest[pair.i])) return true;
     const Corners g0 = gradientsOf(rest), g = gradientsOf(now);
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < 8; ++i)
         if (glm::length(g[i]) > s * s * glm::length(g0[i])) return true;
     return false;
 }
@@ -54,16 +53,14 @@ VolumePreservation<Real>::VolumePreservation(std::span<const VolumeCell> cells,
     : cells_(cells.begin(), cells.end()),
       workingStretch_(workingStretch),
       runs_(pointsOf(cells)),
-      sixthOfBulk_(runs_.sources().size()),
-      inverseRestSixth_(runs_.sources().size()),
+      twelfthOfBulk_(runs_.sources().size()),
+      inverseRestTwelvefold_(runs_.sources().size()),
       packed_(8 * static_cast<std::size_t>(runs_.lanes().loosePointCount)),
       addBatch_(volumeKernel<Real>()) {
     TAUT_EXPECTS(workingStretch >= 1.0);
     for (const VolumeCell& cell : cells_) {
         TAUT_EXPECTS(cell.restVolume > 0.0);
-        Corners rest;
-        for (std::size_t c = 0; c < 4; ++c) rest[c] = restPositions[static_cast<std::size_t>(cell.points[c])];
-        rest_.push_back(rest);
+        rest_.push_back(cornersOf(cell, restPositions));
     }
     setBulkModuli(cells);
 }
@@ -79,8 +76,8 @@ void VolumePreservation<Real>::setBulkModuli(std::span<const VolumeCell> cells) 
         const int source = runs_.sources()[lane];
         if (source < 0) continue;
         const VolumeCell& cell = cells_[static_cast<std::size_t>(source)];
-        sixthOfBulk_[lane] = static_cast<Real>(cell.bulkModulus / 6.0);
-        inverseRestSixth_[lane] = static_cast<Real>(1.0 / (6.0 * cell.restVolume));
+        twelfthOfBulk_[lane] = static_cast<Real>(cell.bulkModulus / 12.0);
+        inverseRestTwelvefold_[lane] = static_cast<Real>(1.0 / (12.0 * cell.restVolume));
     }
 }
 
@@ -107,8 +104,8 @@ void VolumePreservation<Real>::addForces(const Motion<Real>& motion, int first, 
     TAUT_EXPECTS(first == 0 && last == motion.count);
     VolumeBatch<Real> batch{};
     batch.lanes = runs_.lanes();
-    batch.sixthOfBulk = sixthOfBulk_.data();
-    batch.inverseRestSixth = inverseRestSixth_.data();
+    batch.twelfthOfBulk = twelfthOfBulk_.data();
+    batch.inverseRestTwelvefold = inverseRestTwelvefold_.data();
     batch.stride = motion.stride;
     batch.x = motion.x;
     batch.f = f;
@@ -135,17 +132,10 @@ void VolumePreservation<Real>::addStiffnessProduct(const Motion<Real>& motion, c
         const Corners p = cornersOf(cell, motion.x, stride), w = cornersOf(cell, u, stride);
         const Corners g = gradientsOf(p);
         const double change = volumeOf(p) / cell.restVolume - 1.0;
-        const double along =
-            (glm::dot(g[0], w[0]) + glm::dot(g[1], w[1]) + glm::dot(g[2], w[2]) + glm::dot(g[3], w[3])) /
-            cell.restVolume;
-        // ∂(6 g1) = d2 × e3 + e2 × d3 and cyclic. d_i is the change of the edge e_i.
-        const dvec3 e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0];
-        const dvec3 d1 = w[1] - w[0], d2 = w[2] - w[0], d3 = w[3] - w[0];
-        const dvec3 h1 = (glm::cross(d2, e3) + glm::cross(e2, d3)) / 6.0;
-        const dvec3 h2 = (glm::cross(d3, e1) + glm::cross(e3, d1)) / 6.0;
-        const dvec3 h3 = (glm::cross(d1, e2) + glm::cross(e1, d2)) / 6.0;
-        const Corners h = {-(h1 + h2 + h3), h1, h2, h3};
-        for (std::size_t c = 0; c < 4; ++c) {
+        double along = 0;
+        for (std::size_t c = 0; c < 8; ++c) along += glm::dot(g[c], w[c]) / cell.restVolume;
+        const Corners h = gradientsChange(p, w);
+        for (std::size_t c = 0; c < 8; ++c) {
             const dvec3 product = cell.bulkModulus * (along * g[c] + change * h[c]);
             for (int axis = 0; axis < 3; ++axis)
                 out[axis * stride + cell.points[c]] += static_cast<Real>(product[axis]);
@@ -159,7 +149,7 @@ void VolumePreservation<Real>::linearise(const Motion<Real>& motion, double stif
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         const Corners g = gradientsOf(cornersOf(cells_[c], motion.x, motion.stride));
         const double root = std::sqrt(stiffness * cells_[c].bulkModulus / cells_[c].restVolume);
-        for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t i = 0; i < 8; ++i)
             for (int axis = 0; axis < 3; ++axis)
                 slopes_[c][3 * i + static_cast<std::size_t>(axis)] = static_cast<Real>(root * g[i][axis]);
     }
@@ -168,12 +158,12 @@ void VolumePreservation<Real>::linearise(const Motion<Real>& motion, double stif
 template <class Real>
 void VolumePreservation<Real>::addProduct(int stride, const Real* u, Real* out) const {
     for (std::size_t c = 0; c < cells_.size(); ++c) {
-        const std::array<Real, 12>& slope = slopes_[c];
+        const std::array<Real, 24>& slope = slopes_[c];
         Real along = 0;
-        for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t i = 0; i < 8; ++i)
             for (int axis = 0; axis < 3; ++axis)
                 along += slope[3 * i + static_cast<std::size_t>(axis)] * u[axis * stride + cells_[c].points[i]];
-        for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t i = 0; i < 8; ++i)
             for (int axis = 0; axis < 3; ++axis)
                 out[axis * stride + cells_[c].points[i]] += along * slope[3 * i + static_cast<std::size_t>(axis)];
     }
@@ -182,7 +172,7 @@ void VolumePreservation<Real>::addProduct(int stride, const Real* u, Real* out) 
 template <class Real>
 void VolumePreservation<Real>::addDiagonal(int stride, Real* out) const {
     for (std::size_t c = 0; c < cells_.size(); ++c)
-        for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t i = 0; i < 8; ++i)
             for (int axis = 0; axis < 3; ++axis) {
                 const Real slope = slopes_[c][3 * i + static_cast<std::size_t>(axis)];
                 out[axis * stride + cells_[c].points[i]] += slope * slope;

@@ -8,133 +8,139 @@
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-// Planes of the four corners' positions: [corner][axis].
+// Planes of the eight corners' positions: [corner][axis].
 template <class Real>
 struct Corners {
-    const Real* of[4][3];
+    const Real* of[8][3];
 };
 
-// The forces on corners 1, 2 and 3. The force on corner 0 is minus their sum.
+// The forces on the corners.
 template <class Real>
 struct Forces {
-    alignas(64) Real of[3][3][kernelBlock];  // [N]
+    alignas(64) Real of[8][3][kernelBlock];  // [N]
 };
 
-// Edges e_i = p_i - p_0, 6 V = e1·(e2 × e3), 6 ∂V/∂p1 = e2 × e3 and cyclic, ∂V/∂p0 = -(the other three).
-//   F_i = -K (V/V0 - 1) ∂V/∂p_i
 template <class Real>
-inline void findForces(const Corners<Real>& x, const Real* sixthOfBulk, const Real* inverseRestSixth, int count,
+struct Triple {
+    Real x, y, z;
+};
+template <class Real>
+inline Triple<Real> operator+(const Triple<Real>& u, const Triple<Real>& v) {
+    return {u.x + v.x, u.y + v.y, u.z + v.z};
+}
+template <class Real>
+inline Triple<Real> operator-(const Triple<Real>& u, const Triple<Real>& v) {
+    return {u.x - v.x, u.y - v.y, u.z - v.z};
+}
+template <class Real>
+inline Triple<Real> operator*(Real s, const Triple<Real>& u) {
+    return {s * u.x, s * u.y, s * u.z};
+}
+template <class Real>
+inline Triple<Real> cross(const Triple<Real>& u, const Triple<Real>& v) {
+    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+template <class Real>
+inline Real dot(const Triple<Real>& u, const Triple<Real>& v) {
+    return u.x * v.x + u.y * v.y + u.z * v.z;
+}
+template <class Real>
+inline Triple<Real> at(const Real* const (&of)[3], int l) {
+    return {of[0][l], of[1][l], of[2][l]};
+}
+template <class Real>
+inline void store(const Triple<Real>& u, int l, Real (&of)[3][kernelBlock]) {
+    of[0][l] = u.x;
+    of[1][l] = u.y;
+    of[2][l] = u.z;
+}
+
+// F_i = -K (V/V0 - 1) ∂V/∂p_i, with the volume of cell_shape.h:
+//   12 V = (a + a')·(b × c) + a·((b + b') × c') + a'·(b' × (c + c')).
+// Each of a, a', b, b', c, c' ends at corner 0 or 7, and at one of the others. So the derivatives by them are the
+// forces on the others, and their sums those on 0 and 7.
+template <class Real>
+inline void findForces(const Corners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold, int count,
                        Forces<Real>& forces) {
-    const Real *x0 = x.of[0][0], *y0 = x.of[0][1], *z0 = x.of[0][2];
-    const Real *x1 = x.of[1][0], *y1 = x.of[1][1], *z1 = x.of[1][2];
-    const Real *x2 = x.of[2][0], *y2 = x.of[2][1], *z2 = x.of[2][2];
-    const Real *x3 = x.of[3][0], *y3 = x.of[3][1], *z3 = x.of[3][2];
-    Real *fax = forces.of[0][0], *fay = forces.of[0][1], *faz = forces.of[0][2];
-    Real *fbx = forces.of[1][0], *fby = forces.of[1][1], *fbz = forces.of[1][2];
-    Real *fcx = forces.of[2][0], *fcy = forces.of[2][1], *fcz = forces.of[2][2];
     TAUT_INDEPENDENT
     for (int l = 0; l < count; ++l) {
-        const Real ax = x1[l] - x0[l], ay = y1[l] - y0[l], az = z1[l] - z0[l];
-        const Real bx = x2[l] - x0[l], by = y2[l] - y0[l], bz = z2[l] - z0[l];
-        const Real cx = x3[l] - x0[l], cy = y3[l] - y0[l], cz = z3[l] - z0[l];
-        const Real bcx = by * cz - bz * cy, bcy = bz * cx - bx * cz, bcz = bx * cy - by * cx;
-        const Real cax = cy * az - cz * ay, cay = cz * ax - cx * az, caz = cx * ay - cy * ax;
-        const Real abx = ay * bz - az * by, aby = az * bx - ax * bz, abz = ax * by - ay * bx;
-        const Real sixfold = ax * bcx + ay * bcy + az * bcz;
-        const Real push = sixthOfBulk[l] * (Real(1) - sixfold * inverseRestSixth[l]);
-        fax[l] = push * bcx;
-        fay[l] = push * bcy;
-        faz[l] = push * bcz;
-        fbx[l] = push * cax;
-        fby[l] = push * cay;
-        fbz[l] = push * caz;
-        fcx[l] = push * abx;
-        fcy[l] = push * aby;
-        fcz[l] = push * abz;
+        const Triple<Real> p0 = at(x.of[0], l), p7 = at(x.of[7], l);
+        const Triple<Real> a = at(x.of[6], l) - p0, a1 = p7 - at(x.of[1], l);
+        const Triple<Real> b = p7 - at(x.of[2], l), b1 = at(x.of[5], l) - p0;
+        const Triple<Real> c = at(x.of[3], l) - p0, c1 = p7 - at(x.of[4], l);
+        const Triple<Real> bc = cross(b, c), ca = cross(c1, a), ab = cross(a1, b1);
+        const Triple<Real> ofA = bc + cross(b + b1, c1), ofA1 = bc + cross(b1, c + c1);
+        const Real twelvefold = dot(a, ofA) + dot(a1, ofA1);
+        const Real push = twelfthOfBulk[l] * (Real(1) - twelvefold * inverseRestTwelvefold[l]);
+        const Triple<Real> f6 = push * ofA, f1 = push * ofA1;
+        const Triple<Real> f2 = push * (ca + cross(c, a + a1)), f5 = push * (ca + cross(c + c1, a1));
+        const Triple<Real> f3 = push * (ab + cross(a + a1, b)), f4 = push * (ab + cross(a, b + b1));
+        const Triple<Real> zero{Real(0), Real(0), Real(0)};
+        store(zero - (f6 + f5 + f3), l, forces.of[0]);
+        store(zero - f1, l, forces.of[1]);
+        store(zero - f2, l, forces.of[2]);
+        store(f3, l, forces.of[3]);
+        store(zero - f4, l, forces.of[4]);
+        store(f5, l, forces.of[5]);
+        store(f6, l, forces.of[6]);
+        store(f1 + f2 + f4, l, forces.of[7]);
     }
 }
 
 template <class Real>
-void addRun(const VolumeBatch<Real>& batch, const CornerRun<4>& run) {
+void addRun(const VolumeBatch<Real>& batch, const CornerRun<8>& run) {
     Forces<Real> forces;
     for (int start = 0; start < run.count; start += kernelBlock) {
         const int count = run.count - start < kernelBlock ? run.count - start : kernelBlock;
         Corners<Real> x;
-        for (int corner = 0; corner < 4; ++corner)
+        for (int corner = 0; corner < 8; ++corner)
             for (int axis = 0; axis < 3; ++axis)
                 x.of[corner][axis] = batch.x + static_cast<long>(axis) * batch.stride + run.first[corner] + start;
         const int lane = run.lane + start;
-        findForces(x, batch.sixthOfBulk + lane, batch.inverseRestSixth + lane, count, forces);
-        for (int axis = 0; axis < 3; ++axis) {
-            Real* plane = batch.f + static_cast<long>(axis) * batch.stride + start;
-            const Real *f1 = forces.of[0][axis], *f2 = forces.of[1][axis], *f3 = forces.of[2][axis];
-            Real* f = plane + run.first[0];
-            TAUT_INDEPENDENT
-            for (int l = 0; l < count; ++l) f[l] -= f1[l] + f2[l] + f3[l];
-            for (int corner = 1; corner < 4; ++corner) {
-                Real* at = plane + run.first[corner];
-                const Real* force = forces.of[corner - 1][axis];
+        findForces(x, batch.twelfthOfBulk + lane, batch.inverseRestTwelvefold + lane, count, forces);
+        for (int axis = 0; axis < 3; ++axis)
+            for (int corner = 0; corner < 8; ++corner) {
+                Real* f = batch.f + static_cast<long>(axis) * batch.stride + run.first[corner] + start;
+                const Real* force = forces.of[corner][axis];
                 TAUT_INDEPENDENT
-                for (int l = 0; l < count; ++l) at[l] += force[l];
+                for (int l = 0; l < count; ++l) f[l] += force[l];
             }
-        }
     }
 }
 
-// Adds the loose tetrahedra. Each is moved so that corner 0 is the origin, which leaves the forces the same.
+// Adds the loose cells.
 template <class Real>
 void addLoose(const VolumeBatch<Real>& batch) {
-    const CornerLanes<4>& lanes = batch.lanes;
+    const CornerLanes<8>& lanes = batch.lanes;
     const int points = lanes.loosePointCount;
     Real *packed = batch.packed, *sums = packed + 4L * points;
     pack(batch.x, batch.stride, lanes.loosePoints, points, packed);
     __builtin_memset(sums, 0, sizeof(Real) * 4UL * static_cast<unsigned long>(points));
 
     Forces<Real> forces;
-    alignas(64) Real zero[kernelBlock] = {}, edges[3][3][kernelBlock];
+    alignas(64) Real places[8][3][kernelBlock];
     Corners<Real> x;
-    for (int axis = 0; axis < 3; ++axis) {
-        x.of[0][axis] = zero;
-        for (int edge = 0; edge < 3; ++edge) x.of[edge + 1][axis] = edges[edge][axis];
-    }
+    for (int corner = 0; corner < 8; ++corner)
+        for (int axis = 0; axis < 3; ++axis) x.of[corner][axis] = places[corner][axis];
     for (int start = 0; start < lanes.looseCount; start += kernelBlock) {
         const int count = lanes.looseCount - start < kernelBlock ? lanes.looseCount - start : kernelBlock;
-        const int *p0 = lanes.loose[0] + start, *p1 = lanes.loose[1] + start, *p2 = lanes.loose[2] + start,
-                  *p3 = lanes.loose[3] + start;
-        // Gather the edges, four tetrahedra at a time.
-        for (int l = 0; l < count; l += 4) {
-            Four<Real> e1[4], e2[4], e3[4];
-            for (int i = 0; i < 4; ++i) {
-                const int t = l + i < count ? l + i : count - 1;
-                Four<Real> origin;
-                fetch(packed + 4L * p0[t], origin);
-                fetch(packed + 4L * p1[t], e1[i]);
-                e1[i] -= origin;
-                fetch(packed + 4L * p2[t], e2[i]);
-                e2[i] -= origin;
-                fetch(packed + 4L * p3[t], e3[i]);
-                e3[i] -= origin;
+        // Gather the corners, four cells at a time.
+        for (int l = 0; l < count; l += 4)
+            for (int corner = 0; corner < 8; ++corner) {
+                const int* p = lanes.loose[corner] + start;
+                Four<Real> of[4];
+                for (int i = 0; i < 4; ++i) fetch(packed + 4L * p[l + i < count ? l + i : count - 1], of[i]);
+                spread(of, places[corner], l);
             }
-            spread(e1, edges[0], l);
-            spread(e2, edges[1], l);
-            spread(e3, edges[2], l);
-        }
         const int lane = lanes.looseLane + start;
-        findForces(x, batch.sixthOfBulk + lane, batch.inverseRestSixth + lane, count, forces);
-        // One tetrahedron after the other, because neighbours share points.
+        findForces(x, batch.twelfthOfBulk + lane, batch.inverseRestTwelvefold + lane, count, forces);
+        // One cell after the other, because neighbours share points.
         for (int l = 0; l < count; l += 4) {
-            Four<Real> f1[4], f2[4], f3[4];
-            collect(forces.of[0], l, f1);
-            collect(forces.of[1], l, f2);
-            collect(forces.of[2], l, f3);
-            for (int i = 0; i < 4 && l + i < count; ++i) {
-                Real *at0 = sums + 4L * p0[l + i], *at1 = sums + 4L * p1[l + i], *at2 = sums + 4L * p2[l + i],
-                     *at3 = sums + 4L * p3[l + i];
-                addTo<Real>(at0, -(f1[i] + f2[i] + f3[i]));
-                addTo(at1, f1[i]);
-                addTo(at2, f2[i]);
-                addTo(at3, f3[i]);
-            }
+            Four<Real> f[8][4];
+            for (int corner = 0; corner < 8; ++corner) collect(forces.of[corner], l, f[corner]);
+            for (int i = 0; i < 4 && l + i < count; ++i)
+                for (int corner = 0; corner < 8; ++corner)
+                    addTo<Real>(sums + 4L * lanes.loose[corner][start + l + i], f[corner][i]);
         }
     }
     addPacked(sums, lanes.loosePoints, points, batch.f, batch.stride);

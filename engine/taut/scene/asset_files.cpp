@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <system_error>
@@ -65,11 +66,30 @@ std::string faultOf(const NameReference& reference, const LoadOptions& options, 
 std::vector<path> foldersFor(Place place, const world::SceneSpec& spec) {
     std::vector<path> folders{path(spec.file).parent_path()};
     for (const std::string& base : spec.bases) folders.push_back(path(base).parent_path());
-    if (place.origin < 0) folders.insert(folders.begin(), folders[static_cast<std::size_t>(-place.origin)]);
+    if (place.origin < 0 && -place.origin < static_cast<int>(folders.size())) folders.insert(folders.begin(), folders[static_cast<std::size_t>(-place.origin)]);
     std::vector<path> once;
     for (const path& folder : folders)
         if (std::find(once.begin(), once.end(), folder) == once.end()) once.push_back(folder);
     return once;
+}
+
+// Without texture coordinates a mesh has no warp, and what its material resists bending with is the same all ways.
+void warnOfLostDirections(const ReadScene& scene, Problems& problems) {
+    for (const world::BodySpec& body : scene.spec.bodies) {
+        const world::MeshSource* source = body.meshSource();
+        const auto material = scene.spec.materials.find(std::string(body.materialName()));
+        if (source == nullptr || source->meshData == nullptr || !source->meshData->cornerUv.empty() ||
+            material == scene.spec.materials.end())
+            continue;
+        const world::BendingSpec& of = material->second.rigidity;
+        if (!of.weft && !of.bias) continue;
+        problems.addWarning(
+            scene.owners.at("material." + material->first),
+            fmt::format("bending_rigidity_N_m is {:.3g} all ways in {}: {} has no texture coordinates for the warp to "
+                        "run along",
+                        std::sqrt(*of.warp * of.weft.value_or(*of.warp)), body.fullName(), source->mesh),
+            "unwrap the mesh, or give one number");
+    }
 }
 
 // Replaces names by what was found.
@@ -87,6 +107,7 @@ void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, P
         }
         setTexture(body.finish.texture, textures);
     }
+    warnOfLostDirections(scene, problems);
     for (world::ColliderSpec& collider : scene.spec.colliders) {
         setMesh(collider, meshes);
         for (world::ColliderSpec& part : collider.parts) {

@@ -1,5 +1,7 @@
 #include "taut/scene/private/document.h"
 
+#include "taut/core/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -228,6 +230,15 @@ Node documentTree(std::string_view text, int origin) {
         throw SyntaxError(placeOf(error.source().begin, origin), std::string(message));
     } catch (const Stumble&) {
         throw SyntaxError({origin, stumbleLine(text), 1}, "this line is not TOML");
+    }
+}
+
+Node treeOf(std::string_view text, int origin, fields::Problems& problems) {
+    try {
+        return documentTree(text, origin);
+    } catch (const SyntaxError& error) {
+        problems.addError(error.place, error.what(), error.remedy);
+        throw core::Error(core::ErrorKind::badContent, problems.errors());
     }
 }
 

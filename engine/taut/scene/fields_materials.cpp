@@ -12,6 +12,19 @@ using namespace world;
 
 namespace {
 
+Section stretchSection() {
+    Section section;
+    section.alone = "warp";
+    section.fields = FieldList<MaterialSpec>()
+                         .number("warp", &MaterialSpec::stretch, "N/m", positive, "Across: along u of a mesh.")
+                         .ramps(Affects::springs)
+                         .number("weft", &MaterialSpec::weftStretch, "N/m", positive,
+                                 "Down: along v of a mesh; as the warp if not given.")
+                         .ramps(Affects::springs)
+                         .take();
+    return section;
+}
+
 Section rigiditySection() {
     Section section;
     section.alone = "warp";
@@ -54,10 +67,11 @@ SceneSection materialSection() {
     };
     FieldList<MaterialSpec> list;
     list.number("density_kg_per_m2", &MaterialSpec::density, "kg/m²", positive, "Mass of a square metre.")
-        .number("stretch_N_per_m", &MaterialSpec::stretch, "N/m", positive, "Spring constant along the threads.")
-        .ramps(Affects::springs)
+        .tableOfSelf("stretch_N_per_m", stretchSection(),
+                     "Spring constant along the threads. A number is that of warp and weft alike.")
         .number("shear_N_per_m", &MaterialSpec::shear, "N/m", notNegative,
-                "Spring constant along the diagonals; half of stretch_N_per_m, which is isotropic, if not given.")
+                "Spring constant along the diagonals. If not given: half of stretch_N_per_m, an isotropic sheet, where "
+                "that is one number; a twentieth of the softer one, as woven cloth has it, where there are two.")
         .ramps(Affects::springs)
         .number("bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative,
                 "Spring constant across two cells, as textbooks have it: it has no bending rigidity, and depends on the "
@@ -65,7 +79,10 @@ SceneSection materialSection() {
         .ramps(Affects::springs)
         .table("bending_rigidity_N_m", &MaterialSpec::rigidity, rigiditySection(),
                "What a strip of the cloth resists bending with, for each metre of its width; the same for any cells. "
-               "A number is that of warp and weft alike. For cloth grids.");
+               "A number is that of warp and weft alike. The warp of a mesh runs along u of its texture coordinates.");
+    list.number("air_kg_per_m2", &MaterialSpec::air, "kg/m²", notNegative,
+                "Mass of the air that a square metre takes along where there is a [wind]: it has inertia and no weight. "
+                "Folds of length λ take along ρ λ/π, some 0.05.");
     section.fields = withPlasticity(withLosses(list))
                          .choice("lumping", &MaterialSpec::lumping, lumpingNames(),
                                  "How mass is shared out: by area, or the same for every point.")

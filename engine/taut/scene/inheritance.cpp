@@ -38,8 +38,14 @@ void eraseUnfit(const Section& section, const Node& own, Node& table) {
 // The named elements of one section.
 class Elements {
   public:
-    Elements(const SceneSection& section, const Node* defaults, Node& table, std::size_t& taken, Problems& problems)
-        : section_(section), defaults_(defaults), table_(table), taken_(taken), problems_(problems) {}
+    Elements(const SceneSection& section, const Node* defaults, const Node* materials, Node& table, std::size_t& taken,
+             Problems& problems)
+        : section_(section),
+          defaults_(defaults),
+          materials_(materials),
+          table_(table),
+          taken_(taken),
+          problems_(problems) {}
 
     void inherit() {
         std::vector<Node> whole;
@@ -88,7 +94,20 @@ class Elements {
         std::vector<const Node*> below;
         for (std::size_t i = 1; i < chain.size(); ++i) below.push_back(&chain[i]->value);
         if (defaults_ != nullptr) below.push_back(defaults_);
+        addMaterial(element, below);
         return below;
+    }
+
+    // What the element's material says of things of its section, just ahead of the defaults.
+    void addMaterial(const Member& element, std::vector<const Node*>& below) const {
+        const Member* name = element.value.find("material");
+        for (const Node* layer : below)
+            if (name == nullptr) name = layer->find("material");
+        if (name == nullptr || materials_ == nullptr) return;
+        const Member* material = materials_->find(name->value.text);
+        if (material == nullptr) return;  // reported with the references
+        if (const Member* things = material->value.find(section_.name))
+            below.insert(below.end() - (defaults_ != nullptr ? 1 : 0), &things->value);
     }
 
     void reportChain(const std::vector<const Member*>& chain, const std::string& what) {
@@ -120,6 +139,7 @@ class Elements {
 
     const SceneSection& section_;
     const Node* defaults_;
+    const Node* materials_;
     Node& table_;
     std::size_t& taken_;
     Problems& problems_;
@@ -138,7 +158,10 @@ void inherit(const std::vector<SceneSection>& sections, Node& root, Problems& pr
         if (section.layout != Layout::named || elements == nullptr || elements->value.kind != NodeKind::table) continue;
         const Member* own = defaults != nullptr ? defaults->value.find(section.name) : nullptr;
         const bool isTable = own != nullptr && own->value.kind == NodeKind::table;
-        Elements(section, isTable ? &own->value : nullptr, elements->value, taken, problems).inherit();
+        const Member* materials = section.name != "material" ? root.find("material") : nullptr;
+        Elements(section, isTable ? &own->value : nullptr, materials != nullptr ? &materials->value : nullptr,
+                 elements->value, taken, problems)
+            .inherit();
     }
 }
 

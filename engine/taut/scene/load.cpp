@@ -10,6 +10,7 @@
 #include "taut/scene/private/body_size.h"
 #include "taut/scene/private/claims.h"
 #include "taut/scene/private/document.h"
+#include "taut/scene/private/fabrics.h"
 #include "taut/scene/private/inheritance.h"
 #include "taut/scene/private/merge.h"
 #include "taut/scene/private/overrides.h"
@@ -102,15 +103,6 @@ void checkLights(const ReadScene& scene, Problems& problems) {
                           "leave out a lamp");
 }
 
-Node treeOf(std::string_view text, int origin, Problems& problems) {
-    try {
-        return documentTree(text, origin);
-    } catch (const SyntaxError& error) {
-        problems.addError(error.place, error.what(), error.remedy);
-        throw core::Error(core::ErrorKind::badContent, problems.errors());
-    }
-}
-
 Confinement confinementOf(const std::string& fileName, const LoadOptions& options) {
     if (!options.isConfined) return {};
     Confinement confinement{options.assetFolders};
@@ -163,9 +155,11 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
         applyOverride(options.overrides[i], static_cast<int>(i) + 1, sections, root, problems);
     if (const Member* member = root.find("scene"); member != nullptr && member->value.place.origin > 0)
         problems.addError(member->value.place, "the scene that a file builds on cannot be set");
+    std::vector<std::string> fabrics = addFabrics(options.assetFolders, root, problems);
     inherit(sections, root, problems);
     ReadScene scene = readScene(root, sections, fileName, problems);
     scene.spec.bases = std::move(bases);
+    scene.spec.fabrics = std::move(fabrics);
     loadAssets(options, confinementOf(fileName, options), scene, problems);
     const BodyIndex bodies(scene.spec, kinds, scene.faulty);
     checkReferences(scene, bodies, problems);

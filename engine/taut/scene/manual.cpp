@@ -30,7 +30,9 @@ void writeFields(const Section& section, void* target, const std::string& indent
         std::string help = field.help;
         if (!field.only.empty()) help += fmt::format(" Only for {}.", joined(field.only));
         out += fmt::format("{:<27}{}\n", "", help);
-        if (!field.inside.empty()) writeFields(field.inside.front(), field.enter(target, {}), indent + "  ", out);
+        const bool isRepeated = section.name == "material" && field.inside.size() == 1 &&
+                                field.inside.front().layout == Layout::named;  // keys of a section that follows
+        if (!field.inside.empty() && !isRepeated) writeFields(field.inside.front(), field.enter(target, {}), indent + "  ", out);
     }
 }
 

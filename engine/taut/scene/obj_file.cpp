@@ -39,6 +39,7 @@ class ObjReader {
         if (faceCount_ == 0) fail("there are no faces");
         if (mesh_.triangles.empty()) fail("no face has an area");
         if (!hasUv_) mesh_.uv.clear();
+        if (!hasUv_) mesh_.cornerUv.clear();
         for (auto& [name, vertices] : mesh_.groups) {
             std::sort(vertices.begin(), vertices.end());
             vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -154,8 +155,14 @@ class ObjReader {
             };
             if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) continue;
             std::array<int, 3> vertices{};
-            for (std::size_t i = 0; i < 3; ++i) vertices[i] = vertex(corners[static_cast<std::size_t>(triangle[i])]);
+            std::array<dvec2, 3> uv{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Corner& corner = corners[static_cast<std::size_t>(triangle[i])];
+                vertices[i] = vertex(corner);
+                uv[i] = uvOf(corner);
+            }
             mesh_.triangles.push_back(vertices);
+            mesh_.cornerUv.push_back(uv);
             mesh_.lines.push_back(line_);
             for (const std::string& name : groups_) addTo(name, vertices);
             if (!object_.empty()) addTo(object_, vertices);
@@ -174,10 +181,13 @@ class ObjReader {
         if (isNew) {
             mesh_.positions.push_back(p);
             mesh_.numbers.push_back(corner.position + 1);
-            mesh_.uv.push_back(corner.uv < 0 ? dvec2(0.0) : uvs_[static_cast<std::size_t>(corner.uv)]);
-            hasUv_ = hasUv_ && corner.uv >= 0;
+            mesh_.uv.push_back(uvOf(corner));
         }
+        hasUv_ = hasUv_ && corner.uv >= 0;
         return found->second;
+    }
+    dvec2 uvOf(const Corner& corner) const {
+        return corner.uv < 0 ? dvec2(0.0) : uvs_[static_cast<std::size_t>(corner.uv)];
     }
 
     std::string_view text_;

@@ -38,7 +38,7 @@ bool isWord(std::string_view text) {
                                 text.begin(), text.end(),
                                 [](char c) {
                                     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                                           std::string_view("0123456789-_./@#%*").find(c) != std::string_view::npos;
+                                           std::string_view("0123456789-_./:@#%*").find(c) != std::string_view::npos;
                                 });
 }
 

@@ -32,6 +32,9 @@ std::vector<Row> rowsOf(const Section& section) {
     for (const Field& field : section.fields) {
         rows.push_back({field.key, &field, {}});
         if (field.kind != FieldKind::table) continue;
+        // A table that may be written as one number may be changed as one.
+        if (const Field* alone = field.inside.front().find(field.inside.front().alone))
+            rows.back() = {field.key, alone, field.enter};
         for (const Field& inner : field.inside.front().fields)
             rows.push_back({field.key + "." + inner.key, &inner, field.enter});
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "taut/fields/private/value_reader.h"
+#include "taut/scene/private/fabrics.h"
 
 namespace taut::scene {
 
@@ -83,7 +84,7 @@ class SceneReader {
                 fmt::format("write [{}.NAME]", section.name));
             return;
         }
-        if (!isName(name)) {
+        if (!isName(name) && !isFabric(name)) {
             problems_.addError(element.place, fmt::format("\"{}\" cannot be the name of a {}", name, section.name),
                                "a name has letters, digits, - and _");
             return;

@@ -44,6 +44,7 @@ Section partly(Section section) {
     section.check = nullptr;
     for (Field& field : section.fields) {
         field.required = false;
+        field.ramp.reset();
         if (field.kind == FieldKind::table) field.inside = {partly(field.inside.front())};
     }
     return section;
@@ -74,6 +75,20 @@ SceneSection defaultsSection(const std::vector<SceneSection>& sections) {
     return all;
 }
 
+// [material.NAME.cloth]: what cloth made of it has unless it says otherwise. Read into a cloth that is thrown away;
+// scene::inherit() has handed it out.
+Field thingsOfMaterial(const SceneSection& section) {
+    Field row;
+    row.key = section.name;
+    row.kind = FieldKind::table;
+    row.help = fmt::format("Keys that each {} made of it has, unless it says otherwise: thickness, friction, finish and so on.",
+                           section.name);
+    row.inside = {partly(section)};
+    row.enter = [enter = section.enter, scratch = std::make_shared<world::SceneSpec>()](
+                    void*, const core::Source& source) { return enter(*scratch, "material", source); };
+    return row;
+}
+
 // Gives fields that name a method the known methods.
 void nameMethods(Section& section, const std::vector<std::string>& names) {
     for (Field& field : section.fields) {
@@ -88,7 +103,11 @@ void nameMethods(Section& section, const std::vector<std::string>& names) {
 std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
     std::vector<SceneSection> all{fileSection(),    needSection(), solverSection(),  worldSection(),
                                   contactSection(), runSection(),  pictureSection(), materialSection()};
-    for (const auto& kind : kinds.bodies.all()) all.push_back(kindSection(kind, &world::SceneSpec::bodies));
+    const std::size_t material = all.size() - 1;
+    for (const auto& kind : kinds.bodies.all()) {
+        all.push_back(kindSection(kind, &world::SceneSpec::bodies));
+        if (all.back().find("material") != nullptr) all[material].fields.push_back(thingsOfMaterial(all.back()));
+    }
     all.insert(all.end(), {jointSection(kinds.joints), massSection()});
     for (const auto& kind : kinds.forces.all()) all.push_back(kindSection(kind, &world::SceneSpec::forces));
     all.insert(all.end(), {colliderSection(kinds.shapes), cameraSection(), lightSection(), lampSection(),

@@ -1,6 +1,7 @@
 // What every body has, and what its kind says of it. The kinds are in bodies/.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -37,14 +38,20 @@ struct BendingSpec {
 
 struct MaterialSpec {             // of cloth, per metre of material
     double density = 0.2;         // [kg/m²]
-    double stretch = 900.0;       // k_s [N/m]
-    std::optional<double> shear;  // k_d [N/m]; none: stretch / 2, isotropic
+    double stretch = 900.0;       // k_s [N/m] along the warp
+    std::optional<double> shear;  // k_d [N/m]; none: defaultShear()
     double bend = 1.0;            // k_b [N/m]
     double dampingTime = 1e-4;    // τ [s]
     double drag = 0.3;            // γ/m [1/s]
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
     BendingSpec rigidity{};
+    std::optional<double> weftStretch{};  // [N/m]; none: as the warp
+    double air = 0.0;                     // [kg/m²] of air that goes along in a wind
+
+    // Half the stretch, an isotropic sheet, if one number says the stretch; a twentieth of the softer one, as woven
+    // cloth has it, if there are two.
+    double defaultShear() const { return weftStretch ? 0.05 * std::min(stretch, *weftStretch) : 0.5 * stretch; }
 };
 
 // Which surfaces keep off each other: none, those of different bodies, or all, including parts of one body.
@@ -67,15 +74,15 @@ struct BodyOutline {
 struct BodySpec {
     std::string name;  // without the kind: "flag"
     Source source;
-    std::vector<std::string> hold;  // selectors, see mechanics: a group, "(u,v)", "50%", "#index"
+    std::vector<std::string> hold;   // selectors, see mechanics: a group, "(u,v)", "50%", "#index"
     std::vector<std::string> clamp;  // further selectors; the direction at these points is held too
     std::string holdOn;              // "collider.pole" that carries the held points; empty: they stay in place
-    dvec3 velocity{0.0};            // [m/s] at the start
-    dvec3 spin{0.0};                // [rad/s] at the start, about the centre of mass
-    double jitter = 0.0;            // [m] random offset of free points at the start; breaks symmetry
-    std::int64_t seed = 1;          // of the jitter
-    double friction = 1.0;          // factor on the collider's friction
-    double thickness = 0.005;       // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
+    dvec3 velocity{0.0};             // [m/s] at the start
+    dvec3 spin{0.0};                 // [rad/s] at the start, about the centre of mass
+    double jitter = 0.0;             // [m] random offset of free points at the start; breaks symmetry
+    std::int64_t seed = 1;           // of the jitter
+    double friction = 1.0;           // factor on the collider's friction
+    double thickness = 0.005;        // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
     bool collide = true;
     bool meetsFaces = false;  // its faces meet colliders even if it touches nothing
     Touch touch = Touch::nothing;

@@ -97,6 +97,9 @@ Section finishSection() {
             .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")
             .number("roughness", &FinishSpec::roughness, "", fields::share, "0 a mirror, 1 chalk.")
             .number("sheen", &FinishSpec::sheen, "", fields::share, "Bright rim of fabric.")
+            .number("translucency", &FinishSpec::translucency, "", fields::share,
+                    "Of a cloth: the share of the light on its other side that comes through, in its colour: 0.4 thin "
+                    "silk, 0.2 cotton, 0.03 velvet.")
             .number("hem_m", &FinishSpec::hem, "m", Range{0.0, 1.0},
                     "Thickness of a cloth as its free edges show it where that is more than a pixel; nothing else "
                     "knows of it.")

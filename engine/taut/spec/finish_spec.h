@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "taut/view/frame_view.h"
 #include "taut/spec/source.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::world {
 
@@ -15,13 +15,14 @@ struct FinishSpec {
     std::optional<dvec3> backColour;  // none: a paler colour
     dvec3 accent{0.95, 0.93, 0.88};
     view::Pattern pattern = view::Pattern::plain;
-    double repeat = 0.25;    // [m]
-    double weave = 0.0;      // 0 … 1
-    double thread = 0.012;   // [m]
-    double roughness = 0.7;  // 0 … 1
-    double sheen = 0.0;      // 0 … 1
-    double hem = 0.001;      // [m] thickness of a cloth at its free edges
-    std::string texture;     // path, resolved by the loader
+    double repeat = 0.25;       // [m]
+    double weave = 0.0;         // 0 … 1
+    double thread = 0.0015;     // [m]
+    double roughness = 0.7;     // 0 … 1
+    double sheen = 0.0;         // 0 … 1
+    double translucency = 0.2;  // 0 … 1
+    double hem = 0.001;         // [m] thickness of a cloth at its free edges
+    std::string texture;        // path, resolved by the loader
 };
 
 }  // namespace taut::world

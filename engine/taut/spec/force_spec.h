@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "taut/spec/source.h"
 
@@ -32,6 +33,8 @@ struct ForceSpec {
     virtual void checkBodies(std::span<Body* const>) const {}
     // The points at which it pulls, KIND.NAME@SELECTOR; empty: surfaces, or all points.
     virtual std::string_view pulledPoints() const { return {}; }
+    // Targets, e.g. "cloth.*", of the bodies that it surrounds with air.
+    virtual std::vector<std::string> surroundedBodies() const { return {}; }
 };
 
 }  // namespace taut::world

@@ -16,6 +16,7 @@ struct MeshData {
     std::vector<dvec3> positions;                    // (vertices) in the file's unit
     std::vector<dvec2> uv;                           // (vertices) as in the file, or empty if a corner has none
     std::vector<std::array<int, 3>> triangles;       // (triangles) indices of vertices, oriented as in the file
+    std::vector<std::array<dvec2, 3>> cornerUv;      // (triangles) uv of their corners, also at seams; or empty as uv
     std::map<std::string, std::vector<int>> groups;  // vertices by the file's g and o, ascending
     // Numbers in the file: vertices count from 1, triangles have the line of their face.
     std::vector<int> numbers, lines;

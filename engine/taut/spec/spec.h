@@ -57,7 +57,8 @@ struct MassSpec {  // mass added to points
 
 struct SceneSpec {
     std::string file;
-    std::vector<std::string> bases;  // the files on which it builds, the nearest first
+    std::vector<std::string> bases;    // the files on which it builds, the nearest first
+    std::vector<std::string> fabrics;  // the files of the library from which it takes materials
     std::string title;
     WorldSpec world;
     ContactSpec contact;

@@ -163,6 +163,7 @@ RefinementBody blockColumn() {
                 shape.cells = {cells / 2, cells, cells / 2};
                 shape.density = density;
                 shape.young = young;
+                shape.bulk = 0.0;
                 shape.lumping = lumped.isMassNaive ? Lumping::uniform : Lumping::weighted;
                 Model model = mechanics::buildBlock(shape);
                 if (lumped.areSpringsNaive)
@@ -246,6 +247,7 @@ RefinementBody blockBeam() {
                 shape.cells = {cells, cells / 2, cells / 2};
                 shape.density = 300.0;
                 shape.young = 2e6;
+                shape.bulk = 0.0;
                 shape.lumping = lumped.isMassNaive ? Lumping::uniform : Lumping::weighted;
                 Model model = mechanics::buildBlock(shape);
                 if (lumped.areSpringsNaive)

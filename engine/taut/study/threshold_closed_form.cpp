@@ -35,7 +35,7 @@ double gridFrequency(const world::ClothSpec& cloth, const world::MaterialSpec& m
     const double a = cloth.size.x / cloth.cells.x, b = cloth.size.y / cloth.cells.y;
     const bool isSquare = std::abs(a - b) < 1e-9 * a;
     if (!isSquare || cloth.meshData || cloth.cells.x < 4 || cloth.cells.y < 4) return unknown;
-    if (material.lumping == mechanics::Lumping::uniform || material.rigidity.warp) return unknown;
+    if (material.lumping == mechanics::Lumping::uniform || material.rigidity.warp || material.weftStretch) return unknown;
     const double ks = material.stretch, kd = material.shear.value_or(ks / 2), kb = material.bend;
     const double sum = ks + kd, bends = kb + kd;
     double most = 4 * sum;
@@ -87,7 +87,11 @@ world::SceneSpec referenceNetwork(const std::string& name) {
         return scene;
     }
     TAUT_EXPECTS(name == "cloth");
-    scene.materials["plain"] = {0.2, 600.0, 300.0, 2.0, 0.0, 0.0, mechanics::Lumping::weighted, {}, {}};
+    world::MaterialSpec& plain = scene.materials["plain"];
+    plain.stretch = 600.0;
+    plain.shear = 300.0;
+    plain.bend = 2.0;
+    plain.dampingTime = plain.drag = 0.0;
     world::ClothSpec cloth;
     cloth.name = "sheet";
     cloth.size = {1.0, 1.0};

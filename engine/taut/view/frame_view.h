@@ -21,12 +21,13 @@ struct Finish {
     glm::vec3 back{0.8F};    // the other side of a cloth
     glm::vec3 accent{0.2F};  // second colour of a pattern
     Pattern pattern = Pattern::plain;
-    float repeat = 0.2F;     // [m] length after which a pattern repeats along uv
-    float weave = 0.0F;      // strength of the weave normal, 0 (smooth) … 1 (coarse linen)
-    float thread = 0.012F;   // [m] distance between two threads of the weave
-    float roughness = 0.7F;  // 0 mirror … 1 chalk
-    float sheen = 0.0F;      // bright rim of fabric, 0 … 1
-    std::string texture;     // path of a PNG or JPEG when pattern is image; spans one repeat
+    float repeat = 0.2F;        // [m] length after which a pattern repeats along uv
+    float weave = 0.0F;         // strength of the weave normal, 0 (smooth) … 1 (coarse linen)
+    float thread = 0.0015F;     // [m] distance between two threads of the weave
+    float roughness = 0.7F;     // 0 mirror … 1 chalk
+    float sheen = 0.0F;         // bright rim of fabric, 0 … 1
+    float translucency = 0.2F;  // share of the light on the other side of a cloth that comes through, in its colour
+    std::string texture;        // path of a PNG or JPEG when pattern is image; spans one repeat
 };
 
 // What of a surface never changes: drawn by index, shared by all frames.

@@ -26,9 +26,10 @@
 #include <utility>
 #include <vector>
 
-#include "taut/island/private/dynamics.h"
 #include "taut/bodies/island_plan.h"
+#include "taut/island/private/dynamics.h"
 #include "taut/island/private/planar.h"
+#include "taut/mechanics/private/cell_shape.h"
 
 namespace taut::world {
 
@@ -80,7 +81,8 @@ class ContactWatch {
             isCounted_[own] = true;
             const dvec3 u = planar_.at(velocities, i);
             if (isFree(plan, i))
-                sum += plan.points[own].mass * (0.5 * glm::dot(u, u) - glm::dot(gravity, planar_.at(places, i)));
+                sum += 0.5 * plan.points[own].mass * glm::dot(u, u) -
+                       plan.points[own].weighedMass() * glm::dot(gravity, planar_.at(places, i));
             for (int s : springsAt_[own]) {
                 const mechanics::Spring& spring = plan.springs[static_cast<std::size_t>(s)];
                 const int other = spring.a == i ? spring.b : spring.a;
@@ -104,7 +106,7 @@ class ContactWatch {
         double lowest = std::numeric_limits<double>::infinity(), mass = 0;
         for (int i = 0; i < static_cast<int>(plan.points.size()); ++i) {
             if (!isFree(plan, i)) continue;
-            mass += plan.points[static_cast<std::size_t>(i)].mass;
+            mass += plan.points[static_cast<std::size_t>(i)].weighedMass();
             lowest = std::min(lowest, -glm::dot(gravity, planar_.at(x, i)));
         }
         return mass > 0 ? energy(plan, {}, true, x, w, gravity) - mass * lowest : 0.0;
@@ -114,12 +116,8 @@ class ContactWatch {
     double cellEnergy(const mechanics::VolumeCell& cell, int point, const Planes& places) const {
         for (int corner : cell.points)
             if (corner != point && isCounted_[static_cast<std::size_t>(corner)]) return 0.0;
-        const dvec3 p = planar_.at(places, cell.points[0]);
-        const double volume =
-            glm::dot(planar_.at(places, cell.points[1]) - p,
-                     glm::cross(planar_.at(places, cell.points[2]) - p, planar_.at(places, cell.points[3]) - p)) /
-            6.0;
-        const double change = volume / cell.restVolume - 1.0;
+        const double change =
+            mechanics::volumeOf(mechanics::cornersOf(cell, places.data(), planar_.stride)) / cell.restVolume - 1.0;
         return 0.5 * cell.bulkModulus * cell.restVolume * change * change;
     }
 

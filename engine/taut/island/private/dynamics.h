@@ -144,7 +144,7 @@ class Dynamics {
 
     // What the generators add to the stability bound, at t [s].
     virtual mechanics::StabilityShare stabilityShare(double t) const = 0;
-    virtual void addEnergies(double t, const std::vector<bool>& only, double& uniform, double& other) const = 0;
+    virtual void addEnergies(double t, const std::vector<bool>& only, double& weight, double& other) const = 0;
     virtual void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const = 0;
     // The volumes of the bodies that have cells.
     virtual std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t, bool stretches) const = 0;

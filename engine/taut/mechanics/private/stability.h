@@ -30,9 +30,9 @@ FrequencyBound boundAnywhere(const NetworkView& network, std::span<const double>
 // B2: ω² <= max over springs of a_i + a_j, and over cells of the sum over their corners,
 //   a_i = w_i λ_max(Σ_springs k [nnᵀ + max(0, 1 - L/l)(I - nnᵀ)] + Σ_cells (K/V0) g gᵀ),  g = ∂V/∂p_i,
 // by Cauchy and Schwarz: (Σ g_i·u_i)² <= Σ a_i · Σ (g_i·u_i)²/a_i. The pressure K (V/V0 - 1) of cells couples the ends
-// of an edge by a cross product with h = Σ_cells K (V/V0 - 1) (edge opposite)/6. So the largest row sum (Gershgorin) of
-// √(w_i w_j) |h| is added. The bound holds where the points are now. It is within 1–20 % of ω_max without cells, and
-// within 29–43 % with cells. positions (points) [m].
+// of edges and of diagonals of faces by a cross product with h = Σ_cells K (V/V0 - 1) CellPair::coupling(). So the
+// largest row sum (Gershgorin) of √(w_i w_j) |h| is added. The bound holds where the points are now. It is within 1–20
+// % of ω_max without cells, and within 29–43 % with cells. positions (points) [m].
 FrequencyBound boundHere(const NetworkView& network, std::span<const double> extraStiffness,
                          std::span<const glm::dvec3> positions);
 

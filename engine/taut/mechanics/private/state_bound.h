@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "taut/core/aligned_array.h"
-#include "taut/mechanics/private/cell_shape.h"
 #include "taut/mechanics/model.h"
+#include "taut/mechanics/private/cell_shape.h"
 #include "taut/mechanics/spring_network.h"
 
 namespace taut::mechanics {
@@ -67,13 +67,13 @@ class StateBound {
         CellCorners corners, gradients;
     };
     std::vector<Look> looks_;  // (cells) as they are now
-    struct Edge {
+    struct Pair {
         int a, b;
     };
-    std::vector<Edge> edges_;                  // of the cells, the lower point first
-    std::vector<std::array<int, 6>> edgesOf_;  // (cells) numbers of their edges, in the order of cell_shape.h
-    std::vector<glm::dvec3> pressed_;          // (edges) [N/m]
-    std::vector<double> rows_;                 // (points)
+    std::vector<Pair> pairs_;                                 // of points that cells couple, the lower one first
+    std::vector<std::array<int, cellPairs.size()>> pairsOf_;  // (cells) their numbers, in the order of cell_shape.h
+    std::vector<glm::dvec3> pressed_;                         // (pairs) [N/m]
+    std::vector<double> rows_;                                // (points)
 };
 
 extern template class StateBound<float>;

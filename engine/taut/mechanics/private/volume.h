@@ -1,9 +1,11 @@
-// Tetrahedra that resist a change of their signed volume. So a block that was squashed flat or turned inside out comes
-// back. It knows only tetrahedra, not the lattice they come from.
+// Cells that resist a change of their signed volume. So a block that was squashed flat or turned inside out comes back.
+// It knows only cells, not the lattice they come from.
 //
-// A tetrahedron's edges cannot tell it from its mirror image; V = det[e1 e2 e3]/6 can:
+// The lengths of its springs cannot tell a cell from its mirror image; V can:
 //   E = ½ K V0 (V/V0 - 1)²,   F_i = -K (V/V0 - 1) ∂V/∂p_i.
-// If it collapses to a line or a point, ∂V vanishes and nothing brings it back. inspect() reports that.
+// A cell has one pressure, by the mean of its dilatation: with one for each of its tetrahedra a block is too stiff when
+// it bends (locking), the more the larger K is. The springs alone resist what leaves V as it is.
+// If a cell collapses to a line or a point, ∂V vanishes and nothing brings it back. inspect() reports that.
 #pragma once
 
 #include <array>
@@ -12,13 +14,13 @@
 #include <vector>
 
 #include "taut/mechanics/force_generator.h"
-#include "taut/mechanics/private/index_runs.h"
 #include "taut/mechanics/model.h"
+#include "taut/mechanics/private/index_runs.h"
 #include "taut/mechanics/private/volume_kernel.h"
 
 namespace taut::mechanics {
 
-// The condition of all tetrahedra.
+// The condition of all cells.
 struct VolumeReport {
     double smallestRatio = 1.0;  // smallest V/V0 [-]
     int smallestCell = -1;       // the cell with the smallest ratio
@@ -30,8 +32,8 @@ struct VolumeReport {
 template <class Real>
 class VolumePreservation final : public ForceGenerator<Real> {
   public:
-    // Rest positions (points) [m] give the areas and edges by which inspect() finds a stretch. The volumes come with
-    // the cells. Uses the kernel of the current instruction set. Expects V0 > 0, K >= 0, workingStretch >= 1.
+    // Rest positions (points) [m] give the areas and distances by which inspect() finds a stretch. The volumes come
+    // with the cells. Uses the kernel of the current instruction set. Expects V0 > 0, K >= 0, workingStretch >= 1.
     VolumePreservation(std::span<const VolumeCell> cells, std::span<const glm::dvec3> restPositions,
                        double workingStretch = 1.5);
 
@@ -52,19 +54,19 @@ class VolumePreservation final : public ForceGenerator<Real> {
 
     // Adds nothing, because the bounds of stability.h count cells themselves. These bounds hold, and inspect() finds
     // nothing overstretched, while
-    //   |g| <= s² |g| at rest,   edge <= s edge at rest,   |V/V0 - 1| <= max(1 + s, s³ - 1),
+    //   |g| <= s² |g| at rest,   edges and diagonals of faces <= s those at rest,   |V/V0 - 1| <= max(1 + s, s³ - 1),
     // s the working stretch.
     void addStability(const Motion<Real>&, StabilityShare&) const override {}
 
   private:
     std::vector<VolumeCell> cells_;
-    std::vector<std::array<glm::dvec3, 4>> rest_;  // (cells) corners at rest [m]
+    std::vector<std::array<glm::dvec3, 8>> rest_;  // (cells) corners at rest [m]
     double workingStretch_;
-    IndexRuns<4> runs_;
-    core::AlignedArray<Real> sixthOfBulk_, inverseRestSixth_;  // (lanes)
-    mutable core::AlignedArray<Real> packed_;                  // scratch of the kernel
+    IndexRuns<8> runs_;
+    core::AlignedArray<Real> twelfthOfBulk_, inverseRestTwelvefold_;  // (lanes)
+    mutable core::AlignedArray<Real> packed_;                         // scratch of the kernel
     void (*addBatch_)(const VolumeBatch<Real>&);
-    std::vector<std::array<Real, 12>> slopes_;  // (cells) √(s K/V0) g, corner by corner
+    std::vector<std::array<Real, 24>> slopes_;  // (cells) √(s K/V0) g, corner by corner
 };
 
 extern template class VolumePreservation<float>;

@@ -1,4 +1,4 @@
-// The force that preserves the signed volume of tetrahedra, in batches. It knows no generator. There is one copy for
+// The force that preserves the signed volume of cells, in batches. It knows no generator. There is one copy for
 // each instruction set.
 #pragma once
 
@@ -8,13 +8,13 @@ namespace taut::mechanics {
 
 template <class Real>
 struct VolumeBatch {
-    CornerLanes<4> lanes;
-    const Real* sixthOfBulk;       // (lanes) K/6 [Pa], 0 for a lane without a tetrahedron
-    const Real* inverseRestSixth;  // (lanes) 1/(6 V0) [1/m³]
+    CornerLanes<8> lanes;
+    const Real* twelfthOfBulk;          // (lanes) K/12 [Pa], 0 for a lane without a cell
+    const Real* inverseRestTwelvefold;  // (lanes) 1/(12 V0) [1/m³]
     int stride;
     const Real* x;  // (3 · stride) [m]
     Real* f;        // (3 · stride) [N]; the kernel adds to it
-    Real* packed;   // (8 · loosePointCount) scratch for x and forces of points of loose tetrahedra
+    Real* packed;   // (8 · loosePointCount) scratch for x and forces of points of loose cells
 };
 
 namespace sse2 {

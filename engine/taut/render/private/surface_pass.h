@@ -33,7 +33,7 @@ class SurfacePass {
     // What light.frag has to know of a surface: a row of its table.
     struct Material {
         glm::vec4 backRoughness;
-        glm::vec4 kind;  // sheen, dulled, two-sided, woven
+        glm::vec4 kind;  // sheen, dulled, translucency, woven
         bool operator==(const Material&) const = default;
     };
 

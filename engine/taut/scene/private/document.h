@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "taut/fields/node.h"
+#include "taut/fields/private/problems.h"
 
 namespace taut::scene {
 
@@ -26,5 +27,8 @@ struct SyntaxError : std::runtime_error {
 // The tree of a text. Throws SyntaxError, also for zero bytes, invalid UTF-8, UTF-16, a key given twice, and nesting so
 // deep that it can only be an accident or an attack.
 Node documentTree(std::string_view text, int origin);
+
+// The same, but reports what is not TOML and throws core::Error(badContent) with all problems so far.
+Node treeOf(std::string_view text, int origin, fields::Problems& problems);
 
 }  // namespace taut::scene

@@ -14,7 +14,8 @@ namespace taut::scene {
 using fields::Problems;
 
 // Writes out what named elements inherit. An element's own keys come first, then those of the element that it is like,
-// then of the one that this is like, then the defaults of its section. Tables are merged key by key, as by merged().
+// then of the one that this is like, then what its material has for its section ([material.silk.cloth]), then the
+// defaults of its section. Tables are merged key by key, as by merged().
 // Values that do not fit the form of the element, such as the radius of a box, are left out. Each value keeps the place
 // where it is written. `like` is removed, `defaults` stay, ahead of everything else. Reports a `like` that names
 // nothing or goes in a circle.

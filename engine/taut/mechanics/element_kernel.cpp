@@ -1,0 +1,127 @@
+// Compiled once for each instruction set (engine/taut.cmake). The lanes of a vector are x, y, z and nothing, and each
+// row is summed in the order of its entries, so every width gives the same bits. Differences come first, so that single
+// precision loses as little as possible.
+#include "taut/mechanics/private/element_kernel.h"
+
+namespace taut::mechanics::TAUT_ISA {
+namespace {
+
+template <class Real>
+void addAll(const CouplingBatch<Real>& batch) {
+    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+    const Real *x = batch.couplings.vectors, *pull = batch.pulls.vectors;
+    for (int i = batch.begin; i < batch.end; ++i) {
+        Four own, sum{};
+        __builtin_memcpy(&own, x + 4L * i, sizeof own);
+        for (int k = batch.couplings.first[i]; k < batch.couplings.first[i + 1]; ++k) {
+            const WeightedPoint<Real>& entry = batch.couplings.entries[k];
+            Four other;
+            __builtin_memcpy(&other, x + 4L * entry.from, sizeof other);
+            sum += entry.weight * (other - own);
+        }
+        for (int k = batch.pulls.first[i]; k < batch.pulls.first[i + 1]; ++k) {
+            const WeightedPoint<Real>& entry = batch.pulls.entries[k];
+            Four other;
+            __builtin_memcpy(&other, pull + 4L * entry.from, sizeof other);
+            sum += entry.weight * other;
+        }
+        sum *= batch.scale;
+        Real* to = batch.out + batch.points[i];
+        to[0] += sum[0];
+        to[batch.stride] += sum[1];
+        to[2 * batch.stride] += sum[2];
+    }
+}
+
+template <class Four, class Real>
+inline void sumUp(const WeightedRows<Real>& rows, int i, Four& sum) {
+    const int begin = rows.first[i], end = rows.first[i + 1];
+    const Real* x = rows.vectors;
+    Four from;
+    sum = Four{};
+    __builtin_memcpy(&from, x + 4L * rows.entries[begin].from, sizeof from);
+    for (int k = begin + 1; k < end; ++k) {
+        const WeightedPoint<Real>& entry = rows.entries[k];
+        Four other;
+        __builtin_memcpy(&other, x + 4L * entry.from, sizeof other);
+        sum += entry.weight * (other - from);
+    }
+}
+
+template <class Real>
+void findAll(const SumBatch<Real>& batch) {
+    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+    for (int i = batch.begin; i < batch.end; ++i) {
+        Four sum;
+        sumUp(batch.rows, i, sum);
+        __builtin_memcpy(batch.sums + 4L * i, &sum, sizeof sum);
+    }
+}
+
+inline float root(float x) {
+    return __builtin_sqrtf(x);
+}
+inline double root(double x) {
+    return __builtin_sqrt(x);
+}
+
+// With N = e1 × e2 the normal is n = N/|N|, and g_b·y = e2·m, g_c·y = -e1·m with m = n × y/|N|.
+template <class Real>
+void findAll(const PullBatch<Real>& batch) {
+    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+    const Real* x = batch.rows.vectors;
+    for (int i = batch.begin; i < batch.end; ++i) {
+        Four y;
+        sumUp(batch.rows, i, y);
+        if (batch.held != nullptr) {
+            Four held;
+            __builtin_memcpy(&held, batch.held + 4L * i, sizeof held);
+            y += held;
+        }
+        const int* corners = batch.corners + 3L * i;
+        Four normal = y;
+        Real b = 0, c = 0;
+        if (corners[0] < 0) {
+            const Real length = root(y[0] * y[0] + y[1] * y[1] + y[2] * y[2]);
+            normal *= length > 0 ? 1 / length : Real(0);
+        } else {
+            const Real *from = x + 4L * corners[0], *toB = x + 4L * corners[1], *toC = x + 4L * corners[2];
+            const Real ux = toB[0] - from[0], uy = toB[1] - from[1], uz = toB[2] - from[2];
+            const Real vx = toC[0] - from[0], vy = toC[1] - from[1], vz = toC[2] - from[2];
+            const Real nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+            const Real length = root(nx * nx + ny * ny + nz * nz);
+            const Real inverse = length > 0 ? 1 / length : Real(0);
+            normal = Four{nx, ny, nz, 0} * inverse;
+            const Real mx = (normal[1] * y[2] - normal[2] * y[1]) * inverse,
+                       my = (normal[2] * y[0] - normal[0] * y[2]) * inverse,
+                       mz = (normal[0] * y[1] - normal[1] * y[0]) * inverse;
+            b = -(vx * mx + vy * my + vz * mz);
+            c = ux * mx + uy * my + uz * mz;
+        }
+        const Four all[4] = {normal, -(b + c) * normal, b * normal, c * normal};
+        __builtin_memcpy(batch.pulls + 16L * i, all, sizeof all);
+    }
+}
+
+}  // namespace
+
+void addCouplings(const CouplingBatch<float>& batch) {
+    addAll(batch);
+}
+void addCouplings(const CouplingBatch<double>& batch) {
+    addAll(batch);
+}
+void findSums(const SumBatch<float>& batch) {
+    findAll(batch);
+}
+void findSums(const SumBatch<double>& batch) {
+    findAll(batch);
+}
+void findPulls(const PullBatch<float>& batch) {
+    findAll(batch);
+}
+void findPulls(const PullBatch<double>& batch) {
+    findAll(batch);
+}
+
+}  // namespace taut::mechanics::TAUT_ISA

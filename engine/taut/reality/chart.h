@@ -1,0 +1,15 @@
+// The picture of a comparison, as a description that report draws.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "taut/reality/comparison.h"
+#include "taut/report/chart.h"
+
+namespace taut::reality {
+
+// Height over width of heavy cantilevers over Γ. `notes` stand at the foot.
+report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<std::string>& notes);
+
+}  // namespace taut::reality

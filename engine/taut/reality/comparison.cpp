@@ -1,0 +1,64 @@
+#include "taut/reality/comparison.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "taut/core/error.h"
+#include "taut/reality/bench.h"
+#include "taut/reality/rows.h"
+
+namespace taut::reality {
+
+std::span<const Row> rows() {
+    static const Row all[] = {
+        {"R1", "a strip droops under its own weight", false, holdCantilever},
+        {"R2", "a strip bends under a load on its end", false, holdTipLoad},
+        {"R3", "loops of one strip hang", false, holdLoops},
+        {"R4", "an upright strip falls over", false, holdStanding},
+        {"R5", "a strip is pushed together", false, holdColumn},
+        {"R6", "a strip on edge leans aside", true, holdLateral},
+        {"R7", "a rod pushed onto a plane slips", false, holdStickSlip},
+        {"R8", "a clamped strip swings", false, holdStripModes},
+        {"R9", "a hanging chain swings", false, holdChainModes},
+        {"R10", "a folded chain falls", false, holdFoldedChain},
+        {"R11", "friction holds a rope", false, holdFriction},
+        {"R15", "strips of measured fabrics droop", false, holdFabrics},
+    };
+    return all;
+}
+
+bool Comparison::passes() const {
+    return std::all_of(
+        lines.begin(), lines.end(), [](const Line& line) { return line.passes(); });
+}
+
+Comparison compare(const Settings& settings) {
+    Comparison study;
+    Bench bench(settings, study);
+    std::vector<const Row*> chosen;
+    for (const Row& row : rows()) {
+        const bool isNamed = std::find(settings.rows.begin(), settings.rows.end(), row.name) != settings.rows.end();
+        if (isNamed || (settings.rows.empty() && (settings.isLong || !row.isDear))) chosen.push_back(&row);
+    }
+    try {
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            if (settings.progress)
+                settings.progress(static_cast<double>(i) / static_cast<double>(chosen.size()), chosen[i]->title);
+            bench.begin(chosen[i]->name);
+            try {
+                chosen[i]->hold(bench);
+            } catch (const core::Error& error) {
+                if (error.kind() != core::ErrorKind::diverged) throw;
+                bench.missing(chosen[i]->title, "", std::numeric_limits<double>::quiet_NaN(), 0, settings.cells,
+                              "diverges");
+            }
+        }
+    } catch (const core::Error& error) {
+        if (error.kind() != core::ErrorKind::interrupted) throw;
+        study.isInterrupted = true;
+    }
+    if (settings.progress) settings.progress(1.0, "");
+    return study;
+}
+
+}  // namespace taut::reality

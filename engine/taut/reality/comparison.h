@@ -1,0 +1,69 @@
+// The engine held against theory and measurement, row by row: a strip's droop, its buckling, its frequencies, friction.
+// It plays scenes as `taut render` would, and knows no picture.
+#pragma once
+
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace taut::reality {
+
+class Bench;
+
+// A quantity that is known, and what the engine has for it.
+struct Line {
+    std::string row;       // "R1"
+    std::string quantity;  // "H/W at Γ = 10, warp"
+    std::string source;    // of `expected`: "heavy elastica"
+    double expected = 0, value = 0;
+    double tolerance = 0;  // of the error
+    int cells = 0;         // along the length
+    double processor = 0;  // [s] of processor time
+    double simulated = 0;  // [s]
+    std::string scene;     // that was played last, a key of Comparison::scenes; empty: none
+    std::string missing;   // why there is no value; empty: there is
+
+    double error() const { return value / expected - 1; }
+    bool passes() const { return missing.empty() && std::abs(error()) <= tolerance; }
+};
+
+struct Row {
+    std::string name, title;
+    bool isDear;  // minutes instead of seconds
+    void (*hold)(Bench&);
+};
+std::span<const Row> rows();
+
+// Height over width of heavy cantilevers, as a chart has them.
+struct DroopCurve {
+    std::string name;                               // "elastica", "10 cells", …
+    bool isOfSprings = false;                       // bending by springs across two cells
+    int cells = 0;                                  // 0: theory
+    std::vector<std::pair<double, double>> points;  // Γ, H/W
+};
+
+struct Comparison {
+    std::vector<Line> lines;
+    std::vector<std::pair<std::string, std::string>> scenes;  // name and text, in the order of playing
+    std::vector<DroopCurve> droops;                           // with settings.draws
+    bool isInterrupted = false;
+
+    bool passes() const;
+};
+
+struct Settings {
+    std::vector<std::string> rows;  // none: all
+    bool isLong = false;            // the dear ones too; those that `rows` names are always played
+    int cells = 0;                  // along the length instead of each row's own; 0: those
+    bool draws = true;              // plays what the chart shows besides
+    const std::atomic<bool>* stop = nullptr;
+    std::function<void(double done, const std::string& doing)> progress{};
+};
+
+Comparison compare(const Settings& settings = {});
+
+}  // namespace taut::reality

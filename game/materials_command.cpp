@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/command_line.h"
+#include "game/exit_code.h"
+#include "game/folders.h"
+#include "game/messages.h"
+#include "game/scene_file.h"
+#include "taut/advice/bending_cells.h"
+#include "taut/core/error.h"
+#include "taut/core/whole_file.h"
+#include "taut/fields/private/problems.h"
+#include "taut/scene/fabrics.h"
+#include "taut/scene/load.h"
+
+namespace taut::game {
+namespace {
+
+using std::filesystem::path;
+
+// The material as a scene gets it, and the title of its file.
+struct Fabric {
+    std::string title;
+    world::MaterialSpec material;
+};
+
+Fabric read(const path& file) {
+    const world::SceneSpec scene = scene::loadScene(file, loadOptions({}, false)).spec;
+    const auto found = scene.materials.find(file.stem().string());
+    if (found == scene.materials.end())
+        throw core::Error(core::ErrorKind::badContent,
+                          fmt::format("{}: error: it has no [material.{}]", file.string(), file.stem().string()));
+    return {scene.title, found->second};
+}
+
+int list(const std::vector<path>& files) {
+    printResult("{:<12} {:>6}  {:>11}  {:>14}\n", "", "weight", "bending", "cells for");
+    printResult("{:<12} {:>6}  {:>11}  {:>14}\n", "fabric:", "g/m2", "length, mm", "1 %, 10 %, mm");
+    for (const path& file : files) {
+        const Fabric fabric = read(file);
+        const world::MaterialSpec& m = fabric.material;
+        constexpr double gravity = 9.81;  // [m/s²]
+        const double warp = m.rigidity.warp.value_or(0.0), weft = m.rigidity.weft.value_or(warp);
+        const double u = world::bendingLength(warp, m.density, gravity);
+        const double v = world::bendingLength(weft, m.density, gravity);
+        const double least = std::min(u, v);
+        printResult("{:<12} {:>6.0f}  {:>11}  {:>14}  {}\n", file.stem().string(), 1e3 * m.density,
+                    fmt::format("{:.1f} x {:.1f}", 1e3 * u, 1e3 * v),
+                    fmt::format("{:.1f}, {:.1f}", 1e3 * world::cellFor(0.01, least), 1e3 * world::cellFor(0.1, least)),
+                    fabric.title);
+    }
+    printResult("\nIn a scene: material = \"fabric:denim\" of a cloth, or like = \"fabric:denim\" of a [material.NAME].\n");
+    return static_cast<int>(ExitCode::ok);
+}
+
+int show(const std::string& name, const std::vector<path>& files) {
+    const std::string stem = name.starts_with(scene::fabricPrefix)
+                                 ? name.substr(std::string_view(scene::fabricPrefix).size())
+                                 : name;
+    std::vector<std::string> known;
+    for (const path& file : files) {
+        known.push_back(file.stem().string());
+        if (known.back() != stem) continue;
+        writeResult(core::fileContent(file));
+        return static_cast<int>(ExitCode::ok);
+    }
+    const std::string meant = fields::suggestion(stem, known);
+    throw core::Error(core::ErrorKind::usage, fmt::format("there is no fabric \"{}\"; {}", stem,
+                                                          meant.empty() ? "taut materials lists them" : meant));
+}
+
+Action declareMaterials(Options& options) {
+    const auto name = std::make_shared<std::string>();
+    options.value("FABRIC", *name, "Print this one: every number with its source");
+    options.footer(
+        "The bending length is that at which stiffness and weight balance; a strip's droop is right to 1 % with cells of a\n"
+        "seventh of it. Examples:\n"
+        "  taut materials\n"
+        "  taut materials denim\n"
+        "  taut render drape --set cloth.tablecloth.material=fabric:silk -o out");
+    return [name] {
+        const std::vector<path> files = scene::fabricFiles(loadOptions({}, false).assetFolders);
+        if (files.empty())
+            throw core::Error(core::ErrorKind::inputOutput,
+                              "there are no fabrics: the folder assets/fabrics is missing beside the program");
+        return name->empty() ? list(files) : show(*name, files);
+    };
+}
+
+}  // namespace
+
+Command materialsCommand() {
+    return {"materials", "List the measured fabrics that scenes may use", declareMaterials};
+}
+
+}  // namespace taut::game

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/command_line.h"
+#include "game/exit_code.h"
+#include "game/interruption.h"
+#include "game/lab.h"
+#include "game/messages.h"
+#include "game/suggestion.h"
+#include "taut/core/error.h"
+#include "taut/core/whole_file.h"
+#include "taut/pipeline/machine.h"
+#include "taut/reality/chart.h"
+#include "taut/reality/comparison.h"
+#include "taut/reality/text.h"
+
+namespace taut::game {
+namespace {
+
+struct RealityFlags {
+    std::string output = "out/reality";
+    std::vector<std::string> rows;
+    int cells = 0;
+    bool isLong = false, list = false, quiet = false;
+};
+
+void printRows() {
+    for (const reality::Row& row : reality::rows())
+        printResult("{:<4} {}{}\n", row.name, row.title, row.isDear ? " (with --long)" : "");
+}
+
+void checkRows(const std::vector<std::string>& wanted) {
+    std::vector<std::string> names;
+    for (const reality::Row& row : reality::rows()) names.push_back(row.name);
+    for (const std::string& name : wanted)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            throw core::Error(core::ErrorKind::usage,
+                              fmt::format("there is no row '{}'; there are {}", name, fmt::join(names, ", ")));
+}
+
+int compareWithReality(const RealityFlags& flags) {
+    if (flags.list) {
+        printRows();
+        return static_cast<int>(ExitCode::ok);
+    }
+    checkRows(flags.rows);
+    const Interruption interruption;
+    const LabFolder output(flags.output, flags.quiet);
+    const reality::Comparison comparison = [&] {
+        LabProgress line("reality", flags.quiet, interruption.flag());
+        return reality::compare({.rows = flags.rows,
+                                 .isLong = flags.isLong,
+                                 .cells = flags.cells,
+                                 .stop = &interruption.flag(),
+                                 .progress = [&](double done, const std::string& doing) { line.show(done, doing); }});
+    }();
+    if (comparison.isInterrupted && comparison.lines.empty()) return output.abandon(interruption);
+    const pipeline::Machine machine = pipeline::machine();
+    const std::string note =
+        fmt::format("{}, {}, {}; {}", machine.processor, machine.compiler, machine.simd, programText(machine));
+    const std::filesystem::path folder = flags.output;
+    core::prepareFolderOf(folder / "scenes/any");
+    for (const auto& [name, text] : comparison.scenes) output.write("scenes/" + name + ".toml", text);
+    output.write("reality.csv", reality::csv(comparison));
+    printResult("{}", reality::summary(comparison));
+    std::string svg;
+    if (!comparison.droops.empty()) {
+        output.write("cantilever.csv", reality::droopsCsv(comparison));
+        output.draw("cantilever", reality::droopChart(comparison.droops, {note}));
+        if (std::filesystem::exists(folder / "cantilever.svg")) svg = core::fileContent(folder / "cantilever.svg");
+    }
+    output.write("reality.html", reality::page(comparison, svg, note));
+    const int code = output.finish(interruption);
+    return code == 0 && !comparison.passes() ? static_cast<int>(ExitCode::checkFailed) : code;
+}
+
+Action declareReality(Options& options) {
+    const auto flags = std::make_shared<RealityFlags>();
+    options.value("-o,--output", flags->output, "The folder for the page, the chart, CSV and the scenes")
+        .typeName("FOLDER");
+    options.value("--only", flags->rows, "Only these rows, separated by commas")
+        .separatedBy(',')
+        .oneValue()
+        .typeName("R1,R4");
+    options.flag("--long", flags->isLong, "The rows that take minutes too");
+    options.value("--cells", flags->cells, "So many cells along the length, instead of each row's own").within(3, 1000);
+    options.flag("--list", flags->list, "List the rows");
+    options.flag("--quiet", flags->quiet, "No progress");
+    options.footer(
+        "The exit code is 1 where a quantity is beyond its tolerance.\n"
+        "Examples:\n"
+        "  taut reality\n"
+        "  taut reality --only R1,R8 -o out/strips\n"
+        "  taut reality --only R1 --cells 5");
+    return [flags] { return compareWithReality(*flags); };
+}
+
+}  // namespace
+
+Command realityCommand() {
+    return {"reality", "Hold the engine against theory and measurement", declareReality};
+}
+
+}  // namespace taut::game

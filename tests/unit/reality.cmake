@@ -1,0 +1,4 @@
+list(APPEND TAUT_UNIT_TESTS
+  reality_command_test.cpp
+  reality_elastica_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::reality taut::game)

@@ -1,4 +1,4 @@
-// Blocks pressed flat or turned inside out: they come back. ContactAcceleration to a line they do not, and that is
+// Blocks pressed flat or turned inside out: they come back. Pressed to a line they do not, and that is
 // told.
 #include <gtest/gtest.h>
 

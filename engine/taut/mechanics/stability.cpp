@@ -99,11 +99,20 @@ void addSpring(std::vector<Matrix>& sum, const Spring& spring, double factor, st
 // cause.
 using PressureCouplings = std::map<std::pair<int, int>, glm::dvec3>;
 
-// Adds `factor` times the cell's stiffness at its corners.
-void addCell(std::vector<Matrix>& sum, const VolumeCell& cell, double factor, const CellCorners& p) {
-    const CellCorners g = gradientsOf(p);
-    for (std::size_t c = 0; c < p.size(); ++c)
-        addOuter(sum[static_cast<std::size_t>(cell.points[c])], factor * cell.bulkModulus / cell.restVolume, g[c]);
+// Adds the stiffness of the cell and of its folds at their corners, each times the sum of `weights` (points; empty: 1)
+// of its corners.
+void addCell(std::vector<Matrix>& sum, const VolumeCell& cell, std::span<const double> weights, const CellCorners& p) {
+    const auto add = [&](const auto& corners, const auto& gradients, double volume) {
+        double weight = weights.empty() ? 1.0 : 0.0;
+        if (!weights.empty())
+            for (std::size_t c : corners) weight += weights[static_cast<std::size_t>(cell.points[c])];
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            addOuter(sum[static_cast<std::size_t>(cell.points[corners[k]])], weight * cell.bulkModulus / volume,
+                     gradients[k]);
+    };
+    add(cellCorners, gradientsOf(p), cell.restVolume);
+    forEachFold(p, cell.restVolume,
+                [&](const Fold& fold) { add(fold.corners, fold.gradients, cell.restVolume / 6.0); });
 }
 
 void addPressure(PressureCouplings& pressed, const VolumeCell& cell, const CellCorners& p) {
@@ -112,6 +121,12 @@ void addPressure(PressureCouplings& pressed, const VolumeCell& cell, const CellC
         const int a = cell.points[pair.i], b = cell.points[pair.j];
         pressed.try_emplace(std::minmax(a, b), 0.0).first->second += (a < b ? pressure : -pressure) * pair.coupling(p);
     }
+    forEachFold(p, cell.restVolume, [&](const Fold& fold) {
+        for (const auto& [i, j, h] : couplingsOf(fold, p)) {
+            const int a = cell.points[i], b = cell.points[j];
+            pressed.try_emplace(std::minmax(a, b), 0.0).first->second += (a < b ? 1.0 : -1.0) * cell.bulkModulus * h;
+        }
+    });
 }
 
 double largestRow(const NetworkView& network, const PressureCouplings& pressed) {
@@ -125,14 +140,16 @@ double largestRow(const NetworkView& network, const PressureCouplings& pressed) 
     return rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
 }
 
-// Σ_e T_e K_e at the points. T (elements: springs, then cells) are factors of their stiffness. `loose` (springs; may be
-// empty): springs that count with all their stiffness in every direction.
+// Σ_e T_e K_e at the points, T_e the sum of `weights` (points; empty: 1) over the points of the element e. `loose`
+// (springs; may be empty): springs that count with all their stiffness in every direction.
 std::vector<Matrix> stiffnessAtPoints(const NetworkView& network, std::span<const glm::dvec3> positions,
-                                      const std::vector<bool>& loose, const std::vector<double>& factors) {
+                                      const std::vector<bool>& loose, std::span<const double> weights) {
     std::vector<Matrix> sum(network.inverseMasses.size(), Matrix{});
     for (std::size_t s = 0; s < network.springs.size(); ++s) {
         const Spring& spring = network.springs[s];
-        const double factor = factors.empty() ? 1.0 : factors[s];
+        const double factor =
+            weights.empty() ? 1.0
+                            : weights[static_cast<std::size_t>(spring.a)] + weights[static_cast<std::size_t>(spring.b)];
         if (loose.empty() || !loose[s]) {
             addSpring(sum, spring, factor, positions);
         } else {
@@ -140,9 +157,7 @@ std::vector<Matrix> stiffnessAtPoints(const NetworkView& network, std::span<cons
             addToAll(sum[static_cast<std::size_t>(spring.b)], factor * spring.stiffness);
         }
     }
-    for (std::size_t c = 0; c < network.cells.size(); ++c)
-        addCell(sum, network.cells[c], factors.empty() ? 1.0 : factors[network.springs.size() + c],
-                cornersOf(network.cells[c], positions));
+    for (const VolumeCell& cell : network.cells) addCell(sum, cell, weights, cornersOf(cell, positions));
     return sum;
 }
 
@@ -161,14 +176,7 @@ FrequencyBound secondBound(const NetworkView& network, std::span<const double> e
     FrequencyBound bound = overElements(network, a, more);
     if (network.cells.empty()) return bound;
 
-    std::vector<double> factors;
-    for (const Spring& spring : network.springs)
-        factors.push_back(a[static_cast<std::size_t>(spring.a)] + a[static_cast<std::size_t>(spring.b)]);
-    for (const VolumeCell& cell : network.cells) {
-        factors.push_back(0.0);
-        for (int i : cell.points) factors.back() += a[static_cast<std::size_t>(i)];
-    }
-    const std::vector<double> b = rates(stiffnessAtPoints(network, positions, loose, factors));
+    const std::vector<double> b = rates(stiffnessAtPoints(network, positions, loose, a));
     double largest = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
         if (a[i] > 0) largest = std::max(largest, b[i] / a[i]);

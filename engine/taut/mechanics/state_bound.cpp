@@ -192,23 +192,27 @@ template <class Real>
 void StateBound<Real>::sumCells(const Real* weights) {
     for (std::size_t number = 0; number < cells_.size(); ++number) {
         const VolumeCell& cell = cells_[number];
-        const CellCorners& g = looks_[number].gradients;
-        double factor = cell.bulkModulus / cell.restVolume;
-        if (weights != nullptr) {
-            double weight = 0;
-            for (int i : cell.points) weight += static_cast<double>(weights[i]);
-            factor *= weight;
-        }
-        for (std::size_t c = 0; c < g.size(); ++c) {
-            const int i = cell.points[c];
-            const glm::dvec3 n = g[c], f = factor * n;
-            plane(0)[i] += static_cast<Real>(f.x * n.x);
-            plane(1)[i] += static_cast<Real>(f.x * n.y);
-            plane(2)[i] += static_cast<Real>(f.x * n.z);
-            plane(3)[i] += static_cast<Real>(f.y * n.y);
-            plane(4)[i] += static_cast<Real>(f.y * n.z);
-            plane(5)[i] += static_cast<Real>(f.z * n.z);
-        }
+        const auto add = [&](const auto& corners, const auto& gradients, double volume) {
+            double factor = cell.bulkModulus / volume;
+            if (weights != nullptr) {
+                double weight = 0;
+                for (std::size_t c : corners) weight += static_cast<double>(weights[cell.points[c]]);
+                factor *= weight;
+            }
+            for (std::size_t c = 0; c < corners.size(); ++c) {
+                const int i = cell.points[corners[c]];
+                const glm::dvec3 n = gradients[c], f = factor * n;
+                plane(0)[i] += static_cast<Real>(f.x * n.x);
+                plane(1)[i] += static_cast<Real>(f.x * n.y);
+                plane(2)[i] += static_cast<Real>(f.x * n.z);
+                plane(3)[i] += static_cast<Real>(f.y * n.y);
+                plane(4)[i] += static_cast<Real>(f.y * n.z);
+                plane(5)[i] += static_cast<Real>(f.z * n.z);
+            }
+        };
+        add(cellCorners, looks_[number].gradients, cell.restVolume);
+        forEachFold(looks_[number].corners, cell.restVolume,
+                    [&](const Fold& fold) { add(fold.corners, fold.gradients, cell.restVolume / 6.0); });
     }
 }
 
@@ -277,16 +281,20 @@ double StateBound<Real>::largestRow(const Real* inverseMass) {
                 (cell.points[pair.i] < cell.points[pair.j] ? pressure : -pressure) * pair.coupling(p);
         }
     }
-    double largest = 0;
-    for (std::size_t e = 0; e < pairs_.size(); ++e) {
-        const auto a = static_cast<std::size_t>(pairs_[e].a), b = static_cast<std::size_t>(pairs_[e].b);
-        const double entry = std::sqrt(static_cast<double>(inverseMass[a]) * static_cast<double>(inverseMass[b]) *
-                                       glm::dot(pressed_[e], pressed_[e]));
+    const auto add = [&](int i, int j, const glm::dvec3& h) {
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+        const double entry =
+            std::sqrt(static_cast<double>(inverseMass[a]) * static_cast<double>(inverseMass[b]) * glm::dot(h, h));
         rows_[a] += entry;
         rows_[b] += entry;
-        largest = std::max({largest, rows_[a], rows_[b]});
-    }
-    return largest;
+    };
+    for (std::size_t e = 0; e < pairs_.size(); ++e) add(pairs_[e].a, pairs_[e].b, pressed_[e]);
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        forEachFold(looks_[c].corners, cells_[c].restVolume, [&](const Fold& fold) {
+            for (const auto& [i, j, h] : couplingsOf(fold, looks_[c].corners))
+                add(cells_[c].points[i], cells_[c].points[j], cells_[c].bulkModulus * h);
+        });
+    return rows_.empty() ? 0.0 : *std::max_element(rows_.begin(), rows_.end());
 }
 
 // If all springs have the same damping time, C is at most that time times their K.

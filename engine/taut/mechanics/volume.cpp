@@ -119,8 +119,7 @@ double VolumePreservation<Real>::potentialEnergy(const Motion<Real>& motion, con
     for (const VolumeCell& cell : cells_) {
         const auto isLeftOut = [&](int point) { return !only.empty() && !only[static_cast<std::size_t>(point)]; };
         if (std::any_of(cell.points.begin(), cell.points.end(), isLeftOut)) continue;
-        const double change = volumeOf(cornersOf(cell, motion.x, motion.stride)) / cell.restVolume - 1.0;
-        energy += 0.5 * cell.bulkModulus * cell.restVolume * change * change;
+        energy += volumeEnergy(cell, cornersOf(cell, motion.x, motion.stride));
     }
     return energy;
 }
@@ -135,47 +134,69 @@ void VolumePreservation<Real>::addStiffnessProduct(const Motion<Real>& motion, c
         double along = 0;
         for (std::size_t c = 0; c < 8; ++c) along += glm::dot(g[c], w[c]) / cell.restVolume;
         const Corners h = gradientsChange(p, w);
-        for (std::size_t c = 0; c < 8; ++c) {
-            const dvec3 product = cell.bulkModulus * (along * g[c] + change * h[c]);
+        Corners product;
+        for (std::size_t c = 0; c < 8; ++c) product[c] = along * g[c] + change * h[c];
+        forEachFold(p, cell.restVolume, [&](const Fold& fold) {
+            const auto [at, a, b, c] = fold.corners;
+            double rise = 0;
+            for (std::size_t i = 0; i < 4; ++i)
+                rise += 6.0 / cell.restVolume * glm::dot(fold.gradients[i], w[fold.corners[i]]);
+            const dvec3 ofA = p[a] - p[at], ofB = p[b] - p[at], ofC = p[c] - p[at];
+            const dvec3 wA = w[a] - w[at], wB = w[b] - w[at], wC = w[c] - w[at];
+            const dvec3 hA = (glm::cross(wB, ofC) + glm::cross(ofB, wC)) / 6.0,
+                        hB = (glm::cross(wC, ofA) + glm::cross(ofC, wA)) / 6.0,
+                        hC = (glm::cross(wA, ofB) + glm::cross(ofA, wB)) / 6.0;
+            const std::array<dvec3, 4> changes{-(hA + hB + hC), hA, hB, hC};
+            for (std::size_t i = 0; i < 4; ++i)
+                product[fold.corners[i]] += rise * fold.gradients[i] + fold.ratio * changes[i];
+        });
+        for (std::size_t c = 0; c < 8; ++c)
             for (int axis = 0; axis < 3; ++axis)
-                out[axis * stride + cell.points[c]] += static_cast<Real>(product[axis]);
-        }
+                out[axis * stride + cell.points[c]] += static_cast<Real>(cell.bulkModulus * product[c][axis]);
     }
 }
 
 template <class Real>
 void VolumePreservation<Real>::linearise(const Motion<Real>& motion, double stiffness, double) {
-    slopes_.resize(cells_.size());
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        const Corners g = gradientsOf(cornersOf(cells_[c], motion.x, motion.stride));
-        const double root = std::sqrt(stiffness * cells_[c].bulkModulus / cells_[c].restVolume);
-        for (std::size_t i = 0; i < 8; ++i)
-            for (int axis = 0; axis < 3; ++axis)
-                slopes_[c][3 * i + static_cast<std::size_t>(axis)] = static_cast<Real>(root * g[i][axis]);
+    slopes_.clear();
+    const auto add = [&](const VolumeCell& cell, double volume, auto corners, auto gradients) {
+        Slope slope{{}, corners.size(), {}};
+        const double root = std::sqrt(stiffness * cell.bulkModulus / volume);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            slope.points[i] = cell.points[corners[i]];
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                slope.of[3 * i + axis] = static_cast<Real>(root * gradients[i][static_cast<int>(axis)]);
+        }
+        slopes_.push_back(slope);
+    };
+    for (const VolumeCell& cell : cells_) {
+        const Corners p = cornersOf(cell, motion.x, motion.stride);
+        add(cell, cell.restVolume, cellCorners, gradientsOf(p));
+        forEachFold(p, cell.restVolume,
+                    [&](const Fold& fold) { add(cell, cell.restVolume / 6.0, fold.corners, fold.gradients); });
     }
 }
 
 template <class Real>
 void VolumePreservation<Real>::addProduct(int stride, const Real* u, Real* out) const {
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        const std::array<Real, 24>& slope = slopes_[c];
+    for (const Slope& slope : slopes_) {
         Real along = 0;
-        for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t i = 0; i < slope.count; ++i)
             for (int axis = 0; axis < 3; ++axis)
-                along += slope[3 * i + static_cast<std::size_t>(axis)] * u[axis * stride + cells_[c].points[i]];
-        for (std::size_t i = 0; i < 8; ++i)
+                along += slope.of[3 * i + static_cast<std::size_t>(axis)] * u[axis * stride + slope.points[i]];
+        for (std::size_t i = 0; i < slope.count; ++i)
             for (int axis = 0; axis < 3; ++axis)
-                out[axis * stride + cells_[c].points[i]] += along * slope[3 * i + static_cast<std::size_t>(axis)];
+                out[axis * stride + slope.points[i]] += along * slope.of[3 * i + static_cast<std::size_t>(axis)];
     }
 }
 
 template <class Real>
 void VolumePreservation<Real>::addDiagonal(int stride, Real* out) const {
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-        for (std::size_t i = 0; i < 8; ++i)
+    for (const Slope& slope : slopes_)
+        for (std::size_t i = 0; i < slope.count; ++i)
             for (int axis = 0; axis < 3; ++axis) {
-                const Real slope = slopes_[c][3 * i + static_cast<std::size_t>(axis)];
-                out[axis * stride + cells_[c].points[i]] += slope * slope;
+                const Real of = slope.of[3 * i + static_cast<std::size_t>(axis)];
+                out[axis * stride + slope.points[i]] += of * of;
             }
 }
 

@@ -14,10 +14,11 @@ struct Corners {
     const Real* of[8][3];
 };
 
-// The forces on the corners.
+// The forces on the corners, and the least volume of a tetrahedron of the cell.
 template <class Real>
 struct Forces {
     alignas(64) Real of[8][3][kernelBlock];  // [N]
+    alignas(64) Real leastSixfold[kernelBlock];
 };
 
 template <class Real>
@@ -60,8 +61,8 @@ inline void store(const Triple<Real>& u, int l, Real (&of)[3][kernelBlock]) {
 // Each of a, a', b, b', c, c' ends at corner 0 or 7, and at one of the others. So the derivatives by them are the
 // forces on the others, and their sums those on 0 and 7.
 template <class Real>
-inline void findForces(const Corners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold, int count,
-                       Forces<Real>& forces) {
+inline void findPressure(const Corners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold,
+                         int count, Forces<Real>& forces) {
     TAUT_INDEPENDENT
     for (int l = 0; l < count; ++l) {
         const Triple<Real> p0 = at(x.of[0], l), p7 = at(x.of[7], l);
@@ -85,6 +86,59 @@ inline void findForces(const Corners<Real>& x, const Real* twelfthOfBulk, const 
         store(f6, l, forces.of[6]);
         store(f1 + f2 + f4, l, forces.of[7]);
     }
+}
+
+// The corners around the diagonal from 0 to 7: with it, two that are next to each other make a tetrahedron.
+constexpr int around[7] = {1, 3, 2, 6, 4, 5, 1};
+
+template <class Real>
+inline void findLeast(const Corners<Real>& x, int count, Forces<Real>& forces) {
+    TAUT_INDEPENDENT
+    for (int l = 0; l < count; ++l) {
+        const Triple<Real> p0 = at(x.of[0], l), d = at(x.of[7], l) - p0;
+        const Triple<Real> q1 = at(x.of[1], l) - p0, q3 = at(x.of[3], l) - p0, q2 = at(x.of[2], l) - p0,
+                           q6 = at(x.of[6], l) - p0, q4 = at(x.of[4], l) - p0, q5 = at(x.of[5], l) - p0;
+        // d·(q_i × q_k) = q_k·(d × q_i)
+        const Triple<Real> n1 = cross(d, q1), n2 = cross(d, q2), n4 = cross(d, q4);
+        const Real v13 = dot(q3, n1), v51 = Real(0) - dot(q5, n1), v32 = Real(0) - dot(q3, n2), v26 = dot(q6, n2),
+                   v64 = Real(0) - dot(q6, n4), v45 = dot(q5, n4);
+        Real least = v13 < v51 ? v13 : v51;
+        least = v32 < least ? v32 : least;
+        least = v26 < least ? v26 : least;
+        least = v64 < least ? v64 : least;
+        forces.leastSixfold[l] = v45 < least ? v45 : least;
+    }
+}
+
+// F_i = -K (V_t/V0_t) ∂V_t/∂p_i of each tetrahedron of the cell in lane l that is turned inside out.
+template <class Real>
+inline void addFolds(const Corners<Real>& x, Real twelfthOfBulk, Real inverseRestTwelvefold, int l,
+                     Forces<Real>& forces) {
+    const Triple<Real> p0 = at(x.of[0], l), d = at(x.of[7], l) - p0;
+    for (int k = 0; k < 6; ++k) {
+        const int i = around[k], j = around[k + 1];
+        const Triple<Real> a = at(x.of[i], l) - p0, b = at(x.of[j], l) - p0, ab = cross(a, b);
+        const Real sixfold = dot(d, ab);
+        if (!(sixfold < Real(0))) continue;
+        const Real push = Real(-24) * twelfthOfBulk * sixfold * inverseRestTwelvefold;  // -K/6 · V_t/V0_t
+        const Triple<Real> fa = push * cross(b, d), fb = push * cross(d, a), fd = push * ab, f0 = fa + fb + fd;
+        const auto add = [&](const Triple<Real>& f, Real(&of)[3][kernelBlock]) {
+            store(Triple<Real>{of[0][l], of[1][l], of[2][l]} + f, l, of);
+        };
+        add(fa, forces.of[i]);
+        add(fb, forces.of[j]);
+        add(fd, forces.of[7]);
+        add(Triple<Real>{Real(0), Real(0), Real(0)} - f0, forces.of[0]);
+    }
+}
+
+template <class Real>
+inline void findForces(const Corners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold, int count,
+                       Forces<Real>& forces) {
+    findPressure(x, twelfthOfBulk, inverseRestTwelvefold, count, forces);
+    findLeast(x, count, forces);
+    for (int l = 0; l < count; ++l)
+        if (forces.leastSixfold[l] < Real(0)) addFolds(x, twelfthOfBulk[l], inverseRestTwelvefold[l], l, forces);
 }
 
 template <class Real>

@@ -116,9 +116,7 @@ class ContactWatch {
     double cellEnergy(const mechanics::VolumeCell& cell, int point, const Planes& places) const {
         for (int corner : cell.points)
             if (corner != point && isCounted_[static_cast<std::size_t>(corner)]) return 0.0;
-        const double change =
-            mechanics::volumeOf(mechanics::cornersOf(cell, places.data(), planar_.stride)) / cell.restVolume - 1.0;
-        return 0.5 * cell.bulkModulus * cell.restVolume * change * change;
+        return mechanics::volumeEnergy(cell, mechanics::cornersOf(cell, places.data(), planar_.stride));
     }
 
     Planar<Real> planar_;

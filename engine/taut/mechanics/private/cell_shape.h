@@ -17,6 +17,7 @@
 namespace taut::mechanics {
 
 using CellCorners = std::array<glm::dvec3, 8>;  // [m]
+inline constexpr std::array<std::size_t, 8> cellCorners{0, 1, 2, 3, 4, 5, 6, 7};
 
 // The corners of a cell, from planes of points.
 template <class Real>
@@ -99,5 +100,48 @@ inline constexpr std::array<CellPair, 24> cellPairs = [] {
         if (pair.i > pair.j) pair = {pair.j, pair.i, pair.l, pair.k, pair.share};
     return pairs;
 }();
+
+// A tetrahedron of cellTetrahedra that is turned inside out. A cell can have such ones though its own volume is right.
+struct Fold {
+    std::array<std::size_t, 4> corners;   // of the cell
+    double ratio;                         // V/V0 < 0 of the tetrahedron
+    std::array<glm::dvec3, 4> gradients;  // ∂V/∂p of the tetrahedron [m²]
+};
+
+// Calls visit(fold) for each fold of a cell whose volume at rest is restVolume [m³].
+template <class Visit>
+void forEachFold(const CellCorners& p, double restVolume, Visit visit) {
+    for (const auto& t : cellTetrahedra) {
+        const glm::dvec3 a = p[t[1]] - p[t[0]], b = p[t[2]] - p[t[0]], c = p[t[3]] - p[t[0]];
+        const double sixfold = glm::dot(a, glm::cross(b, c));
+        if (sixfold >= 0.0) continue;
+        const glm::dvec3 ofA = glm::cross(b, c) / 6.0, ofB = glm::cross(c, a) / 6.0, ofC = glm::cross(a, b) / 6.0;
+        visit(Fold{t, sixfold / restVolume, {-(ofA + ofB + ofC), ofA, ofB, ofC}});
+    }
+}
+
+// Pairs of a cell's corners that a fold couples: the part K h × u of (∂²E/∂p_i∂p_j) u.
+struct FoldCoupling {
+    std::size_t i, j;
+    glm::dvec3 h;  // [m]
+};
+inline std::array<FoldCoupling, 6> couplingsOf(const Fold& fold, const CellCorners& p) {
+    const auto [a, b, c, d] = fold.corners;
+    const auto between = [&](std::size_t k, std::size_t l) { return fold.ratio / 6.0 * (p[k] - p[l]); };
+    return {{{a, b, between(c, d)},
+             {a, c, between(d, b)},
+             {a, d, between(b, c)},
+             {b, c, between(a, d)},
+             {b, d, between(c, a)},
+             {c, d, between(a, b)}}};
+}
+
+// The energy [J] of a cell, as volume.h has it.
+inline double volumeEnergy(const VolumeCell& cell, const CellCorners& p) {
+    const double change = volumeOf(p) / cell.restVolume - 1.0;
+    double squares = change * change;
+    forEachFold(p, cell.restVolume, [&](const Fold& fold) { squares += fold.ratio * fold.ratio / 6.0; });
+    return 0.5 * cell.bulkModulus * cell.restVolume * squares;
+}
 
 }  // namespace taut::mechanics

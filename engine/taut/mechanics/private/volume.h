@@ -4,7 +4,9 @@
 // The lengths of its springs cannot tell a cell from its mirror image; V can:
 //   E = ½ K V0 (V/V0 - 1)²,   F_i = -K (V/V0 - 1) ∂V/∂p_i.
 // A cell has one pressure, by the mean of its dilatation: with one for each of its tetrahedra a block is too stiff when
-// it bends (locking), the more the larger K is. The springs alone resist what leaves V as it is.
+// it bends (locking), the more the larger K is. The springs resist what leaves V as it is. They cannot tell a fold, so
+// each of the six tetrahedra (cellTetrahedra) that is turned inside out resists by itself, from V_t = 0 on:
+//   E = ½ K V0_t (V_t/V0_t)² while V_t < 0,   V0_t = V0/6.
 // If a cell collapses to a line or a point, ∂V vanishes and nothing brings it back. inspect() reports that.
 #pragma once
 
@@ -47,7 +49,7 @@ class VolumePreservation final : public ForceGenerator<Real> {
     double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;
     // The exact product. It is indefinite where a cell is compressed.
     void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
-    // (K/V0) g gᵀ of each cell, g = ∂V/∂p: the part that is never negative.
+    // (K/V0) g gᵀ of each cell and fold, g = ∂V/∂p: the part that is never negative.
     void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
     void addProduct(int stride, const Real* u, Real* out) const override;
     void addDiagonal(int stride, Real* out) const override;
@@ -66,7 +68,12 @@ class VolumePreservation final : public ForceGenerator<Real> {
     core::AlignedArray<Real> twelfthOfBulk_, inverseRestTwelvefold_;  // (lanes)
     mutable core::AlignedArray<Real> packed_;                         // scratch of the kernel
     void (*addBatch_)(const VolumeBatch<Real>&);
-    std::vector<std::array<Real, 24>> slopes_;  // (cells) √(s K/V0) g, corner by corner
+    struct Slope {
+        std::array<int, 8> points;
+        std::size_t count;        // of points: 8 of a cell, 4 of a fold
+        std::array<Real, 24> of;  // √(s K/V0) g, point by point
+    };
+    std::vector<Slope> slopes_;  // of the cells and of their folds as linearise() found them
 };
 
 extern template class VolumePreservation<float>;

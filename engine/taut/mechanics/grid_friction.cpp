@@ -60,8 +60,8 @@ GridFriction<Real>::GridFriction(BendingFriction friction, std::span<const int> 
       sliders_(sliders),
       turn_(std::move(turn)),
       places_(3 * points_.size()),
-      sums_(points_.size()),
       pulls_(12 * (points_.size() + 2 * static_cast<std::size_t>(friction.stuck.columns))) {
+    for (std::size_t i = 1; i < points_.size(); ++i) isInOrder_ = isInOrder_ && points_[i] == points_[i - 1] + 1;
     set(std::move(friction));
 }
 
@@ -79,8 +79,12 @@ void GridFriction<Real>::set(BendingFriction friction) {
     mostAcross_ = static_cast<Real>(friction_.yield * friction_.cell.y * friction_.cell.y);
 }
 
+// Points that follow each other are read where they are.
 template <class Real>
 void GridFriction<Real>::gather(const Motion<Real>& motion) const {
+    x_ = {motion.x + points_.front(), motion.stride};
+    if (isInOrder_) return;
+    x_ = {places_.data(), size()};
     for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
         const Real* from = motion.x + axis * motion.stride;
         Real* to = places_.data() + axis * size();
@@ -111,8 +115,8 @@ void GridFriction<Real>::forEachPart(const Each& each) const {
 
 // Differences of edges, not of places, so that single precision loses as little as possible.
 template <class Real>
-auto GridFriction<Real>::foldAt(const Part& part, int i) const -> Fold {
-    const Real *x = places_.data() + i, *y = x + size(), *z = y + size();
+[[gnu::always_inline]] inline auto GridFriction<Real>::foldAt(const Part& part, int i) const -> Fold {
+    const Real *x = x_.of + i, *y = x + x_.stride, *z = y + x_.stride;
     const auto edge = [&](int to) {
         return typename Fold::Vector(x[to] - x[0], y[to] - y[0], z[to] - z[0]);
     };
@@ -134,11 +138,15 @@ void GridFriction<Real>::slide(const Motion<Real>& motion) {
     gather(motion);
     forEachPart([&](const Part& part) {
         Real *along = sliders_.data(), *across = along + size();
+        const Real *stiffU = along_.data(), *stiffV = across_.data();
+        const Real mostU = mostAlong_, mostV = mostAcross_;
         TAUT_INDEPENDENT
         for (int i = part.first; i < part.last; ++i) {
             const Fold fold = foldAt(part, i);
-            along[i] = along_[i] == 0 ? along[i] : slid(mostAlong_, fold.along, along[i]);
-            across[i] = across_[i] == 0 ? across[i] : slid(mostAcross_, fold.across, across[i]);
+            const Real u = along[i], v = across[i];
+            const Real nextU = slid(mostU, fold.along, u), nextV = slid(mostV, fold.across, v);
+            along[i] = stiffU[i] == 0 ? u : nextU;
+            across[i] = stiffV[i] == 0 ? v : nextV;
         }
     });
     for (const Bending::Clamp& clamp : friction_.stuck.clamps) {
@@ -155,27 +163,31 @@ void GridFriction<Real>::slide(const Motion<Real>& motion) {
 template <class Real>
 void GridFriction<Real>::findPulls(const Part& part) const {
     const Real *along = sliders_.data(), *across = along + size();
-    Real* to[4][3];
-    for (int which = 0; which < 4; ++which)
-        for (int axis = 0; axis < 3; ++axis) to[which][axis] = pullsOn(which, axis);
+    const Real *stiffU = along_.data(), *stiffV = across_.data();
+    const Real mostU = mostAlong_, mostV = mostAcross_;
+    Real* const pulls = pullsOn(0, 0);
+    const std::ptrdiff_t plane = pullsOn(0, 1) - pulls;
     const Real p = part.left != 0 ? Real(1) : Real(0), r = part.right != 0 ? Real(1) : Real(0),
                q = part.up != 0 ? Real(1) : Real(0), s = part.down != 0 ? Real(1) : Real(0);
     TAUT_INDEPENDENT
     for (int i = part.first; i < part.last; ++i) {
         const Fold fold = foldAt(part, i);
-        const Real alongMoment = along_[i] * within(mostAlong_, fold.along - along[i]),
-                   acrossMoment = across_[i] * within(mostAcross_, fold.across - across[i]);
+        const Real alongMoment = stiffU[i] * within(mostU, fold.along - along[i]),
+                   acrossMoment = stiffV[i] * within(mostV, fold.across - across[i]);
         const auto turning = fold.inverse * (alongMoment * fold.d + acrossMoment * fold.e -
                                              fold.share * (alongMoment * fold.along + acrossMoment * fold.across) *
                                                  fold.normal);
         const auto onU = glm::cross(fold.w, turning), onW = glm::cross(turning, fold.u);
         const auto onD = alongMoment * fold.normal, onE = acrossMoment * fold.normal;
-        for (int axis = 0; axis < 3; ++axis) {
-            to[0][axis][i] = p * (onD[axis] - onU[axis]);
-            to[1][axis][i] = r * (onD[axis] + onU[axis]);
-            to[2][axis][i] = q * (onE[axis] - onW[axis]);
-            to[3][axis][i] = s * (onE[axis] + onW[axis]);
-        }
+        const auto put = [&](int which, const typename Fold::Vector& pull) {
+            pulls[3 * which * plane + i] = pull.x;
+            pulls[(3 * which + 1) * plane + i] = pull.y;
+            pulls[(3 * which + 2) * plane + i] = pull.z;
+        };
+        put(0, p * (onD - onU));
+        put(1, r * (onD + onU));
+        put(2, q * (onE - onW));
+        put(3, s * (onE + onW));
     }
 }
 
@@ -186,11 +198,17 @@ void GridFriction<Real>::addPulls(const Part& part, int stride, Real* f) const {
     const int n = friction_.stuck.columns;
     for (int axis = 0; axis < 3; ++axis) {
         const Real *p = pullsOn(0, axis), *r = pullsOn(1, axis), *q = pullsOn(2, axis), *s = pullsOn(3, axis);
-        Real *sums = sums_.data(), *to = f + static_cast<std::ptrdiff_t>(axis) * stride;
+        Real* to = f + static_cast<std::ptrdiff_t>(axis) * stride;
+        const auto sum = [&](int i) {
+            return ((p[i] - p[i + 1]) + (r[i] - r[i - 1])) + ((q[i] - q[i + n]) + (s[i] - s[i - n]));
+        };
+        if (!isInOrder_) {
+            for (int i = part.first; i < part.last; ++i) to[points_[i]] += sum(i);
+            continue;
+        }
+        to += points_.front();
         TAUT_INDEPENDENT
-        for (int i = part.first; i < part.last; ++i)
-            sums[i] = ((p[i] - p[i + 1]) + (r[i] - r[i - 1])) + ((q[i] - q[i + n]) + (s[i] - s[i - n]));
-        for (int i = part.first; i < part.last; ++i) to[points_[i]] += sums[i];
+        for (int i = part.first; i < part.last; ++i) to[i] += sum(i);
     }
 }
 

@@ -70,6 +70,11 @@ class GridFriction final : public ForceGenerator<Real> {
         Real least;  // [m²] of |u × w|
     };
     struct Fold;
+    // Places of the grid's points, in planes `stride` apart.
+    struct Planes {
+        const Real* of;
+        int stride;
+    };
 
     // The slider of a clamp, and the fold at which it slips [m].
     struct Slot {
@@ -101,8 +106,10 @@ class GridFriction final : public ForceGenerator<Real> {
     Turn turn_;
     core::AlignedArray<Real> along_, across_;        // (points) [N/m]
     Real mostAlong_ = 0, mostAcross_ = 0;            // [m] yield a², yield b²
-    mutable core::AlignedArray<Real> places_, sums_;  // (3 · points), (points) scratch
-    mutable core::AlignedArray<Real> pulls_;          // (12 planes) scratch, each with a row of 0 around
+    bool isInOrder_ = true;                   // the points follow each other in the island
+    mutable Planes x_{};                      // of the present call
+    mutable core::AlignedArray<Real> places_;  // (3 · points) scratch
+    mutable core::AlignedArray<Real> pulls_;   // (12 planes) scratch, each with a row of 0 around
 };
 
 extern template class GridFriction<float>;

@@ -101,6 +101,8 @@ TEST(SceneFields, MaterialLandsInItsMembers) {
     EXPECT_EQ(silk.rigidity.warp, 3e-6);
     EXPECT_EQ(silk.rigidity.weft, 2e-6);
     EXPECT_EQ(silk.rigidity.bias, 1e-6);
+    EXPECT_EQ(silk.friction.hysteresis, 4e-4);
+    EXPECT_EQ(silk.friction.yield, 5.5);
     EXPECT_EQ(silk.dampingTime, 2e-4);
     EXPECT_EQ(silk.drag, 0.4);
     EXPECT_EQ(silk.lumping, mechanics::Lumping::uniform);
@@ -153,7 +155,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 64);
+    EXPECT_EQ(flag.source.line, 66);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 
@@ -237,7 +239,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 125);
+    EXPECT_EQ(net.points[1].source.line, 127);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");

@@ -23,8 +23,10 @@ constexpr double rubbingAcross = 0.02, rubbingDown = 0.03;  // [m]
 
 // M_y = 1e-3 N at 5 /m.
 BendingFriction rubbing() {
-    return {gridBending(rubbingColumns, rubbingRows, {2e-4, 2e-4, 0, 0}, rubbingAcross, rubbingDown), 5.0,
-            {rubbingAcross, rubbingDown}, {0, 0, -1}};
+    return {gridBending(rubbingColumns, rubbingRows, {2e-4, 2e-4, 0, 0}, rubbingAcross, rubbingDown),
+            5.0,
+            {rubbingAcross, rubbingDown},
+            {0, 0, -1}};
 }
 
 std::vector<int> rubbingPoints() {
@@ -110,7 +112,8 @@ TEST(GridFriction, SlidingChangesNoForceAndIsDoneAtOnce) {
     EXPECT_GT(*std::max_element(sliders.begin(), sliders.end()), 0);
 }
 
-// A strip whose sheet rubs: cells along it, its moment of friction over its rigidity, which is the curvature that stays.
+// A strip whose sheet rubs: cells along it, its moment of friction over its rigidity, which is the curvature that
+// stays.
 struct CreasedStrip {
     static constexpr double cell = 1e-3, rigidity = 1e-5, crease = 50;  // [m], [N m], [1/m]
 
@@ -174,7 +177,8 @@ struct CreasedStrip {
     }
 };
 
-// Bent to 150 /m, let go in thick air: B κ is what friction holds. A slider that were kept in space would have turned it.
+// Bent to 150 /m, let go in thick air: B κ is what friction holds. A slider that were kept in space would have turned
+// it.
 TEST(GridFriction, AStripKeepsItsCreaseAlsoIfItIsTurnedByAQuarterBeforeItIsLetGo) {
     constexpr double step = 2e-6;  // [s]
     std::vector<double> kept;

@@ -328,8 +328,8 @@ TEST(SavingRamps, OneThatHasEndedHoldsWhenTheNextBegins) {
     EXPECT_EQ(again.stateHash(), world.stateHash());
 }
 
-// A sheet that swings down on a turning collider: folds slip at every moment, at its clamp too, more of them as friction
-// grows; what its fall on a ball makes it do over again is undone with it, and a cut makes its forces anew.
+// A sheet that falls on a ball from a turning collider: folds slip at every moment, at its clamp too, while friction
+// grows; and a cut makes its forces anew.
 TEST(SavingRamps, ThreadsThatRubGoOnBitForBitFromWhereTheySlip) {
     for (const char* precision : {"single", "double"}) {
         const SceneSpec scene = scene::loadSceneText(
@@ -367,6 +367,21 @@ TEST(SavingRamps, ThreadsThatRubGoOnBitForBitFromWhereTheySlip) {
             }
         }
     }
+}
+
+// With steps a little too long the sheet diverges late in its first tick. What threads slipped till then is undone.
+TEST(SavingWhole, WhatThreadsSlippedIsUndoneWithATick) {
+    const SceneSpec scene =
+        scene::loadSceneText(
+            "schema = 1\nsolver.dt = 1.8e-4\n[material.m]\nbending_rigidity_N_m = 1e-5\nbending_hysteresis_N = 1e-3\n"
+            "bending_yield_per_m = 4\n[cloth.c]\nmaterial = \"m\"\nsize = [0.2, 0.2]\ncells = [8, 8]\n"
+            "down = [0, 0, 1]\nhold = [\"left\"]\njitter_m = 1e-7\n",
+            "s.toml", {})
+            .spec;
+    World world(scene);
+    const std::uint64_t before = world.bodyHashes()[0].hash;
+    ASSERT_TRUE(world.advance());
+    EXPECT_EQ(world.bodyHashes()[0].hash, before);
 }
 
 // Forces that jumped at the start have been allowed for then, and not again by the push that follows: at a sheet that a

@@ -34,7 +34,8 @@ class DynamicsOf final : public Dynamics {
         for (const Body* body : plan_.bodies)
             if (const mechanics::BendingFriction& friction = body->model.friction; !friction.isEmpty())
                 frictions_.push_back(
-                    {body, Planes(mechanics::GridFriction<Real>::sliderCount(friction, !body->clamped.empty())), nullptr});
+                    {body, Planes(mechanics::GridFriction<Real>::sliderCount(friction, !body->clamped.empty())),
+                     nullptr});
         setForces(forces);
         for (std::size_t i = 0; i < plan_.positions.size(); ++i) {
             set(state_.x, static_cast<int>(i), plan_.positions[i]);
@@ -382,8 +383,9 @@ class DynamicsOf final : public Dynamics {
     void addInnerForces() {
         addVolumes();
         for (Friction& friction : frictions_) {
+            const Body& body = *friction.body;
             auto generator = std::make_unique<mechanics::GridFriction<Real>>(
-                gridFrictionOf(plan_, *friction.body), friction.body->pointOf, friction.sliders, turnOf(*friction.body));
+                gridFrictionOf(plan_, body), body.pointOf, friction.sliders, turnOf(body));
             friction.generator = generator.get();
             system_.add(std::move(generator));
         }

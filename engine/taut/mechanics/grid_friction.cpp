@@ -41,8 +41,8 @@ template <class Real>
 struct GridFriction<Real>::Fold {
     using Vector = glm::vec<3, Real, glm::defaultp>;
     Vector u, w, d, e, normal;
-    Real inverse;   // 1/|u × w|
-    Real share;     // 1; 0 where n is not of length 1
+    Real inverse;        // 1/|u × w|
+    Real share;          // 1; 0 where n is not of length 1
     Real along, across;  // [m] n·d, n·e
 };
 
@@ -117,9 +117,7 @@ void GridFriction<Real>::forEachPart(const Each& each) const {
 template <class Real>
 [[gnu::always_inline]] inline auto GridFriction<Real>::foldAt(const Part& part, int i) const -> Fold {
     const Real *x = x_.of + i, *y = x + x_.stride, *z = y + x_.stride;
-    const auto edge = [&](int to) {
-        return typename Fold::Vector(x[to] - x[0], y[to] - y[0], z[to] - z[0]);
-    };
+    const auto edge = [&](int to) { return typename Fold::Vector(x[to] - x[0], y[to] - y[0], z[to] - z[0]); };
     const auto p = edge(part.left), r = edge(part.right), q = edge(part.up), s = edge(part.down);
     Fold fold{r - p, s - q, r + p, s + q, {}, 0, 0, 0, 0};
     const auto area = glm::cross(fold.u, fold.w);
@@ -174,9 +172,9 @@ void GridFriction<Real>::findPulls(const Part& part) const {
         const Fold fold = foldAt(part, i);
         const Real alongMoment = stiffU[i] * within(mostU, fold.along - along[i]),
                    acrossMoment = stiffV[i] * within(mostV, fold.across - across[i]);
-        const auto turning = fold.inverse * (alongMoment * fold.d + acrossMoment * fold.e -
-                                             fold.share * (alongMoment * fold.along + acrossMoment * fold.across) *
-                                                 fold.normal);
+        const auto turning =
+            fold.inverse * (alongMoment * fold.d + acrossMoment * fold.e -
+                            fold.share * (alongMoment * fold.along + acrossMoment * fold.across) * fold.normal);
         const auto onU = glm::cross(fold.w, turning), onW = glm::cross(turning, fold.u);
         const auto onD = alongMoment * fold.normal, onE = acrossMoment * fold.normal;
         const auto put = [&](int which, const typename Fold::Vector& pull) {
@@ -191,8 +189,8 @@ void GridFriction<Real>::findPulls(const Part& part) const {
     }
 }
 
-// Each point takes what pulls at its neighbours, and is itself the neighbour of four. Pulls at rows and columns that are
-// not there are 0.
+// Each point takes what pulls at its neighbours, and is itself the neighbour of four. Pulls at rows and columns that
+// are not there are 0.
 template <class Real>
 void GridFriction<Real>::addPulls(const Part& part, int stride, Real* f) const {
     const int n = friction_.stuck.columns;
@@ -222,8 +220,7 @@ void GridFriction<Real>::addForces(const Motion<Real>& motion, int first, int la
     const dvec3 normal = normalAt(motion.t);
     for (const Bending::Clamp& clamp : friction_.stuck.clamps) {
         const Slot slot = slotOf(clamp);
-        const double force =
-            -0.5 * clamp.stiffness * within(slot.most, foldAt(clamp, motion) - sliders_[slot.slider]);
+        const double force = -0.5 * clamp.stiffness * within(slot.most, foldAt(clamp, motion) - sliders_[slot.slider]);
         for (std::ptrdiff_t axis = 0; axis < 3; ++axis)
             f[axis * motion.stride + points_[static_cast<std::size_t>(clamp.next)]] +=
                 static_cast<Real>(force * normal[static_cast<int>(axis)]);

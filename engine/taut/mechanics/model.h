@@ -88,8 +88,8 @@ struct BendingRigidity {
     double along = 0, across = 0, both = 0, twist = 0;  // B_u, B_v, B_1, 4 D_k [N m]
 };
 
-// Dry friction between the threads of a grid that is flat at rest: each of its folds is also a spring on the curvature κ
-// that slips (a Jenkin element), with the moment K_p (κ - κ_s) between ± K_p yield.
+// Dry friction between the threads of a grid that is flat at rest: each of its folds is also a spring on the curvature
+// κ that slips (a Jenkin element), with the moment K_p (κ - κ_s) between ± K_p yield.
 struct BendingFriction {
     Bending stuck;          // what it is while nothing slips: K_p along and across, neither `both` nor `twist`
     double yield = 0;       // [1/m] > 0

@@ -95,8 +95,8 @@ SceneSection materialSection() {
                "What a strip of the cloth resists bending with, for each metre of its width; the same for any cells. "
                "A number is that of warp and weft alike. The warp of a mesh runs along u of its texture coordinates.")
         .number("bending_hysteresis_N", &MaterialSpec::friction, &BendingFrictionSpec::hysteresis, "N", notNegative,
-                "2HB of Kawabata's tester: threads rub at each other, so that a grid stays bent to 2HB/(2B). The moment "
-                "for each metre of width is half of it either way. Meshes have none.")
+                "2HB of Kawabata's tester, for each metre of width: threads rub at each other, so that a grid stays "
+                "bent to 2HB/(2B). Meshes have none.")
         .ramps(Affects::springs)
         .number("bending_yield_per_m", &MaterialSpec::friction, &BendingFrictionSpec::yield, "1/m", positive,
                 "How far a sheet bends, or bends back, until its threads slip.");

@@ -5,13 +5,13 @@
 //     p--c--r      folds   κ_u = n·(p - 2c + r)/a²,  κ_v = n·(q - 2c + s)/b²
 //        s         force   -M ∂κ/∂x,  M = A K_p clamp(κ - κ_s, ± yield)
 //
-// The state is a slider κ_s for each fold. It is a number in the cloth's own frame: κ does not change when the sheet goes
-// or turns, so that its slope, taken with that of n, has neither a sum nor a torque. A slider kept as a vector in space
-// would turn the sheet. Towards a fold that is closed |u × w| vanishes and n with it; below half of what it is at rest
-// it is divided by that half, so that forces stay bounded and end with n.
+// The state is a slider κ_s for each fold. It is a number in the cloth's own frame: κ does not change when the sheet
+// goes or turns, so that its slope, taken with that of n, has neither a sum nor a torque. A slider kept as a vector in
+// space would turn the sheet. Towards a fold that is closed |u × w| vanishes and n with it; below half of what it is at
+// rest it is divided by that half, so that forces stay bounded and end with n.
 //
-// Between two slide() the force has a potential, and is that after slide() at the same places: when sliders follow makes
-// no difference to a force, as long as they follow every step that stands.
+// Between two slide() the force has a potential, and is that after slide() at the same places: when sliders follow
+// makes no difference to a force, as long as they follow every step that stands.
 #pragma once
 
 #include <functional>
@@ -30,8 +30,8 @@ class GridFriction final : public ForceGenerator<Real> {
   public:
     using Turn = typename GridBending<Real>::Turn;
 
-    // How many sliders a grid needs: one a point along and one across; where directions are held (clamps), as many more,
-    // as a clamp has a fold on each side.
+    // How many sliders a grid needs: one a point along and one across; where directions are held (clamps), as many
+    // more, as a clamp has a fold on each side.
     static std::size_t sliderCount(const BendingFriction& friction, bool mayClamp);
 
     // `points` (columns · rows): the grid's points in the island. `sliders` [m] κ_s a² and κ_s b², 0 for cloth that was
@@ -41,16 +41,17 @@ class GridFriction final : public ForceGenerator<Real> {
     // Takes other coefficients and clamps, for a grid of the same size.
     void set(BendingFriction friction);
 
-    // Sliders follow folds that are beyond what friction holds, to the motion's places. To be called once in every step.
+    // Sliders follow folds that are beyond what friction holds, to the motion's places. To be called once in every
+    // step.
     void slide(const Motion<Real>& motion);
 
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
     // What stuck folds have stored. What slips is lost.
     double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;
 
-    // As if nothing slipped, and without the turning of n: the bending of K_p. For implicit methods this bounds the slope
-    // from above, so that no step goes past where friction turns back, and keeps it positive. It is also the share of the
-    // stability bound; the turning of n is a part κ_y a/4 of it, some thousandths.
+    // As if nothing slipped, and without the turning of n: the bending of K_p. For implicit methods this bounds the
+    // slope from above, so that no step goes past where friction turns back, and keeps it positive. It is also the
+    // share of the stability bound; the turning of n is a part κ_y a/4 of it, some thousandths.
     void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override {
         stuck_.addStiffnessProduct(motion, u, out);
     }
@@ -64,7 +65,8 @@ class GridFriction final : public ForceGenerator<Real> {
     }
 
   private:
-    // The points of a part of a row, all with their neighbours at the same distance in the arrays; 0 where there is none.
+    // The points of a part of a row, all with their neighbours at the same distance in the arrays; 0 where there is
+    // none.
     struct Part {
         int first, last, left, right, up, down;
         Real least;  // [m²] of |u × w|
@@ -104,10 +106,10 @@ class GridFriction final : public ForceGenerator<Real> {
     std::vector<int> points_;
     std::span<Real> sliders_;
     Turn turn_;
-    core::AlignedArray<Real> along_, across_;        // (points) [N/m]
-    Real mostAlong_ = 0, mostAcross_ = 0;            // [m] yield a², yield b²
-    bool isInOrder_ = true;                   // the points follow each other in the island
-    mutable Planes x_{};                      // of the present call
+    core::AlignedArray<Real> along_, across_;  // (points) [N/m]
+    Real mostAlong_ = 0, mostAcross_ = 0;      // [m] yield a², yield b²
+    bool isInOrder_ = true;                    // the points follow each other in the island
+    mutable Planes x_{};                       // of the present call
     mutable core::AlignedArray<Real> places_;  // (3 · points) scratch
     mutable core::AlignedArray<Real> pulls_;   // (12 planes) scratch, each with a row of 0 around
 };

@@ -21,10 +21,11 @@ Real within(Real most, Real value) {
     return value < -most ? -most : value > most ? most : value;
 }
 
-// The slider after a fold has come to this.
+// The slider after a fold has come to this. One that holds keeps its bits.
 template <class Real>
 Real slid(Real most, Real fold, Real slider) {
-    return fold - within(most, fold - slider);
+    const Real stretch = fold - slider;
+    return stretch < -most ? fold + most : stretch > most ? fold - most : slider;
 }
 
 template <class Real>
@@ -201,7 +202,7 @@ void GridFriction<Real>::addPulls(const Part& part, int stride, Real* f) const {
             return ((p[i] - p[i + 1]) + (r[i] - r[i - 1])) + ((q[i] - q[i + n]) + (s[i] - s[i - n]));
         };
         if (!isInOrder_) {
-            for (int i = part.first; i < part.last; ++i) to[points_[i]] += sum(i);
+            for (int i = part.first; i < part.last; ++i) to[numberOf(i)] += sum(i);
             continue;
         }
         to += points_.front();
@@ -222,14 +223,13 @@ void GridFriction<Real>::addForces(const Motion<Real>& motion, int first, int la
         const Slot slot = slotOf(clamp);
         const double force = -0.5 * clamp.stiffness * within(slot.most, foldAt(clamp, motion) - sliders_[slot.slider]);
         for (std::ptrdiff_t axis = 0; axis < 3; ++axis)
-            f[axis * motion.stride + points_[static_cast<std::size_t>(clamp.next)]] +=
-                static_cast<Real>(force * normal[static_cast<int>(axis)]);
+            f[axis * motion.stride + numberOf(clamp.next)] += static_cast<Real>(force * normal[static_cast<int>(axis)]);
     }
 }
 
 template <class Real>
 double GridFriction<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
-    const auto counts = [&](int i) { return only.empty() || only[static_cast<std::size_t>(points_[i])]; };
+    const auto counts = [&](int i) { return only.empty() || only[static_cast<std::size_t>(numberOf(i))]; };
     const auto stored = [](double stiffness, Real most, Real stretch) {
         const double held = within(most, stretch);
         return 0.5 * stiffness * held * held;
@@ -242,8 +242,9 @@ double GridFriction<Real>::potentialEnergy(const Motion<Real>& motion, const std
                 !counts(i + part.down))
                 continue;
             const Fold fold = foldAt(part, i);
-            energies[i] = stored(along_[i], mostAlong_, fold.along - sliders_[i]) +
-                          stored(across_[i], mostAcross_, fold.across - sliders_[size() + i]);
+            const auto own = static_cast<std::size_t>(i), other = own + points_.size();
+            energies[own] = stored(along_[own], mostAlong_, fold.along - sliders_[own]) +
+                            stored(across_[own], mostAcross_, fold.across - sliders_[other]);
         }
     });
     double energy = 0;
@@ -271,8 +272,7 @@ dvec3 GridFriction<Real>::normalAt(double t) const {
 template <class Real>
 Real GridFriction<Real>::foldAt(const Bending::Clamp& clamp, const Motion<Real>& motion) const {
     const dvec3 normal = normalAt(motion.t);
-    const dvec3 off = placeAt(motion, points_[static_cast<std::size_t>(clamp.next)]) -
-                      placeAt(motion, points_[static_cast<std::size_t>(clamp.held)]);
+    const dvec3 off = placeAt(motion, numberOf(clamp.next)) - placeAt(motion, numberOf(clamp.held));
     // The arm lies in the sheet, so that it has no part along n.
     return static_cast<Real>(2.0 * glm::dot(normal, off));
 }

@@ -43,11 +43,20 @@ PlanarState<double> rubbingSheet() {
 }
 
 // Between two slides the force has a potential, which it shows where nothing slips: what slips pulls on and stores no
-// more. Where points are moved by a cell some normals hardly exist.
+// more. Where points are moved by a cell some normals hardly exist. Directions are held at an edge, and inside on each
+// side of a point.
 TEST(GridFriction, ForcesAreTheSlopeOfWhatStuckFoldsStore) {
     BendingFriction friction = rubbing();
     friction.yield = 1e6;
-    std::vector<double> sliders(GridFriction<double>::sliderCount(friction, false));
+    std::vector<bool> isHeld(rubbingPoints().size(), false);
+    std::vector<dvec3> rest;
+    for (int i = 0; i < rubbingColumns * rubbingRows; ++i) {
+        isHeld[static_cast<std::size_t>(i)] = i % rubbingColumns == 0 || i == 9;
+        rest.push_back(rubbingSheet().get(rubbingSheet().x, i));
+    }
+    friction.stuck = clamped(friction.stuck, isHeld, isHeld, rest);
+    ASSERT_EQ(friction.stuck.clamps.size(), 4U + 4U);
+    std::vector<double> sliders(GridFriction<double>::sliderCount(friction, true));
     for (std::size_t i = 0; i < sliders.size(); ++i) sliders[i] = 1e-4 * static_cast<double>(i % 7);  // [m]
     const GridFriction<double> generator(friction, rubbingPoints(), sliders);
     for (const double size : {0.002, 0.02}) {
@@ -58,7 +67,7 @@ TEST(GridFriction, ForcesAreTheSlopeOfWhatStuckFoldsStore) {
         for (const dvec3& f : forces) largest = std::max(largest, glm::length(f));
         constexpr double h = 1e-7;  // [m]; the energy's third derivative over its first is about 1/(5 mm)²
         for (int i = 0; i < rubbingColumns * rubbingRows; ++i)
-            for (int axis = 0; axis < 3; ++axis) {
+            for (int axis = 0; axis < 3 && !isHeld[static_cast<std::size_t>(i)]; ++axis) {
                 PlanarState<double> moved = state;
                 moved.x[moved.index(i, axis)] += h;
                 const double more = generator.potentialEnergy(moved.motion());

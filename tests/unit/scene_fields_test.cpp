@@ -368,6 +368,23 @@ TEST(SceneFields, AMeshWithoutTextureCoordinatesHasNoWeave) {
     EXPECT_TRUE(unwrapped.warnings.empty());
 }
 
+TEST(SceneFields, AMeshIsSaidToHaveNoThreadsThatRub) {
+    const AssetFolder folder;
+    const auto load = [&](const std::string& hysteresis) {
+        return folder.load("schema = 1\n[material.m]\nbending_rigidity_N_m = 1e-5\nbending_yield_per_m = 5\n"
+                           "bending_hysteresis_N = " + hysteresis +
+                           "\n[cloth.c]\nmaterial = \"m\"\nmesh = \"square.obj\"\n[cloth.grid]\nmaterial = \"m\"\n");
+    };
+    const Loaded lost = load("1e-3");
+    ASSERT_EQ(lost.warnings.size(), 1U);
+    EXPECT_EQ(folder.withoutFolder(lost.warnings[0]),
+              "s.toml:6:8: warning: bending_hysteresis_N of material.m does nothing in cloth.c: a mesh has no threads "
+              "that rub at each other\n"
+              "  [cloth.c]\n"
+              "         ^ make it a grid, or give the material bending_hysteresis_N = 0");
+    EXPECT_TRUE(load("0").warnings.empty());
+}
+
 TEST(SceneFields, CamerasLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
     const world::CameraSpec& main = named(scene.cameras, "main");

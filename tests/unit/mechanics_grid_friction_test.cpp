@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include "mechanics_planar_state.h"
 #include "taut/mechanics/bending.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/gravity.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/mechanics/private/grid_bending.h"
 #include "taut/mechanics/private/grid_friction.h"

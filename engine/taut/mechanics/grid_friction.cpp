@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "taut/core/error.h"

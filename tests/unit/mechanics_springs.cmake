@@ -2,6 +2,7 @@ list(APPEND TAUT_UNIT_TESTS
   mechanics_dashpot_sweep_test.cpp
   mechanics_element_bending_test.cpp
   mechanics_grid_bending_test.cpp
+  mechanics_grid_friction_test.cpp
   mechanics_implicit_products_test.cpp
   mechanics_mass_spring_system_test.cpp
   mechanics_spring_kernel_test.cpp

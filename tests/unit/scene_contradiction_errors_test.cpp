@@ -33,6 +33,27 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "s.toml:3:59: error: no sheet is so soft at 45° with this warp and weft\n"
          "  bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 9e-6 }\n"
          "                                                            ^ it must be above (√warp - √weft)²/4 = 1e-05 N m"},
+        {"a hysteresis that slips nowhere",
+         "[material.m]\n"
+         "bending_rigidity_N_m = 1e-5\n"
+         "bending_hysteresis_N = 1e-3\n",
+         "s.toml:4:24: error: a hysteresis needs the curvature at which threads slip\n"
+         "  bending_hysteresis_N = 1e-3\n"
+         "                         ^ give bending_yield_per_m too, such as a tenth of 2HB/(2B)"},
+        {"a curvature at which nothing slips",
+         "[material.m]\n"
+         "bending_rigidity_N_m = 1e-5\n"
+         "bending_yield_per_m = 5\n",
+         "s.toml:4:23: error: nothing slips without a hysteresis\n"
+         "  bending_yield_per_m = 5\n"
+         "                        ^ give bending_hysteresis_N too"},
+        {"a hysteresis of what does not bend",
+         "[material.m]\n"
+         "bending_hysteresis_N = 1e-3\n"
+         "bending_yield_per_m = 5\n",
+         "s.toml:3:24: error: a hysteresis is that of a sheet with a rigidity\n"
+         "  bending_hysteresis_N = 1e-3\n"
+         "                         ^ give bending_rigidity_N_m too"},
         {"a block of a ratio and a pressure",
          "[block.b]\n"
          "bulk_Pa = 1e5\n"

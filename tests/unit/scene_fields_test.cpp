@@ -101,6 +101,8 @@ TEST(SceneFields, MaterialLandsInItsMembers) {
     EXPECT_EQ(silk.rigidity.warp, 3e-6);
     EXPECT_EQ(silk.rigidity.weft, 2e-6);
     EXPECT_EQ(silk.rigidity.bias, 1e-6);
+    EXPECT_EQ(silk.friction.hysteresis, 4e-4);
+    EXPECT_EQ(silk.friction.yield, 5.5);
     EXPECT_EQ(silk.dampingTime, 2e-4);
     EXPECT_EQ(silk.drag, 0.4);
     EXPECT_EQ(silk.lumping, mechanics::Lumping::uniform);
@@ -153,7 +155,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 64);
+    EXPECT_EQ(flag.source.line, 66);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 
@@ -237,7 +239,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 125);
+    EXPECT_EQ(net.points[1].source.line, 127);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");
@@ -364,6 +366,23 @@ TEST(SceneFields, AMeshWithoutTextureCoordinatesHasNoWeave) {
     EXPECT_NE(bare.warnings[0].find("square.obj has no texture coordinates"), std::string::npos) << bare.warnings[0];
     EXPECT_EQ(unwrapped.spec.bodies.of<world::ClothSpec>()[0].finish.weave, 0.5);
     EXPECT_TRUE(unwrapped.warnings.empty());
+}
+
+TEST(SceneFields, AMeshIsSaidToHaveNoThreadsThatRub) {
+    const AssetFolder folder;
+    const auto load = [&](const std::string& hysteresis) {
+        return folder.load("schema = 1\n[material.m]\nbending_rigidity_N_m = 1e-5\nbending_yield_per_m = 5\n"
+                           "bending_hysteresis_N = " + hysteresis +
+                           "\n[cloth.c]\nmaterial = \"m\"\nmesh = \"square.obj\"\n[cloth.grid]\nmaterial = \"m\"\n");
+    };
+    const Loaded lost = load("1e-3");
+    ASSERT_EQ(lost.warnings.size(), 1U);
+    EXPECT_EQ(folder.withoutFolder(lost.warnings[0]),
+              "s.toml:6:8: warning: bending_hysteresis_N of material.m does nothing in cloth.c: a mesh has no threads "
+              "that rub at each other\n"
+              "  [cloth.c]\n"
+              "         ^ make it a grid, or give the material bending_hysteresis_N = 0");
+    EXPECT_TRUE(load("0").warnings.empty());
 }
 
 TEST(SceneFields, CamerasLandInTheirMembers) {

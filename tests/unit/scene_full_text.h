@@ -59,6 +59,8 @@ stretch_N_per_m = { warp = 300, weft = 280 }
 shear_N_per_m = 120
 bend_N_per_m = 0.2
 bending_rigidity_N_m = { warp = 3e-6, weft = 2e-6, bias = 1e-6 }
+bending_hysteresis_N = 4e-4
+bending_yield_per_m = 5.5
 damping_time_s = 2e-4
 drag_per_s = 0.4
 air_kg_per_m2 = 0.03

@@ -42,7 +42,9 @@ mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scen
             .dragRate = m.drag,
             .lumping = m.lumping,
             .rigidity = rigidityOf(m.rigidity),
-            .weftStretch = m.weftStretch};
+            .weftStretch = m.weftStretch,
+            .frictionMoment = 0.5 * m.friction.hysteresis.value_or(0),
+            .frictionYield = m.friction.yield.value_or(0)};
 }
 
 mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {

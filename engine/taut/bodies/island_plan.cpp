@@ -473,13 +473,23 @@ HeldPoints heldPointsOf(const IslandPlan& plan, const Body& body) {
     return of;
 }
 
+mechanics::Bending presentOf(const IslandPlan& plan, const Body& body, const mechanics::Bending& bending) {
+    if (bending.isEmpty()) return {};
+    const auto [isHeld, isClamped] = heldPointsOf(plan, body);
+    return without(clamped(bending, isHeld, isClamped, body.model.positions),
+                   [&](int a, int b) { return body.damage.isSevered(a, b); });
+}
+
 }  // namespace
 
 mechanics::Bending gridBendingOf(const IslandPlan& plan, const Body& body) {
-    if (body.model.bending.isEmpty()) return {};
-    const auto [isHeld, isClamped] = heldPointsOf(plan, body);
-    return without(clamped(body.model.bending, isHeld, isClamped, body.model.positions),
-                   [&](int a, int b) { return body.damage.isSevered(a, b); });
+    return presentOf(plan, body, body.model.bending);
+}
+
+mechanics::BendingFriction gridFrictionOf(const IslandPlan& plan, const Body& body) {
+    mechanics::BendingFriction friction = body.model.friction;
+    friction.stuck = presentOf(plan, body, friction.stuck);
+    return friction;
 }
 
 std::vector<mechanics::BendingElement> bendingElementsOf(const IslandPlan& plan, const Body& body) {

@@ -116,8 +116,10 @@ std::vector<double> inverseMassesOf(const IslandPlan& plan);
 std::vector<mechanics::VolumeCell> cellsOf(const Body& body);
 std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan);
 // The present bending of a body: without cut or torn parts, with the direction of clamped points held while the points
-// are. Of a grid or a straight rope, and of all else; each empty for a body that has the other or none.
+// are. Of a grid or a straight rope, of the friction of a grid's threads, and of all else; each empty for a body that
+// has another or none.
 mechanics::Bending gridBendingOf(const IslandPlan& plan, const Body& body);
+mechanics::BendingFriction gridFrictionOf(const IslandPlan& plan, const Body& body);
 std::vector<mechanics::BendingElement> bendingElementsOf(const IslandPlan& plan, const Body& body);
 // The body of a point and the point's number in it; for a weld the first of its bodies. Null and the point itself if no
 // body has it.

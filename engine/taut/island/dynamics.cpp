@@ -11,6 +11,7 @@
 #include "taut/mechanics/private/anchor.h"
 #include "taut/mechanics/private/element_bending.h"
 #include "taut/mechanics/private/grid_bending.h"
+#include "taut/mechanics/private/grid_friction.h"
 #include "taut/island/private/island_contacts.h"
 #include "taut/island/report.h"
 #include "taut/island/private/rounding_watch.h"
@@ -30,6 +31,11 @@ class DynamicsOf final : public Dynamics {
           contacts_(plan_, system_, state_),
           constraints_(plan_, system_, state_) {
         lead();
+        for (const Body* body : plan_.bodies)
+            if (const mechanics::BendingFriction& friction = body->model.friction; !friction.isEmpty())
+                frictions_.push_back(
+                    {body, Planes(mechanics::GridFriction<Real>::sliderCount(friction, !body->clamped.empty())),
+                     nullptr});
         setForces(forces);
         for (std::size_t i = 0; i < plan_.positions.size(); ++i) {
             set(state_.x, static_cast<int>(i), plan_.positions[i]);
@@ -117,6 +123,7 @@ class DynamicsOf final : public Dynamics {
     void step(double t) override {
         time_ = t;
         if (!constraints_.isEmpty()) constraints_.remember(t);
+        for (const Friction& friction : frictions_) friction.generator->slide(motion(t));
         method_->step(system_, t, step_, state_);
         speeds_ = leads_ ? ode::Speeds::unknown : method_->speeds();
         if (constraints_.isEmpty()) return;
@@ -273,6 +280,12 @@ class DynamicsOf final : public Dynamics {
             for (int i : points)
                 for (int p = 0; p < 3; ++p) hash.add((*array)[index(i, p)]);
     }
+    void addToHash(const Body& body, core::Hash& hash) const override {
+        addToHash(body.pointOf, hash);
+        for (const Friction& friction : frictions_)
+            if (friction.body == &body)
+                for (const Real slider : friction.sliders) hash.add(slider);
+    }
     void visit(StateBytes& bytes) override {
         bytes.planes(state_.x);
         bytes.planes(state_.v);
@@ -280,6 +293,7 @@ class DynamicsOf final : public Dynamics {
         bytes(memory);
         bytes.require(memory == state_.memory.size());
         for (auto& array : state_.memory) bytes.planes(array);
+        for (Friction& friction : frictions_) bytes.planes(friction.sliders);
         rounding_.visit(bytes, state_.x.size());
         if (!bytes.isReading()) return;
         contacts_.drop();
@@ -346,6 +360,13 @@ class DynamicsOf final : public Dynamics {
         }
     }
 
+    // The friction of a body's threads, with its state.
+    struct Friction {
+        const Body* body;
+        Planes sliders;
+        mechanics::GridFriction<Real>* generator;  // of the system
+    };
+
     // Adds the volume forces of each body that has cells.
     void addVolumes() {
         for (const Body* body : plan_.bodies) {
@@ -361,6 +382,13 @@ class DynamicsOf final : public Dynamics {
 
     void addInnerForces() {
         addVolumes();
+        for (Friction& friction : frictions_) {
+            const Body& body = *friction.body;
+            auto generator = std::make_unique<mechanics::GridFriction<Real>>(
+                gridFrictionOf(plan_, body), body.pointOf, friction.sliders, turnOf(body));
+            friction.generator = generator.get();
+            system_.add(std::move(generator));
+        }
         for (const Body* body : plan_.bodies) {
             if (!body->model.bending.isEmpty()) {
                 auto bending = std::make_unique<mechanics::GridBending<Real>>(gridBendingOf(plan_, *body),
@@ -378,6 +406,7 @@ class DynamicsOf final : public Dynamics {
     }
     void setBendings() {
         for (const auto& [body, bending] : gridBendings_) bending->set(gridBendingOf(plan_, *body));
+        for (const Friction& friction : frictions_) friction.generator->set(gridFrictionOf(plan_, *friction.body));
         for (const auto& [body, bending] : elementBendings_)
             bending->set(bendingElementsOf(plan_, *body), body->model.freeform.dampingTime);
     }
@@ -433,6 +462,7 @@ class DynamicsOf final : public Dynamics {
                 planes(array);
             else
                 each(array.data(), array.size());
+        for (Friction& friction : frictions_) each(friction.sliders.data(), friction.sliders.size());
     }
 
     const IslandPlan& plan_;
@@ -441,6 +471,7 @@ class DynamicsOf final : public Dynamics {
     std::vector<std::pair<const Body*, mechanics::VolumePreservation<Real>*>> volumes_;
     std::vector<std::pair<const Body*, mechanics::GridBending<Real>*>> gridBendings_;
     std::vector<std::pair<const Body*, mechanics::ElementBending<Real>*>> elementBendings_;
+    std::vector<Friction> frictions_;  // of the bodies that have any
     std::vector<std::pair<std::size_t, Generator*>> acting_;  // the forces that act here, by their number
     std::size_t firstGrip_ = 0;
     std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones

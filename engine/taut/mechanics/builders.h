@@ -53,6 +53,9 @@ struct ClothMaterial {
     Lumping lumping = Lumping::weighted;
     BendingRigidity rigidity{};
     std::optional<double> weftStretch{};  // k_s along the weft (v) [N/m]; none: as along the warp
+    // Of a grid: the moment per width that friction of its threads resists bending with, and the curvature at which it
+    // is reached; 0: none.
+    double frictionMoment = 0.0, frictionYield = 0.0;  // [N], [1/m]
 };
 
 struct ClothShape {

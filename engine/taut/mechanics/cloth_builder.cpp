@@ -92,6 +92,12 @@ class GridBuilder {
         if (!(rigidity.along > 0.0) && !(rigidity.across > 0.0)) return;
         model_.bending = gridBending(nu_ + 1, nv_ + 1, rigidity, a_, b_);
         model_.bending.dampingTime = shape_.material.dampingTime;
+        const double moment = shape_.material.frictionMoment, yield = shape_.material.frictionYield;
+        if (!(yield > 0.0)) return;
+        model_.friction = {gridBending(nu_ + 1, nv_ + 1, {moment / yield, moment / yield, 0, 0}, a_, b_),
+                           yield,
+                           {a_, b_},
+                           glm::cross(shape_.across, shape_.down)};
     }
 
     //  (i,j) --- (i+1,j)     Counter-clockwise seen against down × across: a cloth that hangs in the

@@ -88,6 +88,17 @@ struct BendingRigidity {
     double along = 0, across = 0, both = 0, twist = 0;  // B_u, B_v, B_1, 4 D_k [N m]
 };
 
+// Dry friction between the threads of a grid that is flat at rest: each of its folds is also a spring on the curvature
+// κ that slips (a Jenkin element), with the moment K_p (κ - κ_s) between ± K_p yield.
+struct BendingFriction {
+    Bending stuck;          // what it is while nothing slips: K_p along and across, neither `both` nor `twist`
+    double yield = 0;       // [1/m] > 0
+    glm::dvec2 cell{1.0};   // [m] sides of a cell, along a row and across
+    glm::dvec3 front{0.0};  // unit normal at rest, row × column
+
+    bool isEmpty() const { return stuck.isEmpty(); }
+};
+
 // Resistance to bending of what is not a flat grid or a straight rope: of the triangles of a mesh, of a ring, of a rope
 // that is curved at rest. bending_elements.h makes elements of it.
 struct FreeformBending {
@@ -116,6 +127,7 @@ struct Model {
     std::vector<VolumeCell> cells;
     double workingStretch = 1;  // of a cell's edges, up to which a step must hold
     Bending bending;
+    BendingFriction friction;
     FreeformBending freeform;
 
     // Points by name: "left", "top-left", "all", … as each builder documents. Indices ascend.

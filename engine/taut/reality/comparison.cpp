@@ -22,6 +22,7 @@ std::span<const Row> rows() {
         {"R9", "a hanging chain swings", false, holdChainModes},
         {"R10", "a folded chain falls", false, holdFoldedChain},
         {"R11", "friction holds a rope", false, holdFriction},
+        {"R13", "strips of measured fabrics keep a crease", false, holdCreases},
         {"R15", "strips of measured fabrics droop", false, holdFabrics},
     };
     return all;

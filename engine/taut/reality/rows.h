@@ -11,6 +11,7 @@ void holdFabrics(Bench& bench);
 void holdTipLoad(Bench& bench);
 void holdLoops(Bench& bench);
 void holdColumn(Bench& bench);
+void holdCreases(Bench& bench);
 // Where what was at rest gives way.
 void holdStanding(Bench& bench);
 void holdLateral(Bench& bench);

@@ -365,4 +365,106 @@ void holdColumn(Bench& bench) {
     }
 }
 
+// As Kawabata's tester bends it: a centimetre between a jaw at rest and one that goes along the ends of ever narrower
+// circles, to 250 /m. Then that jaw lets go, in air so thick that the strip unbends without a swing. Where nothing
+// pulls any more B κ is the moment of friction. Leap-frog, as the jaw turns: implicit Euler wrinkles what it leads.
+// Over 60 lines: most of them are the scene.
+void holdCreases(Bench& bench) {
+    const int cells = bench.cells(10);
+    constexpr double length = 0.01, most = 250, bends = 0.3;  // [m], [1/m], [s]
+    struct Fabric {
+        const char* name;
+        double density, rigidity, hysteresis;  // [kg/m²], [N m], [N]
+    };
+    static constexpr Fabric fabrics[] = {{"cotton broadcloth", 0.12, 1.1572e-5, 1.2160e-3},
+                                         {"tropical wool", 0.18, 6.5705e-6, 3.2362e-4},
+                                         {"polyester faille", 0.11, 1.8633e-6, 6.8647e-5}};
+    for (const Fabric& fabric : fabrics) {
+        const double crease = 0.5 * fabric.hysteresis / fabric.rigidity, cell = length / cells;
+        const double swing = 3.516 * std::sqrt(fabric.rigidity / fabric.density) / (length * length);  // [1/s]
+        std::string keys;  // of the last column but one, which the jaw holds too
+        constexpr int arcs = 30;
+        for (int i = 0; i <= arcs; ++i) {
+            const double curvature = most * i / arcs, angle = curvature * (length - cell);
+            const dvec3 place = i == 0 ? dvec3(length - cell, 1, 0)
+                                       : dvec3(std::sin(angle) / curvature, 1 + (1 - std::cos(angle)) / curvature, 0);
+            keys += fmt::format("  {{ t = {}, position = [{}, {}, 0], rotation_deg = [0, 0, {}] }},\n",
+                                bends * i / arcs, place.x, place.y, angle * 180 / pi);
+        }
+        const std::string scene = fmt::format(
+            R"(schema = 1
+
+[run]
+fps = 100
+seconds = 2
+
+[world]
+gravity = [0, 0, 0]
+
+[solver]
+precision = "double"
+
+[material.fabric]
+density_kg_per_m2 = {}
+stretch_N_per_m = 100
+bending_rigidity_N_m = {}
+bending_hysteresis_N = {}
+bending_yield_per_m = {}
+damping_time_s = 0
+drag_per_s = {}
+
+[cloth.strip]
+material = "fabric"
+size = [{}, {}]
+cells = [{}, 1]
+origin = [0, 1, 0]
+down = [0, 0, 1]
+clamp = ["left"]
+collide = false
+
+[[joint]]
+name = "jaw"
+a = ["cloth.strip@right", "cloth.strip@#{}", "cloth.strip@#{}"]
+b = "collider.jaw"
+
+[collider.jaw]
+shape = "sphere"
+radius = 0.0001
+keys = [
+{}]
+
+[[at]]
+t = {}
+do = "ramp"
+key = "material.fabric.drag_per_s"
+to = {}
+over_s = 0.01
+
+[[at]]
+t = {}
+do = "release"
+id = "jaw"
+
+[camera.main]
+eye = [0, 1, 0.03]
+target = [0, 1, 0]
+)",
+            fabric.density, fabric.rigidity, fabric.hysteresis, 0.1 * crease, swing, length, cell, cells, cells - 1,
+            2 * cells, keys, bends, 25 * swing, bends + 0.02);
+        world::World world = bench.load("crease", scene);
+        bench.play(world, bends + 0.02);
+        const bool isAtRest = bench.settle(world, "cloth.strip", length);
+        const std::vector<dvec3> x = world.positions(world.select("cloth.strip"));
+        const auto direction = [&](std::size_t i) { return std::atan2(x[i + 1].y - x[i].y, x[i + 1].x - x[i].x); };
+        // From the middle of the first cell to that of the last.
+        const double curvature = (direction(static_cast<std::size_t>(cells) - 1) - direction(0)) / (length - cell);
+        const std::string quantity = fmt::format("curvature that {} keeps, 1/m", fabric.name),
+                          source = "2HB/(2B), Matsudaira et al. 2015";
+        if (isAtRest)
+            bench.line(quantity, source, crease, curvature, 0.01, cells);
+        else
+            bench.missing(quantity, source, crease, 0.01, cells, "does not come to rest");
+    }
+}
+
 }  // namespace taut::reality

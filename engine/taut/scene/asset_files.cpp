@@ -92,6 +92,21 @@ void warnOfLostDirections(const ReadScene& scene, Problems& problems) {
     }
 }
 
+// Only grids have threads that rub at each other.
+void warnOfLostFriction(const ReadScene& scene, Problems& problems) {
+    for (const world::BodySpec& body : scene.spec.bodies) {
+        const auto material = scene.spec.materials.find(std::string(body.materialName()));
+        if (body.meshSource() == nullptr || body.meshSource()->meshData == nullptr ||
+            material == scene.spec.materials.end() || !(material->second.friction.hysteresis.value_or(0) > 0))
+            continue;
+        problems.addWarning(scene.owners.at(body.fullName()),
+                            fmt::format("bending_hysteresis_N of material.{} does nothing in {}: a mesh has no threads "
+                                        "that rub at each other",
+                                        material->first, body.fullName()),
+                            "make it a grid, or give the material bending_hysteresis_N = 0");
+    }
+}
+
 // Replaces names by what was found.
 void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
     for (world::BodySpec& body : scene.spec.bodies) {
@@ -108,6 +123,7 @@ void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, P
         setTexture(body.finish.texture, textures);
     }
     warnOfLostDirections(scene, problems);
+    warnOfLostFriction(scene, problems);
     for (world::ColliderSpec& collider : scene.spec.colliders) {
         setMesh(collider, meshes);
         for (world::ColliderSpec& part : collider.parts) {

@@ -51,6 +51,20 @@ Section rigiditySection() {
     return section;
 }
 
+void checkFriction(const fields::CheckInput& input, const MaterialSpec& material) {
+    const auto& [hysteresis, yield] = material.friction;
+    if (!input.isClean || (!hysteresis && !yield)) return;
+    const char* given = hysteresis ? "bending_hysteresis_N" : "bending_yield_per_m";
+    if (!hysteresis)
+        input.problems.addError(input.at(given), "nothing slips without a hysteresis", "give bending_hysteresis_N too");
+    else if (!yield)
+        input.problems.addError(input.at(given), "a hysteresis needs the curvature at which threads slip",
+                                "give bending_yield_per_m too, such as a tenth of 2HB/(2B)");
+    else if (!material.rigidity.warp)
+        input.problems.addError(input.at(given), "a hysteresis is that of a sheet with a rigidity",
+                                "give bending_rigidity_N_m too");
+}
+
 }  // namespace
 
 SceneSection materialSection() {
@@ -79,7 +93,13 @@ SceneSection materialSection() {
         .ramps(Affects::springs)
         .table("bending_rigidity_N_m", &MaterialSpec::rigidity, rigiditySection(),
                "What a strip of the cloth resists bending with, for each metre of its width; the same for any cells. "
-               "A number is that of warp and weft alike. The warp of a mesh runs along u of its texture coordinates.");
+               "A number is that of warp and weft alike. The warp of a mesh runs along u of its texture coordinates.")
+        .number("bending_hysteresis_N", &MaterialSpec::friction, &BendingFrictionSpec::hysteresis, "N", notNegative,
+                "2HB of Kawabata's tester, for each metre of width: threads rub at each other, so that a grid stays "
+                "bent to 2HB/(2B). Meshes have none.")
+        .ramps(Affects::springs)
+        .number("bending_yield_per_m", &MaterialSpec::friction, &BendingFrictionSpec::yield, "1/m", positive,
+                "How far a sheet bends, or bends back, until its threads slip.");
     list.number("air_kg_per_m2", &MaterialSpec::air, "kg/m²", notNegative,
                 "Mass of the air that a square metre takes along where there is a [wind]: it has inertia and no weight. "
                 "Folds of length λ take along ρ λ/π, some 0.05.");
@@ -90,6 +110,7 @@ SceneSection materialSection() {
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& material = *static_cast<MaterialSpec*>(target);
         if (material.rigidity.warp && input.table.find("bend_N_per_m") == nullptr) material.bend = 0;
+        checkFriction(input, material);
     };
     return section;
 }

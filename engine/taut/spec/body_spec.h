@@ -36,6 +36,12 @@ struct BendingSpec {
     std::optional<double> bias;  // none: as of an isotropic sheet between both
 };
 
+// Friction of the threads of a sheet that bends.
+struct BendingFrictionSpec {
+    std::optional<double> hysteresis;  // 2HB [N], the height of the loop of moment per width over curvature; none: none
+    std::optional<double> yield;       // [1/m] curvature from the turning point on at which threads slip
+};
+
 struct MaterialSpec {             // of cloth, per metre of material
     double density = 0.2;         // [kg/m²]
     double stretch = 900.0;       // k_s [N/m] along the warp
@@ -46,6 +52,7 @@ struct MaterialSpec {             // of cloth, per metre of material
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
     BendingSpec rigidity{};
+    BendingFrictionSpec friction{};
     std::optional<double> weftStretch{};  // [N/m]; none: as the warp
     double air = 0.0;                     // [kg/m²] of air that goes along in a wind
 

@@ -115,6 +115,7 @@ void takeSprings(const SceneSpec& spec, Body& body) {
     for (std::size_t i = 0; i < body.model.cells.size() && i < fresh.cells.size(); ++i)
         body.model.cells[i].bulkModulus = fresh.cells[i].bulkModulus;
     if (body.model.bending.columns == fresh.bending.columns) body.model.bending = fresh.bending;
+    if (body.model.friction.stuck.columns == fresh.friction.stuck.columns) body.model.friction = fresh.friction;
     if (body.model.freeform.rest.size() == fresh.freeform.rest.size()) body.model.freeform = fresh.freeform;
     body.plasticity = now->plasticityIn(spec);
 }

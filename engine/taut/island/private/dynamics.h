@@ -149,8 +149,9 @@ class Dynamics {
     // The volumes of the bodies that have cells.
     virtual std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t, bool stretches) const = 0;
 
-    // Adds x and the stored v of points.
+    // Adds x and the stored v of points; of a body also where the friction of its threads holds it.
     virtual void addToHash(std::span<const int> points, core::Hash& hash) const = 0;
+    virtual void addToHash(const Body& body, core::Hash& hash) const = 0;
     virtual void visit(StateBytes& bytes) = 0;          // the state
     virtual void describe(IslandInfo& info) const = 0;  // its runs, single springs and bytes
 };

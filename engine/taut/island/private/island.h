@@ -150,8 +150,8 @@ class Island {
     // (points) [m/s] at the time of the tick; zero when frozen. May cost an evaluation.
     std::vector<dvec3> velocities(const TickTime& time);
 
-    // x and the stored v of a body's points in the order of authoring.
-    void addToHash(const Body& body, core::Hash& hash) const { dynamics_->addToHash(body.pointOf, hash); }
+    // The state of a body: x and the stored v of its points in the order of authoring, and what else it has.
+    void addToHash(const Body& body, core::Hash& hash) const { dynamics_->addToHash(body, hash); }
     // Adds x and the stored v of one point.
     void addPointToHash(int point, core::Hash& hash) const { dynamics_->addToHash({&point, 1}, hash); }
     // Work of the methods since the start.

@@ -90,12 +90,12 @@ double roundedUp(double value) {
 
 }  // namespace
 
-std::vector<Generator> generatorsOf(const SceneSpec& spec) {
-    std::vector<Generator> all;
+Generators generatorsOf(const SceneSpec& spec) {
+    Generators all;
     for (const world::WindSpec& wind : spec.forces.of<world::WindSpec>())
-        all.push_back({"wind " + wind.name, {"drag", "lift"}, wind.fullName()});
+        all.push_back({"wind " + wind.name, {"drag", "lift"}, wind.fullName(), false});
     for (const Generator& generator :
-         {Generator{"drag", {"drag_per_s"}}, Generator{"inner friction", {"damping_time_s"}},
+         {Generator{"drag", {"drag_per_s"}, "", false}, Generator{"inner friction", {"damping_time_s"}},
           Generator{"bend springs", {"bend_N_per_m", "bend_N"}}, Generator{"volume terms", {"bulk_Pa"}}})
         all.push_back(generator);
     SceneSpec scene = spec;

@@ -62,6 +62,8 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     for (world::BodySpec& body : model.bodies) body.jitter = plan.jitter;
     const PlanRun shaken = context.run(model);
     plan.jitterMoves = difference(base, shaken);
+    if (plan.jitterMoves == 0)
+        throw core::Error(core::ErrorKind::badContent, plan.name + ": error: nothing in the scene can move");
     plan.isChaotic = !shaken.isTooDear && plan.jitterMoves > context.target;
     plan.seconds = context.grid.tick * context.grid.every *
                    (plan.isChaotic ? samplesWithin(base, shaken, context.target) : context.grid.samples);
@@ -101,7 +103,8 @@ std::vector<Generators> generatorsToDrop(const PlanContext& context, const PlanR
             idle = more;
         else if (change[i] < context.target && all[i].setsCost)
             dear.push_back(all[i]);
-        plan.generators.push_back({all[i].name, change[i], false, ""});
+        const bool isIdle = !idle.empty() && idle.back().name == all[i].name;
+        plan.generators.push_back({all[i].name, change[i], isIdle, isIdle ? "left out" : "stays"});
     }
     std::vector<Generators> sets{{}};
     const auto addWithout = [&](const Generator& generator) {
@@ -212,9 +215,11 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     for (const world::BodySpec& body : context.spec.bodies) hasJitter = hasJitter || body.jitter > 0;
     if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
-    add(fmt::format(
-        "The reference is {}; its own error, cells included, is about {} and counts as an error of every candidate.",
-        plan.referenceMethod, lengthText(reference.error)));
+    add(fmt::format("The reference is {}; its own error, cells included, is about {}, {:.2g} times what is allowed.",
+                    plan.referenceMethod, lengthText(reference.error), reference.error / plan.need.target));
+    if (context.resolution.count > 0)
+        add("A candidate counts as far off as it is from the reference or from what that tends to with ever finer cells, "
+            "whichever is more.");
     if (context.resolution.most < std::numeric_limits<int>::max())
         add(fmt::format(
             "No more than {} cells are tried: with smaller ones bodies that touch would keep further apart than "
@@ -224,11 +229,8 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
         add("Contact between bodies is never left out; the cost has it, by its instants and the pairs it looked at.");
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
     if (plan.isCutShort) add("The effort was used up before all was tried: a larger --effort may find a cheaper way.");
-    if (reference.error > plan.need.target / 5)
-        add(fmt::format(
-            "That is more than a fifth of what is allowed, and coarser candidates may be refused for it: a larger "
-            "--effort would tell more.",
-            lengthText(reference.error)));
+    if (reference.error > plan.need.target / leastShareOfReference)
+        add("The reference is to be known to a fifth of what is allowed, and is not: a larger --effort would tell more.");
 }
 
 }  // namespace

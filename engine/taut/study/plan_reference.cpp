@@ -16,8 +16,7 @@ namespace taut::study {
 namespace {
 
 constexpr double leastOfExtrapolated = 0.1;  // of the error that extrapolation takes away, is taken to be left
-// The reference's own error is to be so many times below the target; and so many where that costs little more.
-constexpr double share = 5, finerShare = 20;
+constexpr double finerShare = 20;         // as leastShareOfReference, where that costs little more
 constexpr double shareOfSteps = 50;       // and that of its steps
 constexpr double leastShare = 1e-3;       // of the target: the tolerance of a method that controls its error
 constexpr double shareOfReference = 0.5;  // of the effort
@@ -180,7 +179,7 @@ PlanReference makePlanReference(const PlanContext& context) {
     for (const int count : ladder(context.resolution.count, context.resolution.most)) {
         const bool isFirst = reference.runs.empty();
         // Three resolutions at least: with two there is no order.
-        const bool isEnough = reference.runs.size() > 3 && reference.error < context.target / share;
+        const bool isEnough = reference.runs.size() > 3 && reference.error < context.target / leastShareOfReference;
         if (isEnough && reference.error < context.target / finerShare) break;
         if (!isFirst) {
             const double wanted = spent * exactEffort(context, count) / exactEffort(context, reference.count);
@@ -199,14 +198,16 @@ PlanReference makePlanReference(const PlanContext& context) {
         reference.runs[count] = exact.run;
         reference.limit = exact.run;
         reference.error = reference.unknown = exact.error;
+        if (isFirst && count > 0) reference.unknown = reference.error = HUGE_VAL;  // nothing tells what cells err by
         if (!isFirst) {
             const double apart = difference(reference.run, exact.run);
             const double finer = std::log(static_cast<double>(count) / reference.count);
             if (before > 0) reference.order = std::log(before / std::max(apart, 1e-300)) / finer;
-            // A lower one has no limit within reach, as of cloth held at a corner, which gives way the more the finer it
-            // is: then twice the cells have to do.
-            const double order = reference.order >= leastOrder ? std::min(reference.order, mostOrder) : 1.0;
-            const double beyond = 1 / (std::exp(order * finer) - 1);
+            // With a lower one no limit is within reach, as of cloth held at a corner, which gives way the more the finer
+            // it is: then what as many cells again would change has to do.
+            const double order = before > 0 ? std::clamp(reference.order, 0.0, mostOrder) : 1.0;
+            const double shrinks = std::exp(order * finer);
+            const double beyond = order < leastOrder ? 1 / shrinks : 1 / (shrinks - 1);
             reference.limit = extrapolatedRun(reference.run, exact.run, beyond);
             reference.unknown += leastOfExtrapolated * beyond * apart;
             reference.error += beyond * apart;

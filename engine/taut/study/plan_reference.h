@@ -33,6 +33,9 @@ struct PlanContext {
     }
 };
 
+// The reference's own error is to be so many times below the target.
+inline constexpr double leastShareOfReference = 5;
+
 // Throws core::Error(usage).
 [[noreturn]] void failForEffort(const PlanContext& context);
 

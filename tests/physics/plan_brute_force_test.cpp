@@ -127,8 +127,8 @@ TEST_P(PlanAgainstBruteForce, MeetsTheNeedAtNearlyTheLowestCost) {
     expectNearlyTheCheapest(GetParam());
 }
 const auto nameOfScene = [](const auto& instance) { return std::string(instance.param.name); };
-INSTANTIATE_TEST_SUITE_P(Scenes, PlanAgainstBruteForce, testing::Values(swingingRope, cornerCloth, smallNet, tightNet, dampedRope),
-                         nameOfScene);
+INSTANTIATE_TEST_SUITE_P(Scenes, PlanAgainstBruteForce,
+                         testing::Values(swingingRope, cornerCloth, smallNet, tightNet, dampedRope), nameOfScene);
 
 class PlanLong : public testing::TestWithParam<Scene> {};
 TEST_P(PlanLong, DISABLED_MeetsTheNeedAtNearlyTheLowestCost) {

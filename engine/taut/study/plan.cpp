@@ -124,7 +124,7 @@ void judgeGenerators(Plan& plan) {
     for (GeneratorTrial& trial : plan.generators) {
         trial.isLeftOut = std::any_of(without.begin(), without.end(),
                                       [&](const Generator& generator) { return generator.name == trial.name; });
-        trial.verdict = trial.isLeftOut                     ? "left out"
+        trial.verdict = trial.isLeftOut                   ? "left out"
                         : trial.change < plan.need.target ? "stays: nothing that meets the need is cheaper without it"
                                                           : "needed: it changes more than the target";
     }
@@ -218,8 +218,8 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     add(fmt::format("The reference is {}; its own error, cells included, is about {}, {:.2g} times what is allowed.",
                     plan.referenceMethod, lengthText(reference.error), reference.error / plan.need.target));
     if (context.resolution.count > 0)
-        add("A candidate counts as far off as it is from the reference or from what that tends to with ever finer cells, "
-            "whichever is more.");
+        add("A candidate counts as far off as it is from the reference or from what finer cells tend to, whichever is "
+            "more.");
     if (context.resolution.most < std::numeric_limits<int>::max())
         add(fmt::format(
             "No more than {} cells are tried: with smaller ones bodies that touch would keep further apart than "
@@ -230,7 +230,7 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
     if (plan.isCutShort) add("The effort was used up before all was tried: a larger --effort may find a cheaper way.");
     if (reference.error > plan.need.target / leastShareOfReference)
-        add("The reference is to be known to a fifth of what is allowed, and is not: a larger --effort would tell more.");
+        add("That is more than the fifth it should be: a larger --effort would tell more.");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace taut::world {
 struct IslandInfo;
 struct SceneSpec;
-}
+}  // namespace taut::world
 
 namespace taut::study {
 
@@ -41,8 +41,8 @@ struct Resolution {
 Resolution resolutionOf(const world::SceneSpec& spec);
 
 struct Candidate {
-    int count = 0;                   // cells along the longest edge, see Resolution; the others go with it
-    Generators without;              // left out
+    int count = 0;       // cells along the longest edge, see Resolution; the others go with it
+    Generators without;  // left out
     std::string method = "leapfrog";
     world::Precision precision = world::Precision::double_;
     int substeps = 0;  // of the island that needs most, as it starts; 0: as many as dt = "auto" finds

@@ -16,14 +16,14 @@ namespace taut::study {
 namespace {
 
 constexpr double leastOfExtrapolated = 0.1;  // of the error that extrapolation takes away, is taken to be left
-constexpr double finerShare = 20;         // as leastShareOfReference, where that costs little more
-constexpr double shareOfSteps = 50;       // and that of its steps
-constexpr double leastShare = 1e-3;       // of the target: the tolerance of a method that controls its error
-constexpr double shareOfReference = 0.5;  // of the effort
-constexpr double littleMore = 0.05;       // of the effort
-constexpr int leastFinerOfContacts = 8;   // times finer than the step that "auto" finds
-constexpr int mostFinerOfSmooth = 8;      // the same, before a method of high order does better
-constexpr int mostTimesFiner = 64;        // than the scene as written
+constexpr double finerShare = 20;            // as leastShareOfReference, where that costs little more
+constexpr double shareOfSteps = 50;          // and that of its steps
+constexpr double leastShare = 1e-3;          // of the target: the tolerance of a method that controls its error
+constexpr double shareOfReference = 0.5;     // of the effort
+constexpr double littleMore = 0.05;          // of the effort
+constexpr int leastFinerOfContacts = 8;      // times finer than the step that "auto" finds
+constexpr int mostFinerOfSmooth = 8;         // the same, before a method of high order does better
+constexpr int mostTimesFiner = 64;           // than the scene as written
 // Orders between which a measured one is believed: sagging cloth has about 1 to 1.5, theory ends at 2.
 constexpr double leastOrder = 0.5, mostOrder = 2.0;
 
@@ -37,7 +37,7 @@ struct ExactMethod {
 ExactMethod exactMethod(const PlanContext& context, int count) {
     ExactMethod best;
     double least = HUGE_VAL;
-    for (const auto& [method, handicap] : {std::pair{"leapfrog", 1.0}, {"sdirk2", 3e4}}) {
+    for (const auto& [method, handicap] : {std::pair{"leapfrog", 1.0}, {"rk4", 8.0}, {"sdirk2", 3e4}}) {
         ExactMethod exact;
         exact.candidate.count = count;
         exact.candidate.method = method;
@@ -163,7 +163,7 @@ double exactEffort(const PlanContext& context, int count) {
 ExactRun exactRun(const PlanContext& context, int count, double effortShare) {
     const ExactMethod exact = exactMethod(context, count);
     const bool isSmooth =
-        exact.candidate.method == "leapfrog" && context.spec.colliders.empty() && !world::bodiesTouch(context.spec);
+        exact.candidate.method != "sdirk2" && context.spec.colliders.empty() && !world::bodiesTouch(context.spec);
     ExactRun stepped =
         steppedRun(context, exact, effortShare, isSmooth ? mostFinerOfSmooth : std::numeric_limits<int>::max() / 2);
     if (isSmooth && stepped.error > context.target / shareOfSteps) {
@@ -178,7 +178,7 @@ PlanReference makePlanReference(const PlanContext& context) {
     double before = 0, spent = 0;  // what the two resolutions before changed; of the effort, the last of them
     for (const int count : ladder(context.resolution.count, context.resolution.most)) {
         const bool isFirst = reference.runs.empty();
-        // Three resolutions at least: with two there is no order.
+        // Four resolutions at least: with two there is no order, with three it may be chance.
         const bool isEnough = reference.runs.size() > 3 && reference.error < context.target / leastShareOfReference;
         if (isEnough && reference.error < context.target / finerShare) break;
         if (!isFirst) {
@@ -203,8 +203,8 @@ PlanReference makePlanReference(const PlanContext& context) {
             const double apart = difference(reference.run, exact.run);
             const double finer = std::log(static_cast<double>(count) / reference.count);
             if (before > 0) reference.order = std::log(before / std::max(apart, 1e-300)) / finer;
-            // With a lower one no limit is within reach, as of cloth held at a corner, which gives way the more the finer
-            // it is: then what as many cells again would change has to do.
+            // With a lower one no limit is within reach, as of cloth held at a corner, which gives way the more the
+            // finer it is: then what as many cells again would change has to do.
             const double order = before > 0 ? std::clamp(reference.order, 0.0, mostOrder) : 1.0;
             const double shrinks = std::exp(order * finer);
             const double beyond = order < leastOrder ? 1 / shrinks : 1 / (shrinks - 1);

@@ -68,8 +68,8 @@ struct PlanReference {
     }
 };
 
-// Doubles the resolution until its own error is a fifth of the target, or a twentieth where that costs little more, or a
-// run would cost too much.
+// Doubles the resolution until its own error is a fifth of the target, or a twentieth where that costs little more, or
+// a run would cost too much.
 PlanReference makePlanReference(const PlanContext& context);
 
 // The smallest number of cells whose error alone is within the target; none: not even the finest is.

@@ -138,12 +138,13 @@ std::string planVerdict(const Plan& plan) {
     const std::string target = lengthText(plan.need.target);
     if (plan.isChaotic)
         return fmt::format(
-            "The motion is chaotic: a start shaken by {} ends up {} away in the first {:.3g} s, where {} is allowed. No "
-            "step and no resolution tells where a point is by then. {}, allow more, or check what does not hang on it, "
-            "such as energy, strain, or the lowest point.",
+            "The motion is chaotic: a start shaken by {} goes {} astray in the first {:.3g} s, where {} is allowed. "
+            "No step and no resolution tells where a point is by then. {}, allow more, or check what does not hang on "
+            "it, such as energy, strain, or the lowest point.",
             lengthText(plan.jitter), lengthText(plan.jitterMoves), plan.need.horizon, target,
-            plan.seconds > 0 ? fmt::format("It can be predicted for {0:.3g} s: ask for horizon_s = {0:.3g}", plan.seconds)
-                             : "Ask for a shorter horizon_s");
+            plan.seconds > 0
+                ? fmt::format("It can be predicted for {0:.3g} s: ask for horizon_s = {0:.3g}", plan.seconds)
+                : "Ask for a shorter horizon_s");
     if (!plan.chosen) {
         const PlanTrial* near = nearest(plan);
         const std::string how = plan.isCutShort ? "is not met within the effort" : "cannot be met";

@@ -27,7 +27,7 @@ struct Generator {
 
 using Generators = std::vector<Generator>;
 
-// Those that the scene has.
+// Those that the scene has itself: fabrics of the library stay as they are.
 Generators generatorsOf(const world::SceneSpec& spec);
 
 // Which bodies may be built of more or fewer cells, and why the others may not.

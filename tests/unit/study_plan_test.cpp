@@ -137,6 +137,19 @@ TEST(PlanModel, EveryGeneratorIsListedAndCanBeLeftOut) {
     EXPECT_TRUE(generatorsOf(scene).empty()) << "without them there are none left";
 }
 
+TEST(PlanModel, AFabricOfTheLibraryStaysAsItIs) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.materials["fabric:silk"] = scene.materials["mine"] = {};
+    Candidate candidate;
+    candidate.count = 12;
+    candidate.without = generatorsOf(scene);
+    const world::SceneSpec model = modelOf(scene, resolutionOf(scene), candidate);
+    EXPECT_EQ(model.materials.at("mine").drag, 0);
+    EXPECT_GT(model.materials.at("fabric:silk").drag, 0);
+    scene.materials.erase("mine");
+    EXPECT_TRUE(generatorsOf(scene).empty());
+}
+
 TEST(PlanRuns, ClothsOfOtherCellsAreSeenAtTheSamePlaces) {
     const world::SceneSpec scene = sceneWithNeed();
     const Resolution resolution = resolutionOf(scene);

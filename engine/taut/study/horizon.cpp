@@ -12,8 +12,7 @@ namespace {
 constexpr double mostSteps = 1e7;
 }
 
-Horizon findHorizon(const Subject& subject, double duration, double shift,
-                    const std::function<bool(const ode::Work&)>& isTooMuch) {
+Horizon findHorizon(const Subject& subject, double duration, double shift) {
     RunPlan plan;
     plan.grid = subject.grid(duration, duration / 12);  // some 120 looks
     for (const char* method : {"rk4", "sdirk2"}) {
@@ -37,15 +36,8 @@ Horizon findHorizon(const Subject& subject, double duration, double shift,
             runs[0] && runs[1]
                 ? rmsDifference(plain->observe().values, moved->observe().values, subject.dimensions()) / start
                 : HUGE_VAL;
-        horizon.work = plain->work();
-        horizon.work += moved->work();
         horizon.growth = std::isfinite(growth) ? std::max(horizon.growth, growth) : HUGE_VAL;
-        if (growth < horizonGrowth) {  // written so that NaN ends it
-            horizon.isCutShort = sample < plan.grid.samples && isTooMuch && isTooMuch(horizon.work);
-            if (!horizon.isCutShort) continue;
-            horizon.seconds = plan.grid.spacing * sample;
-            break;
-        }
+        if (growth < horizonGrowth) continue;  // written so that NaN ends it
         horizon.seconds = plan.grid.spacing * (sample - 1);
         horizon.isReached = true;
         break;

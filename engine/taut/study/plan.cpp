@@ -12,16 +12,16 @@
 #include "taut/spec/spec.h"
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_search.h"
-#include "taut/study/scene_subject.h"
 
 namespace taut::study {
 namespace {
 
 constexpr int mostVerified = 4;            // of one search
 constexpr double stricter = 0.75;          // a target after a verification that failed
-constexpr double generatorShare = 0.25;    // of the target, that all generators left out may change together
+constexpr double mostJitter = 1e-5;        // [m] a start is hardly known better
+constexpr double leastGrowth = 0.1;        // of the target: a smaller one is shaken by that
+constexpr double generatorShare = 0.1;     // of the target, that what is left out in any case may change together
 constexpr double shareOfGenerators = 0.2;  // of the effort
-constexpr double shareOfHorizon = 0.3;     // of the effort
 
 Candidate plainCandidate(const PlanContext& context) {
     Candidate candidate;
@@ -29,12 +29,11 @@ Candidate plainCandidate(const PlanContext& context) {
     return candidate;
 }
 
-// How long the motion can be promised, and what percents and pixels mean. Sets grid and target.
+// What percents and pixels mean, and whether the motion can be promised at all. Sets grid and target.
 PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     checkNeed(context.spec);
-    const double asked = resolvedNeed(context.spec, {1.0, 1.0}).horizon;
     context.tell("scene as it is", 0.02);
-    context.grid = planGrid(context.spec, asked);
+    context.grid = planGrid(context.spec, resolvedNeed(context.spec, {1.0, 1.0}).horizon);
     const auto playWhole = [&](const world::SceneSpec& scene) {
         PlanRun run = play(scene, context.resolution, context.grid,
                            {.effort = std::max(context.left(), 0.0), .withScales = true});
@@ -58,35 +57,25 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     plan.need = resolvedNeed(context.spec, base.scales);
     context.target = plan.need.target;
 
-    context.tell("horizon", 0.08);
-    plan.perturbation = context.target / horizonGrowth;
-    const double tick = context.grid.tick;
-    const std::unique_ptr<Subject> subject = makeSceneSubject(model, plan.name);
-    const std::int64_t calls = std::max<std::int64_t>(1, base.work.evaluations + base.work.iterations);
-    const double each = (base.effort - base.startEffort) / static_cast<double>(calls);
-    const auto effortOf = [&](const ode::Work& work) {
-        return each * static_cast<double>(work.evaluations + work.iterations);
-    };
-    const double most = std::max(context.left(shareOfHorizon), 0.0);
-    const Horizon horizon = findHorizon(*subject, std::max(asked, 10 * tick), plan.perturbation,
-                                        [&](const ode::Work& work) { return effortOf(work) > most; });
-    context.spent += static_cast<std::int64_t>(effortOf(horizon.work));
-    plan.isCutShort = horizon.isCutShort;
-    if (horizon.isCutShort) plan.predicted = horizon.seconds;
-    plan.isChaotic = horizon.isReached && horizon.seconds < asked * (1 - 1e-9);
-    plan.seconds = plan.isChaotic ? horizon.seconds : context.grid.seconds();
-    if (plan.isChaotic) {
-        context.grid = planGrid(context.spec, std::max(horizon.seconds, tick));
-        base = context.run(model);
-    }
+    context.tell("jitter", 0.08);
+    plan.jitter = std::min(mostJitter, leastGrowth * context.target);
+    for (world::BodySpec& body : model.bodies) body.jitter = plan.jitter;
+    const PlanRun shaken = context.run(model);
+    plan.jitterMoves = difference(base, shaken);
+    if (plan.jitterMoves == 0)
+        throw core::Error(core::ErrorKind::badContent, plan.name + ": error: nothing in the scene can move");
+    plan.isChaotic = !shaken.isTooDear && plan.jitterMoves > context.target;
+    plan.seconds = context.grid.tick * context.grid.every *
+                   (plan.isChaotic ? samplesWithin(base, shaken, context.target) : context.grid.samples);
     return base;
 }
 
-// Leaves out, in the order of their effect, what together changes less than its share of the target.
-std::vector<Generator> generatorsToDrop(const PlanContext& context, const PlanRun& base, Plan& plan) {
-    const std::vector<Generator> all = generatorsOf(context.spec);
+// What candidates may leave out, in every combination: generators that together change next to nothing, and those that
+// change less than the target where the cost hangs on them. The first set is that of all that change next to nothing.
+std::vector<Generators> generatorsToDrop(const PlanContext& context, const PlanRun& base, Plan& plan) {
+    const Generators all = generatorsOf(context.spec);
     const double most = context.left(shareOfGenerators) / static_cast<double>(all.size() + 1);
-    const auto changeWithout = [&](const std::vector<Generator>& without) {
+    const auto changeWithout = [&](const Generators& without) {
         Candidate candidate = plainCandidate(context);
         candidate.without = without;
         candidate.method = context.plainMethod;
@@ -105,22 +94,40 @@ std::vector<Generator> generatorsToDrop(const PlanContext& context, const PlanRu
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return change[a] < change[b]; });
 
-    const double mostChange = generatorShare * context.target;
-    std::vector<Generator> without;
+    Generators idle, dear;
     for (const std::size_t i : order) {
-        GeneratorTrial trial{all[i].name, change[i], false, ""};
-        if (change[i] >= mostChange) {
-            trial.verdict = "needed: it changes more than a quarter of the target";
-        } else {
-            context.tell("force generators", 0.25);
-            without.push_back(all[i]);
-            trial.isLeftOut = without.size() == 1 || changeWithout(without) < mostChange;
-            trial.verdict = trial.isLeftOut ? "left out" : "needed: with the ones above it changes more than a quarter";
-            if (!trial.isLeftOut) without.pop_back();
-        }
-        plan.generators.push_back(trial);
+        Generators more = idle;
+        more.push_back(all[i]);
+        if (change[i] < generatorShare * context.target &&
+            (more.size() == 1 || changeWithout(more) < generatorShare * context.target))
+            idle = more;
+        else if (change[i] < context.target && all[i].setsCost)
+            dear.push_back(all[i]);
+        const bool isIdle = !idle.empty() && idle.back().name == all[i].name;
+        plan.generators.push_back({all[i].name, change[i], isIdle, isIdle ? "left out" : "stays"});
     }
-    return without;
+    std::vector<Generators> sets{{}};
+    const auto addWithout = [&](const Generator& generator) {
+        for (std::size_t k = 0, n = generator.setsCost ? sets.size() : 0; k < n; ++k) sets.push_back(sets[k]);
+        for (std::size_t k = generator.setsCost ? sets.size() / 2 : 0; k < sets.size(); ++k)
+            sets[k].push_back(generator);
+    };
+    std::for_each(idle.begin(), idle.end(), addWithout);
+    std::swap(sets.front(), sets.back());  // without all of them
+    std::for_each(dear.begin(), dear.end(), addWithout);
+    return sets;
+}
+
+void judgeGenerators(Plan& plan) {
+    if (!plan.chosen) return;
+    const Generators& without = plan.trials[*plan.chosen].candidate.without;
+    for (GeneratorTrial& trial : plan.generators) {
+        trial.isLeftOut = std::any_of(without.begin(), without.end(),
+                                      [&](const Generator& generator) { return generator.name == trial.name; });
+        trial.verdict = trial.isLeftOut                   ? "left out"
+                        : trial.change < plan.need.target ? "stays: nothing that meets the need is cheaper without it"
+                                                          : "needed: it changes more than the target";
+    }
 }
 
 void listResolutions(const PlanContext& context, const PlanReference& reference, Plan& plan) {
@@ -176,7 +183,7 @@ void verify(const PlanContext& context, Plan& plan) {
 // In place of what does not stand the verification the next cheapest is taken; where none does, it is searched for once
 // more with a stricter target.
 void searchAndVerify(PlanContext& context, const PlanReference& reference, std::optional<int> least,
-                     const std::vector<Generator>& without, Plan& plan) {
+                     const std::vector<Generators>& without, Plan& plan) {
     for (int round = 0; round < 3; ++round, context.target *= stricter) {
         plan.trials.clear();
         plan.chosen.reset();
@@ -200,15 +207,7 @@ void searchAndVerify(PlanContext& context, const PlanReference& reference, std::
 
 void addRemarks(const PlanContext& context, const PlanReference& reference, Plan& plan) {
     const auto add = [&](std::string remark) { plan.remarks.push_back(std::move(remark)); };
-    if (plan.isChaotic)
-        add(fmt::format(
-            "The motion is chaotic: start positions shifted by up to {}, a thousandth of what is allowed, are further "
-            "apart "
-            "than is allowed after {:.3g} s. The promise holds up to there, not up to the {:.3g} s asked for; later no "
-            "step and no resolution tells where a point is.",
-            lengthText(plan.perturbation), plan.seconds, plan.need.horizon));
-    else
-        add(fmt::format("The promise holds for the first {:.3g} s, the horizon asked for.", plan.seconds));
+    add(fmt::format("The promise holds for the first {:.3g} s, the horizon asked for.", plan.seconds));
     if (plan.unseen() > 0)
         add(fmt::format("Warning: what happens between {:.3g} s and the end of the run at {:.3g} s was not looked at.",
                         plan.seconds, plan.runSeconds));
@@ -216,8 +215,11 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     for (const world::BodySpec& body : context.spec.bodies) hasJitter = hasJitter || body.jitter > 0;
     if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
-    add(fmt::format("The reference is {}; its own error, cells included, is about {}.", plan.referenceMethod,
-                    lengthText(reference.error)));
+    add(fmt::format("The reference is {}; its own error, cells included, is about {}, {:.2g} times what is allowed.",
+                    plan.referenceMethod, lengthText(reference.error), reference.error / plan.need.target));
+    if (context.resolution.count > 0)
+        add("A candidate counts as far off as it is from the reference or from what finer cells tend to, whichever is "
+            "more.");
     if (context.resolution.most < std::numeric_limits<int>::max())
         add(fmt::format(
             "No more than {} cells are tried: with smaller ones bodies that touch would keep further apart than "
@@ -226,15 +228,9 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     if (world::bodiesTouch(context.spec))
         add("Contact between bodies is never left out; the cost has it, by its instants and the pairs it looked at.");
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
-    if (plan.predicted)
-        add(fmt::format(
-            "Whether the motion can be predicted was tried for the first {:.3g} s, as far as the effort went.",
-            *plan.predicted));
     if (plan.isCutShort) add("The effort was used up before all was tried: a larger --effort may find a cheaper way.");
-    if (reference.error > context.target / 2)
-        add(fmt::format(
-            "The finest motion that the effort allows is itself known to {} only; a larger --effort would tell more.",
-            lengthText(reference.error)));
+    if (reference.error > plan.need.target / leastShareOfReference)
+        add("That is more than the fifth it should be: a larger --effort would tell more.");
 }
 
 }  // namespace
@@ -247,7 +243,8 @@ Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
     plan.resolution = context.resolution;
     plan.runSeconds = spec.run.seconds;
     const PlanRun base = resolveNeed(context, plan);
-    const std::vector<Generator> without = generatorsToDrop(context, base, plan);
+    if (plan.isChaotic) return plan;
+    const std::vector<Generators> without = generatorsToDrop(context, base, plan);
 
     context.tell("reference", 0.3);
     PlanReference reference = makePlanReference(context);
@@ -261,6 +258,7 @@ Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
         plan.ratio = written.hasWholeCost() ? written.cost / chosen.cost : PlanTrial::unset;
         if (!chosen.isAsWritten) plan.changes = planChanges(spec, sceneOf(context, chosen.candidate));
     }
+    judgeGenerators(plan);
     plan.isCutShort = plan.isCutShort || context.isCutShort;
     addRemarks(context, reference, plan);
     plan.spent = settings.effort - context.left();

@@ -66,13 +66,12 @@ struct Verification {
 struct Plan {
     std::string name;
     Need need;
-    double seconds = 0;               // [s] that the promise holds for: the horizon asked for, or less
-    bool isCutShort = false;          // by the effort, before all was tried
-    double spent = 0;                 // of the effort
-    std::optional<double> predicted;  // [s] where trying whether the motion can be predicted was cut short
-    bool isChaotic = false;           // the motion cannot be predicted for as long as was asked
-    double perturbation = 0;          // [m] of the start, by which that was tried; see makePlan
-    double runSeconds = 0;            // [s] of the whole run
+    double seconds = 0;       // [s] that the motion can be promised for: the horizon asked for, or less
+    bool isCutShort = false;  // by the effort, before all was tried
+    double spent = 0;         // of the effort
+    bool isChaotic = false;   // the motion cannot be predicted for as long as was asked; then nothing else was tried
+    double jitter = 0, jitterMoves = 0;  // [m] by which the start was shaken to see that, and how far that went
+    double runSeconds = 0;               // [s] of the whole run
     Resolution resolution;
     std::vector<GeneratorTrial> generators;
     std::vector<ResolutionTrial> resolutions;  // by count
@@ -96,11 +95,10 @@ struct Plan {
     double unseen() const { return runSeconds > seconds * (1 + 1e-9) ? runSeconds - seconds : 0.0; }
 };
 
-// Motion counts as predictable until a shift of the start positions by a thousandth of the target has grown to the
-// target: from there on what candidates differ by is the disturbance, not how well they compute. Where that is before
-// the horizon asked for, the search goes up to there and the need is not met.
-// Throws core::Error: badContent where [need] is missing or contradicts the scene or nothing can move, diverged where
-// even the smallest steps do, interrupted.
+// Motion is chaotic where a jitter of the start by 1e-5 m, or by a tenth of the target if that is less, moves points by
+// more than the target: candidates would differ by the disturbance, not by how well they compute. Nothing is tried
+// then. Throws core::Error: badContent where [need] is missing or contradicts the scene or nothing can move, diverged
+// where even the smallest steps do, interrupted.
 Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings = {});
 
 }  // namespace taut::study

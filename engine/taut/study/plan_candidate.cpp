@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "taut/core/error.h"
+#include "taut/scene/fabrics.h"
 #include "taut/scene/private/by_key.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
@@ -26,6 +27,11 @@ constexpr int leastCells = 2;  // of a cloth or rope: a spring across two cells 
 constexpr double leastSafety = 0.01;
 constexpr double springsACell = 5;  // a volume cell takes the time of so many springs (measured: 20 ns against 4)
 constexpr double splitting = 2.2;   // what a step that splits the dashpots off costs, of one that does not
+
+// A fabric of the library stays as it was measured: a scene file has no place to change it.
+bool isOfLibrary(const std::pair<const std::string, world::MaterialSpec>& material) {
+    return material.first.starts_with(scene::fabricPrefix);
+}
 
 bool namesPlaces(const std::string& selector) {
     return selector.find_first_of("#%(") != std::string::npos;
@@ -90,15 +96,16 @@ double roundedUp(double value) {
 
 }  // namespace
 
-std::vector<Generator> generatorsOf(const SceneSpec& spec) {
-    std::vector<Generator> all;
+Generators generatorsOf(const SceneSpec& spec) {
+    Generators all;
     for (const world::WindSpec& wind : spec.forces.of<world::WindSpec>())
-        all.push_back({"wind " + wind.name, {"drag", "lift"}, wind.fullName()});
+        all.push_back({"wind " + wind.name, {"drag", "lift"}, wind.fullName(), false});
     for (const Generator& generator :
-         {Generator{"drag", {"drag_per_s"}}, Generator{"inner friction", {"damping_time_s"}},
+         {Generator{"drag", {"drag_per_s"}, "", false}, Generator{"inner friction", {"damping_time_s"}},
           Generator{"bend springs", {"bend_N_per_m", "bend_N"}}, Generator{"volume terms", {"bulk_Pa"}}})
         all.push_back(generator);
     SceneSpec scene = spec;
+    std::erase_if(scene.materials, isOfLibrary);
     std::erase_if(all, [&](const Generator& generator) {
         bool isThere = false;
         scene::eachNumber(scene, generator.owner, generator.keys, [&](double& x) { isThere = isThere || x > 0; });
@@ -145,6 +152,8 @@ SceneSpec modelOf(const SceneSpec& spec, const Resolution& resolution, const Can
     if (resolution.count > 0) scaleBodies(model, resolution, candidate.count);
     for (const Generator& generator : candidate.without)
         scene::eachNumber(model, generator.owner, generator.keys, [](double& strength) { strength = 0.0; });
+    for (auto& material : model.materials)
+        if (isOfLibrary(material)) material.second = spec.materials.at(material.first);
     model.solver.integrator = candidate.method;
     model.solver.precision = candidate.precision;
     model.solver.dt.reset();

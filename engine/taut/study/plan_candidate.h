@@ -13,7 +13,7 @@
 namespace taut::world {
 struct IslandInfo;
 struct SceneSpec;
-}
+}  // namespace taut::world
 
 namespace taut::study {
 
@@ -22,10 +22,13 @@ struct Generator {
     std::string name;                    // "wind breeze", "drag", "bend springs", …
     std::vector<std::string_view> keys;  // of the numbers that are all zero without it, see scene::eachNumber
     std::string owner{};                 // that has them, e.g. "wind.breeze"; empty: every body and material
+    bool setsCost = true;                // springs, cells or the step hang on it
 };
 
-// Those that the scene has.
-std::vector<Generator> generatorsOf(const world::SceneSpec& spec);
+using Generators = std::vector<Generator>;
+
+// Those that the scene has itself: fabrics of the library stay as they are.
+Generators generatorsOf(const world::SceneSpec& spec);
 
 // Which bodies may be built of more or fewer cells, and why the others may not.
 struct Resolution {
@@ -38,8 +41,8 @@ struct Resolution {
 Resolution resolutionOf(const world::SceneSpec& spec);
 
 struct Candidate {
-    int count = 0;                   // cells along the longest edge, see Resolution; the others go with it
-    std::vector<Generator> without;  // left out
+    int count = 0;       // cells along the longest edge, see Resolution; the others go with it
+    Generators without;  // left out
     std::string method = "leapfrog";
     world::Precision precision = world::Precision::double_;
     int substeps = 0;  // of the island that needs most, as it starts; 0: as many as dt = "auto" finds

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
@@ -15,12 +16,14 @@ namespace taut::study {
 namespace {
 
 constexpr double leastOfExtrapolated = 0.1;  // of the error that extrapolation takes away, is taken to be left
-constexpr double share = 5;                  // the reference's own error is to be so many times below the target
-constexpr double shareOfSteps = 20;          // and that of its steps
+constexpr double finerShare = 20;            // as leastShareOfReference, where that costs little more
+constexpr double shareOfSteps = 50;          // and that of its steps
 constexpr double leastShare = 1e-3;          // of the target: the tolerance of a method that controls its error
-constexpr double shareOfReference = 0.5;
-constexpr int leastFinerOfContacts = 32;  // times finer than the step that "auto" finds
-constexpr int mostTimesFiner = 8;         // than the scene as written
+constexpr double shareOfReference = 0.5;     // of the effort
+constexpr double littleMore = 0.05;          // of the effort
+constexpr int leastFinerOfContacts = 8;      // times finer than the step that "auto" finds
+constexpr int mostFinerOfSmooth = 8;         // the same, before a method of high order does better
+constexpr int mostTimesFiner = 64;           // than the scene as written
 // Orders between which a measured one is believed: sagging cloth has about 1 to 1.5, theory ends at 2.
 constexpr double leastOrder = 0.5, mostOrder = 2.0;
 
@@ -30,11 +33,11 @@ struct ExactMethod {
     double evaluations = 0;  // a step
 };
 
-// RK4, unless its largest stable step makes it many times as dear as others, which need more steps to be as exact.
+// Leap-frog, unless its largest stable step makes it many times as dear as what needs more steps to be as exact.
 ExactMethod exactMethod(const PlanContext& context, int count) {
     ExactMethod best;
     double least = HUGE_VAL;
-    for (const auto& [method, handicap] : {std::pair{"rk4", 1.0}, {"leapfrog", 30.0}, {"sdirk2", 1e6}}) {
+    for (const auto& [method, handicap] : {std::pair{"leapfrog", 1.0}, {"rk4", 8.0}, {"sdirk2", 3e4}}) {
         ExactMethod exact;
         exact.candidate.count = count;
         exact.candidate.method = method;
@@ -51,6 +54,7 @@ ExactMethod exactMethod(const PlanContext& context, int count) {
 // Cells along the longest edge, from two on, each about twice the one before, the scene's own among them.
 std::vector<int> ladder(int count, int most) {
     std::vector<int> counts;
+    if (count == 0) return {0};  // nothing to refine
     for (int c = count; c >= 2; c = (c + 1) / 2) {
         counts.push_back(c);
         if (c == 2) break;
@@ -92,8 +96,8 @@ ExactRun controlledRun(const PlanContext& context, int count) {
     return result;
 }
 
-// At ever shorter steps until halving them tells no more.
-ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double effortShare) {
+// At ever shorter steps until halving them tells no more, or they are so many times finer than "auto" finds.
+ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double effortShare, int mostFiner) {
     const auto runAt = [&](int finer) {
         Candidate candidate = exact.candidate;
         candidate.substeps = finer * exact.facts.leastSubsteps;
@@ -101,7 +105,7 @@ ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double
     };
     ExactRun result{runAt(1), HUGE_VAL, ""};
     double before = 0;
-    for (int finer = 2;; finer *= 2) {
+    for (int finer = 2; finer <= mostFiner; finer *= 2) {
         if (finer > 2 && context.left(effortShare) < 3 * result.run.effort) break;
         PlanRun next = runAt(finer);
         if (!next.isWhole()) break;
@@ -158,73 +162,65 @@ double exactEffort(const PlanContext& context, int count) {
 
 ExactRun exactRun(const PlanContext& context, int count, double effortShare) {
     const ExactMethod exact = exactMethod(context, count);
-    const bool isControlled =
-        exact.candidate.method == "rk4" && context.spec.colliders.empty() && !world::bodiesTouch(context.spec);
-    if (isControlled) {
-        ExactRun run = controlledRun(context, count);
-        if (run.run.isWhole() && run.run.work.unconverged == 0) return run;
+    const bool isSmooth =
+        exact.candidate.method != "sdirk2" && context.spec.colliders.empty() && !world::bodiesTouch(context.spec);
+    ExactRun stepped =
+        steppedRun(context, exact, effortShare, isSmooth ? mostFinerOfSmooth : std::numeric_limits<int>::max() / 2);
+    if (isSmooth && stepped.error > context.target / shareOfSteps) {
+        ExactRun controlled = controlledRun(context, count);
+        if (controlled.run.work.unconverged == 0 && controlled.error < stepped.error) return controlled;
     }
-    return steppedRun(context, exact, effortShare);
+    return stepped;
 }
 
 PlanReference makePlanReference(const PlanContext& context) {
     PlanReference reference;
-    if (context.resolution.count == 0) {
-        ExactRun exact = exactRun(context, 0, shareOfReference);
-        expectWhole(context, exact);
-        reference.run = std::move(exact.run);
-        reference.error = exact.error;
-        reference.method = exact.method;
-        return reference;
-    }
-    double before = 0, ofResolution = HUGE_VAL;
-    PlanRun last;          // by the cells before
-    PlanRun extrapolated;  // from those and the ones before them
+    double before = 0, spent = 0;  // what the two resolutions before changed; of the effort, the last of them
     for (const int count : ladder(context.resolution.count, context.resolution.most)) {
-        const bool isFirst = reference.count == 0;
-        if (!isFirst && 2 * exactEffort(context, count) > context.left(shareOfReference)) {
-            context.isCutShort = true;
-            break;
+        const bool isFirst = reference.runs.empty();
+        // Four resolutions at least: with two there is no order, with three it may be chance.
+        const bool isEnough = reference.runs.size() > 3 && reference.error < context.target / leastShareOfReference;
+        if (isEnough && reference.error < context.target / finerShare) break;
+        if (!isFirst) {
+            const double wanted = spent * exactEffort(context, count) / exactEffort(context, reference.count);
+            if (wanted > (isEnough ? littleMore * context.settings.effort : context.left(shareOfReference))) {
+                context.isCutShort = context.isCutShort || !isEnough;
+                break;
+            }
         }
-        context.tell(fmt::format("reference, {} cells", count),
+        context.tell(count > 0 ? fmt::format("reference, {} cells", count) : "reference",
                      0.3 + 0.03 * static_cast<double>(reference.runs.size()));
+        spent = context.left();
         ExactRun exact = exactRun(context, count, shareOfReference);
+        spent -= context.left();
         if (isFirst) expectWhole(context, exact);
         if (!exact.run.isWhole()) break;
-        PlanRun best = exact.run;
+        reference.runs[count] = exact.run;
+        reference.limit = exact.run;
+        reference.error = reference.unknown = exact.error;
+        if (isFirst && count > 0) reference.unknown = reference.error = HUGE_VAL;  // nothing tells what cells err by
         if (!isFirst) {
-            const double apart = difference(last, exact.run);
-            const double ratio = std::log(static_cast<double>(count) / reference.count);
-            if (before > 0) reference.order = std::log(before / std::max(apart, 1e-300)) / ratio;
-            const double order = std::clamp(before > 0 ? reference.order : 1.0, leastOrder, mostOrder);
-            const double factor = 1 / (std::exp(order * ratio) - 1);
-            ofResolution = factor * apart;
-            PlanRun next = extrapolatedRun(last, exact.run, factor);
-            // What two extrapolations in a row differ by is more than the later one errs by.
-            const double left = before > 0 && extrapolated.isWhole() && !extrapolated.at.empty()
-                                    ? std::max(difference(extrapolated, next), leastOfExtrapolated * ofResolution)
-                                    : HUGE_VAL;
-            if (left < ofResolution) {
-                best = next;
-                ofResolution = left;
-            }
-            extrapolated = std::move(next);
+            const double apart = difference(reference.run, exact.run);
+            const double finer = std::log(static_cast<double>(count) / reference.count);
+            if (before > 0) reference.order = std::log(before / std::max(apart, 1e-300)) / finer;
+            // With a lower one no limit is within reach, as of cloth held at a corner, which gives way the more the
+            // finer it is: then what as many cells again would change has to do.
+            const double order = before > 0 ? std::clamp(reference.order, 0.0, mostOrder) : 1.0;
+            const double shrinks = std::exp(order * finer);
+            const double beyond = order < leastOrder ? 1 / shrinks : 1 / (shrinks - 1);
+            reference.limit = extrapolatedRun(reference.run, exact.run, beyond);
+            reference.unknown += leastOfExtrapolated * beyond * apart;
+            reference.error += beyond * apart;
             before = apart;
         }
-        reference.runs[count] = exact.run;
-        last = std::move(exact.run);
-        reference.run = std::move(best);
+        reference.run = std::move(exact.run);
         reference.count = count;
-        reference.error = ofResolution + exact.error;
         reference.method = exact.method;
-        // Three resolutions at least: with two there is no order.
-        if (reference.runs.size() > 3 && reference.error < context.target / share) break;
     }
     return reference;
 }
 
 std::optional<int> leastCount(const PlanContext& context, PlanReference& reference) {
-    if (reference.runs.empty()) return std::nullopt;
     const auto isEnough = [&](int count) {
         const auto found = reference.runs.find(count);
         if (found == reference.runs.end()) {

@@ -33,6 +33,9 @@ struct PlanContext {
     }
 };
 
+// The reference's own error is to be so many times below the target.
+inline constexpr double leastShareOfReference = 5;
+
 // Throws core::Error(usage).
 [[noreturn]] void failForEffort(const PlanContext& context);
 
@@ -49,17 +52,24 @@ ExactRun exactRun(const PlanContext& context, int count, double share);
 // What its first two runs would take of the effort.
 double exactEffort(const PlanContext& context, int count);
 
+// A candidate has to be near both, the finest run and what it tends to (Richardson): then it is as near to all that
+// lies in between, wherever there the truth is. The reference's own error so counts for a candidate in the direction
+// that it has, and for one that errs in another direction not at all.
 struct PlanReference {
-    PlanRun run;       // at `count` cells, or extrapolated from it and the coarser ones where that is nearer
-    int count = 0;     // of the finest
-    double error = 0;  // [m] of the reference: what is left of that of its cells, and that of its steps
+    PlanRun run, limit;               // at the finest resolution; extrapolated from it and the one before
+    int count = 0;                    // of the finest
+    double error = 0;                 // [m] of the finest: how far it is from its limit, and that of its steps
+    double unknown = 0;               // [m] of that, what has no direction: of its steps, and a share of the rest
     double order = PlanTrial::unset;  // measured over three resolutions
     std::string method;               // of its steps, in words
     std::map<int, PlanRun> runs;      // by count
-    double errorOf(const PlanRun& other) const { return difference(other, run) + error; }
+    double errorOf(const PlanRun& other) const {
+        return std::max(difference(other, run), difference(other, limit)) + unknown;
+    }
 };
 
-// Doubles the resolution until the error left is a fifth of the target, or a run would cost too much.
+// Doubles the resolution until its own error is a fifth of the target, or a twentieth where that costs little more, or
+// a run would cost too much.
 PlanReference makePlanReference(const PlanContext& context);
 
 // The smallest number of cells whose error alone is within the target; none: not even the finest is.

@@ -156,6 +156,18 @@ double pixelAt(const world::World& world, const world::SceneSpec& model, const S
     return nearest < HUGE_VAL ? nearest * height / model.picture.size.y : 0.0;
 }
 
+// RMS over the places of the first looks. [m]
+double differenceOf(const PlanRun& a, const PlanRun& b, std::size_t samples) {
+    double sum = 0, count = 0;
+    for (std::size_t s = 0; s < samples; ++s)
+        for (std::size_t i = 0; i < a.at[s].size(); ++i) {
+            const dvec3 apart = a.at[s][i] - b.at[s][i];
+            sum += glm::dot(apart, apart);
+            ++count;
+        }
+    return std::sqrt(sum / std::max(count, 1.0));
+}
+
 class SightBounds {
   public:
     void add(const Sight& sight) {
@@ -249,15 +261,14 @@ PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const 
 }
 
 double difference(const PlanRun& a, const PlanRun& b) {
-    if (!a.isWhole() || !b.isWhole() || a.at.empty()) return HUGE_VAL;
-    double sum = 0, count = 0;
-    for (std::size_t s = 0; s < a.at.size(); ++s)
-        for (std::size_t i = 0; i < a.at[s].size(); ++i) {
-            const dvec3 apart = a.at[s][i] - b.at[s][i];
-            sum += glm::dot(apart, apart);
-            ++count;
-        }
-    return std::sqrt(sum / std::max(count, 1.0));
+    return a.isWhole() && b.isWhole() && !a.at.empty() ? differenceOf(a, b, a.at.size()) : HUGE_VAL;
+}
+
+int samplesWithin(const PlanRun& a, const PlanRun& b, double most) {
+    const std::size_t samples = std::min(a.at.size(), b.at.size());
+    std::size_t within = 0;
+    while (within < samples && differenceOf(a, b, within + 1) <= most) ++within;
+    return static_cast<int>(within);
 }
 
 }  // namespace taut::study

@@ -60,5 +60,7 @@ PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const 
 
 // RMS over places and times. [m] Infinite when one of the runs did not end.
 double difference(const PlanRun& a, const PlanRun& b);
+// How many looks there are before that exceeds `most`; runs may have ended early.
+int samplesWithin(const PlanRun& a, const PlanRun& b, double most);
 
 }  // namespace taut::study

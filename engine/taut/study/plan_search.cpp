@@ -23,7 +23,7 @@ constexpr double shareToSearch = 0.9;   // the rest is for the verification
 
 class Search {
   public:
-    Search(const PlanContext& context, const PlanReference& reference, const std::vector<Generator>& without,
+    Search(const PlanContext& context, const PlanReference& reference, const std::vector<Generators>& without,
            Plan& plan)
         : context_(context), reference_(reference), without_(without), plan_(plan) {}
 
@@ -67,7 +67,7 @@ class Search {
         const std::vector<std::string> names = methods();
         for (std::size_t i = 0; i < preferred_; ++i) {
             PlanTrial trial;
-            trial.candidate = {count, without_, names[i], Precision::double_, 0};
+            trial.candidate = {count, without_.front(), names[i], Precision::double_, 0};
             run(trial);
         }
     }
@@ -99,13 +99,14 @@ class Search {
                 const int count = centre + side * away;
                 if (away == 0 && side > 0) continue;
                 if (count < std::min(1, centre) || (count > centre && (count > finest || away > moreCounts))) continue;
-                for (const std::string& method : names) {
-                    if (isOver()) {
-                        plan_.isCutShort = plan_.isCutShort || most < wanted;
-                        return;
+                for (const Generators& without : without_)
+                    for (const std::string& method : names) {
+                        if (isOver()) {
+                            plan_.isCutShort = plan_.isCutShort || most < wanted;
+                            return;
+                        }
+                        scanMethod(count, without, method, isOver);
                     }
-                    scanMethod(count, method, isOver);
-                }
             }
     }
 
@@ -164,7 +165,7 @@ class Search {
         const ode::MethodInfo& method = *ode::findMethod(name);
         lastError_ = PlanTrial::unset;
         PlanTrial trial;
-        trial.candidate = {count, without_, name, Precision::double_, 0};
+        trial.candidate = {count, without_.front(), name, Precision::double_, 0};
         const StepFacts facts = stepFacts(modelOf(context_.spec, context_.resolution, trial.candidate));
         if (!facts.isPossible) {
             if (isToldWhenSkipped) reject(trial, "unstable at every step, or more than a million a tick");
@@ -203,9 +204,9 @@ class Search {
     }
 
     template <class IsOver>
-    void scanMethod(int count, const std::string& name, const IsOver& isOver) {
+    void scanMethod(int count, const Generators& without, const std::string& name, const IsOver& isOver) {
         PlanTrial trial;
-        trial.candidate = {count, without_, name, Precision::double_, 0};
+        trial.candidate = {count, without, name, Precision::double_, 0};
         const StepFacts facts = stepFacts(modelOf(context_.spec, context_.resolution, trial.candidate));
         if (!facts.isPossible) return;
         const ode::MethodInfo& method = *ode::findMethod(name);
@@ -266,7 +267,7 @@ class Search {
 
     const PlanContext& context_;
     const PlanReference& reference_;
-    const std::vector<Generator>& without_;
+    const std::vector<Generators>& without_;  // first what changes next to nothing, then what would save something
     Plan& plan_;
     double lastError_ = PlanTrial::unset;  // of the method that is tried, and at how many substeps
     int lastSubsteps_ = 0;
@@ -306,7 +307,7 @@ void judgeTrials(const PlanContext& context, Plan& plan) {
 }
 
 void searchCandidates(const PlanContext& context, const PlanReference& reference, std::optional<int> least,
-                      const std::vector<Generator>& without, Plan& plan) {
+                      const std::vector<Generators>& without, Plan& plan) {
     Search search(context, reference, without, plan);
     search.tryAsWritten();
     if (least)

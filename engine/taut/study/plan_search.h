@@ -6,9 +6,9 @@
 namespace taut::study {
 
 // Fills plan.trials and plan.chosen. `least` is the coarsest resolution that can do; where none can, the finest shows
-// how near the scene comes.
+// how near the scene comes. `without` are the sets of generators that a candidate may leave out, the first the safest.
 void searchCandidates(const PlanContext& context, const PlanReference& reference, std::optional<int> least,
-                      const std::vector<Generator>& without, Plan& plan);
+                      const std::vector<Generators>& without, Plan& plan);
 
 // Sets aside what was chosen, as it did not stand the verification, for the next cheapest that meets the need, if any.
 void rejectChosen(Plan& plan);

@@ -136,6 +136,15 @@ const PlanTrial* nearest(const Plan& plan) {
 
 std::string planVerdict(const Plan& plan) {
     const std::string target = lengthText(plan.need.target);
+    if (plan.isChaotic)
+        return fmt::format(
+            "The motion is chaotic: a start shaken by {} goes {} astray in the first {:.3g} s, where {} is allowed. "
+            "No step and no resolution tells where a point is by then. {}, allow more, or check what does not hang on "
+            "it, such as energy, strain, or the lowest point.",
+            lengthText(plan.jitter), lengthText(plan.jitterMoves), plan.need.horizon, target,
+            plan.seconds > 0
+                ? fmt::format("It can be predicted for {0:.3g} s: ask for horizon_s = {0:.3g}", plan.seconds)
+                : "Ask for a shorter horizon_s");
     if (!plan.chosen) {
         const PlanTrial* near = nearest(plan);
         const std::string how = plan.isCutShort ? "is not met within the effort" : "cannot be met";
@@ -164,11 +173,6 @@ std::string planVerdict(const Plan& plan) {
             "The need cannot be met: the cheapest within {} takes {:.3g} ms a frame, {:.3g} times the "
             "{:.3g} ms allowed.",
             target, chosen.milliseconds, chosen.milliseconds / *plan.need.budget, *plan.need.budget);
-    if (plan.isChaotic)
-        return fmt::format(
-            "The need is met for the first {:.3g} s of the {:.3g} s asked for only: an error of {} where "
-            "{} is allowed.",
-            plan.seconds, plan.need.horizon, lengthText(chosen.error), target);
     return fmt::format("The need is met: an error of {} where {} is allowed, for the first {:.3g} s.",
                        lengthText(chosen.error), target, plan.seconds);
 }
@@ -177,6 +181,7 @@ std::string planSummary(const Plan& plan) {
     std::string text = fmt::format("{}\nNeeds an RMS error of at most {} ({}) up to {:.3g} s", plan.name,
                                    lengthText(plan.need.target), plan.need.stated, plan.need.horizon);
     if (plan.need.budget) text += fmt::format(", at {:.3g} ms a frame", *plan.need.budget);
+    if (plan.isChaotic) return text + ".\n\n" + planVerdict(plan) + "\n";
     text += ".\n" + evidenceText(plan) + verificationText(plan) + resultText(plan) + "\n" + planVerdict(plan) + "\n";
     for (const std::string& remark : plan.remarks) text += remark + "\n";
     return text;
@@ -193,7 +198,8 @@ std::string planJson(const Plan& plan, const MachineFacts& machine) {
     json["promised_s"] = plan.seconds;
     json["run_s"] = plan.runSeconds;
     json["not_looked_at_s"] = plan.unseen();
-    json["perturbation_m"] = plan.perturbation;
+    json["jitter_m"] = plan.jitter;
+    json["jitter_moves_m"] = plan.jitterMoves;
     json["chaotic"] = plan.isChaotic;
     json["cut_short_by_effort"] = plan.isCutShort;
     json["effort_spent"] = plan.spent;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "taut/core/error.h"
@@ -32,6 +33,15 @@ template <class Real>
 dvec3 at(const Real* x, std::ptrdiff_t stride, int point) {
     return {static_cast<double>(x[point]), static_cast<double>(x[stride + point]),
             static_cast<double>(x[2 * stride + point])};
+}
+
+// What each cell's twist has, if all have the same.
+std::optional<double> evenTwist(const Bending& bending) {
+    const double first = bending.twist.front();
+    for (int j = 0; j + 1 < bending.rows; ++j)
+        for (int i = 0; i + 1 < bending.columns; ++i)
+            if (bending.twist[static_cast<std::size_t>(j * bending.columns + i)] != first) return std::nullopt;
+    return first;
 }
 
 }  // namespace
@@ -69,7 +79,11 @@ typename GridBending<Real>::Coefficients GridBending<Real>::scaled(double factor
         for (std::size_t i = 0; i < values.size(); ++i) scaled[i] = static_cast<Real>(factor * values[i]);
         return scaled;
     };
-    return {list(bending_.along), list(bending_.across), list(bending_.both), list(bending_.twist)};
+    const auto isNone = [](double value) { return value == 0; };
+    const bool hasBoth = !std::all_of(bending_.both.begin(), bending_.both.end(), isNone);
+    const std::optional<double> even = evenTwist(bending_);
+    return {list(bending_.along), list(bending_.across), hasBoth ? list(bending_.both) : Array(),
+            even ? Array() : list(bending_.twist), static_cast<Real>(factor * even.value_or(0))};
 }
 
 // x + τ v of the grid's points. Without v or τ it is x, without a copy if the points are in order.
@@ -105,8 +119,9 @@ void GridBending<Real>::apply(const Coefficients& coefficients, Planes x, int st
     batch.rows = bending_.rows;
     batch.along = coefficients.along.data();
     batch.across = coefficients.across.data();
-    batch.both = coefficients.both.data();
-    batch.twist = coefficients.twist.data();
+    batch.both = coefficients.both.empty() ? nullptr : coefficients.both.data();
+    batch.twist = coefficients.twist.empty() ? nullptr : coefficients.twist.data();
+    batch.evenTwist = coefficients.evenTwist;
     if (!isInOrder_) std::fill(sums_.begin(), sums_.end(), Real(0));
     for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
         batch.x[axis] = x.x + axis * x.stride;

@@ -39,8 +39,10 @@ class GridBending final : public ForceGenerator<Real> {
 
   private:
     using Array = core::AlignedArray<Real>;
-    struct Coefficients {  // in the precision of the kernel
-        Array along, across, both, twist;  // (points) [N/m]
+    struct Coefficients {     // in the precision of the kernel
+        Array along, across;  // (points) [N/m]
+        Array both, twist;    // (points) [N/m], or empty: see BendingBatch
+        Real evenTwist = 0;   // [N/m]
     };
     // Places of the grid's points, in planes `stride` apart.
     struct Planes {

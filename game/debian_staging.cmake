@@ -1,4 +1,4 @@
-# Shaders, which the engine installs for those who draw with it, are in the package of the program.
+# Shaders and fabrics, which the engine installs for those who use it, are in the package of the program.
 set(staging ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
 file(REMOVE_RECURSE ${staging}/engine/usr/share/taut)
 

@@ -35,8 +35,9 @@ target = [0.0, 0.6, 0.0]
 )";
 
 int main(int count, char** arguments) try {
-    const scene::Loaded loaded =
-        count > 1 ? scene::loadScene(arguments[1], {}) : scene::loadSceneText(fallingCloth, "falling cloth", {});
+    const scene::LoadOptions options{.assetFolders = {ASSETS}};  // where fabrics are
+    const scene::Loaded loaded = count > 1 ? scene::loadScene(arguments[1], options)
+                                           : scene::loadSceneText(fallingCloth, "falling cloth", options);
 
     world::World world(loaded.spec);
     while (world.time() < 0.6)
@@ -45,11 +46,11 @@ int main(int count, char** arguments) try {
             return 1;
         }
 
-    render::RendererOptions options;
-    options.width = 640;
-    options.height = 360;
-    options.shaders = SHADERS;
-    render::Renderer renderer(options);
+    render::RendererOptions drawing;
+    drawing.width = 640;
+    drawing.height = 360;
+    drawing.shaders = SHADERS;
+    render::Renderer renderer(drawing);
     image::writePng(count > 2 ? arguments[2] : "picture.png", renderer.draw(world.view(false)));
     std::printf("t = %.3f s, drawn by %s\n", world.time(), renderer.info().renderer.c_str());
 } catch (const core::Error& error) {

@@ -36,8 +36,8 @@ grep -q '^2\.000 s: ' said || { cat said; exit 1; }
     echo "#include \"$root/game/samples/own_picture.cpp\""
 } >all.cpp
 # shellcheck disable=SC2046  # one word a flag
-quietly "$compiler" -std=c++20 -Wall -Wextra -Werror "-DSHADERS=\"$(pkg-config --variable=shaders taut-render)\"" all.cpp \
-    $(pkg-config --cflags --libs taut-render) -o all
+quietly "$compiler" -std=c++20 -Wall -Wextra -Werror "-DSHADERS=\"$(pkg-config --variable=shaders taut-render)\"" \
+    "-DASSETS=\"$(pkg-config --variable=assets taut)\"" all.cpp $(pkg-config --cflags --libs taut-render) -o all
 quietly ./all readme/my.toml
 test -s picture.png
 

@@ -45,7 +45,7 @@ cat >use/main.cpp <<'END'
 #include "taut/world/world.h"
 
 int main(int, char** arguments) {
-    taut::world::World world(taut::scene::loadScene(arguments[1], {}).spec);
+    taut::world::World world(taut::scene::loadScene(arguments[1], {.assetFolders = {ASSETS}}).spec);
     while (world.time() < 0.1 && !world.advance()) {}
     std::printf("%.3f s\n", world.time());
 }
@@ -56,6 +56,7 @@ project(use LANGUAGES CXX)
 find_package(taut CONFIG REQUIRED)
 add_executable(use main.cpp)
 target_link_libraries(use PRIVATE taut::engine)
+target_compile_definitions(use PRIVATE ASSETS="${taut_ASSETS}")
 END
 quietly cmake -G Ninja -S use -B use/build -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$folder/installed/usr"
 quietly cmake --build use/build

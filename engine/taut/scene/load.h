@@ -19,7 +19,7 @@ struct LoadOptions {
     // "cloth.flag.cells=[72,48]", checked like the file itself; later ones win.
     std::vector<std::string> overrides{};
     // Where to look for models and textures that are not beside the scene file: in each folder, its `models` and its
-    // `textures`.
+    // `textures`; and for fabrics: in its `fabrics`.
     std::vector<std::filesystem::path> assetFolders{};
     // Whether all files that the scene names must be below its own folder or an asset folder, with links resolved.
     bool isConfined = false;

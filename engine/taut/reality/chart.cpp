@@ -1,10 +1,43 @@
 #include "taut/reality/chart.h"
 
 #include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
 
 namespace taut::reality {
 
-report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<std::string>& notes) {
+namespace {
+
+// A mark and a colour for each program, a line for each number of cells.
+std::vector<report::Curve> peerCurves(const std::vector<PeerDroop>& peers) {
+    using report::Mark;
+    constexpr std::array<std::pair<const char*, Mark>, 5> looks{{{"#1b7837", Mark::plus},
+                                                                 {"#5aae61", Mark::cross},
+                                                                 {"#762a83", Mark::star},
+                                                                 {"#c51b7d", Mark::square},
+                                                                 {"#8c6d31", Mark::circle}}};
+    std::map<std::string, std::size_t> lookOf;
+    std::map<std::pair<std::string, int>, std::size_t> curveOf;
+    std::vector<report::Curve> curves;
+    for (const PeerDroop& peer : peers) {
+        if (!peer.isAtRest || peer.droop <= 0) continue;
+        const auto& [colour, mark] = looks[lookOf.try_emplace(peer.peer, lookOf.size()).first->second % looks.size()];
+        const auto [at, isNew] = curveOf.try_emplace({peer.peer, peer.cells}, curves.size());
+        if (isNew)
+            curves.push_back(
+                {.title = peer.peer,
+                 .style = {.colour = colour, .mark = mark, .dash = report::Dash::dotted, .width = 1.2, .size = 1.05}});
+        curves[at->second].points.push_back({peer.gamma, peer.droop});
+    }
+    return curves;
+}
+
+}  // namespace
+
+report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<PeerDroop>& peers,
+                         const std::vector<std::string>& notes) {
     using report::Mark;
     struct Look {
         const char* colour;
@@ -44,6 +77,7 @@ report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vecto
         for (const auto& [gamma, droop] : curve.points) drawn.points.push_back({gamma, droop});
         panel.curves.push_back(std::move(drawn));
     }
+    for (report::Curve& curve : peerCurves(peers)) panel.curves.push_back(std::move(curve));
     report::Chart chart;
     chart.title = "A strip clamped level droops under its own weight";
     chart.subtitle =

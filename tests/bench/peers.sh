@@ -26,19 +26,17 @@ blender_strips() { # TELLING CELLS GAMMAS
 echo "peer,gamma,cells,height_over_width,is_at_rest,simulated_s,processor_s,told"
 case ${2:-all} in
 few)
+    "$bullet" told 10 10
     blender_strips angular 10 1,10
     blender_strips linear 10 10
-    "$bullet" told 10 10
     ;;
 all)
     many=0.1,0.2,0.5,1,2,5,10,20,50,100,200,500,1000
-    heavy=1,2,5,10,20,50,100,200,500,1000
+    "$bullet" told 10,20 $many
+    "$bullet" as-set 10,20 $many
     blender_strips angular 10,20 $many
     blender_strips kept 20 $many
-    blender_strips linear 10 0.5,$heavy
-    "$bullet" told 10 $many
-    "$bullet" told 20 $heavy
-    "$bullet" as-set 10,20 $many
+    blender_strips linear 10 $many
     ;;
 *)
     echo "peers: $2 is neither few nor all" >&2

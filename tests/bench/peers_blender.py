@@ -106,7 +106,7 @@ def measure(telling, cells, gamma):
     model = "LINEAR" if telling == "linear" else "ANGULAR"
     droop, rests, seconds, spent = play(*strip(cells, model, bending, stretch, rate, frame), frame)
     print(
-        f"csv:Blender {bpy.app.version_string} {name},{gamma:g},{cells},{droop:.6g},{int(rests)},{seconds:.2f},{spent:.3f},"
+        f"csv:Blender {bpy.app.version[0]}.{bpy.app.version[1]} {name},{gamma:g},{cells},{droop:.6g},{int(rests)},{seconds:.2f},{spent:.3f},"
         f"bending_stiffness {bending / KILO:.5g}",
         flush=True,
     )

@@ -107,6 +107,6 @@ int main(int count, char** arguments) {
             if (way == "told")
                 measure({"", 0.025, 1, 0.5, std::sqrt(0.025 * density * a * a / 4 / twoApart)}, cells, gamma);
             else
-                measure({" as it is set", 1, 1, 1, 1.0 / 60}, cells, gamma);
+                measure({" as set", 1, 1, 1, 1.0 / 60}, cells, gamma);
         }
 }

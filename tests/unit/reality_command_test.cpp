@@ -70,7 +70,7 @@ TEST(RealityCommand, SaysWhereAFileOfOthersIsDamaged) {
     const std::pair<std::string, std::string> damaged[] = {
         {"gamma,value\n", ":1: the first line is not \"peer,gamma,cells,"},
         {head + good + "Sheet,1,7,0.12,1,2.5\n", ":3: 6 columns instead of 8"},
-        {head + good + "Sheet,much,7,0.12,1,2.5,0.1,\n", ":3: \"much\" is no number from 1e-06 to 1e+06"},
+        {head + good + "Sheet,much,7,0.12,1,2.5,0.1,3\n", ":3: \"much\" is no number from 1e-06 to 1e+06"},
         {head, ":1: there is no strip in it"},
     };
     for (const auto& [text, said] : damaged) {

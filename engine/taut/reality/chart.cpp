@@ -1,7 +1,9 @@
 #include "taut/reality/chart.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>
@@ -10,26 +12,33 @@ namespace taut::reality {
 
 namespace {
 
-// A mark and a colour for each program, a line for each number of cells.
+// Of each program the strips with the most cells.
 std::vector<report::Curve> peerCurves(const std::vector<PeerDroop>& peers) {
     using report::Mark;
-    constexpr std::array<std::pair<const char*, Mark>, 5> looks{{{"#1b7837", Mark::plus},
-                                                                 {"#5aae61", Mark::cross},
-                                                                 {"#762a83", Mark::star},
-                                                                 {"#c51b7d", Mark::square},
-                                                                 {"#8c6d31", Mark::circle}}};
-    std::map<std::string, std::size_t> lookOf;
-    std::map<std::pair<std::string, int>, std::size_t> curveOf;
+    constexpr std::array<std::pair<const char*, Mark>, 5> looks{{{"#c51b7d", Mark::square},
+                                                                 {"#8c6d31", Mark::circle},
+                                                                 {"#1b7837", Mark::plus},
+                                                                 {"#41ab5d", Mark::cross},
+                                                                 {"#54278f", Mark::star}}};
+    std::map<std::string, int> cells;
+    for (const PeerDroop& peer : peers) cells[peer.peer] = std::max(cells[peer.peer], peer.cells);
     std::vector<report::Curve> curves;
     for (const PeerDroop& peer : peers) {
-        if (!peer.isAtRest || peer.droop <= 0) continue;
-        const auto& [colour, mark] = looks[lookOf.try_emplace(peer.peer, lookOf.size()).first->second % looks.size()];
-        const auto [at, isNew] = curveOf.try_emplace({peer.peer, peer.cells}, curves.size());
-        if (isNew)
-            curves.push_back(
-                {.title = peer.peer,
-                 .style = {.colour = colour, .mark = mark, .dash = report::Dash::dotted, .width = 1.2, .size = 1.05}});
-        curves[at->second].points.push_back({peer.gamma, peer.droop});
+        if (peer.cells != cells[peer.peer] || !peer.isAtRest || peer.droop <= 0) continue;
+        const std::string title = fmt::format("{}, {} cells", peer.peer, peer.cells);
+        auto curve =
+            std::find_if(curves.begin(), curves.end(), [&](const auto& known) { return known.title == title; });
+        if (curve == curves.end()) {
+            const auto& [colour, mark] = looks[curves.size() % looks.size()];
+            curve = curves.insert(curve, {.title = title,
+                                          .style = {.colour = colour,
+                                                    .mark = mark,
+                                                    .isFilled = false,
+                                                    .dash = report::Dash::dotted,
+                                                    .width = 1.2,
+                                                    .size = mark == Mark::square ? 1.4 : 1.05}});
+        }
+        curve->points.push_back({peer.gamma, peer.droop});
     }
     return curves;
 }
@@ -83,7 +92,7 @@ report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vecto
     chart.subtitle =
         "A rigidity holds at every length and resolution; springs across two cells hold where they were fitted";
     chart.panels = {panel};
-    chart.panelWidth = 760;
+    chart.panelWidth = 820;
     chart.panelHeight = 520;
     chart.notes = notes;
     return chart;

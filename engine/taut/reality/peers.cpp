@@ -31,7 +31,7 @@ std::vector<PeerDroop> readPeers(const std::string& text, const std::string& fil
         double value = NAN;
         const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
         if (code != std::errc() || end != word.data() + word.size() || !(value >= least && value <= most))
-            fail(file, count, fmt::format("\"{}\" is no number from {} to {}", word, least, most));
+            fail(file, count, fmt::format("\"{}\" is no number from {:g} to {:g}", word, least, most));
         return value;
     };
     while (std::getline(lines, line)) {

@@ -95,7 +95,7 @@ std::string rowPart(const Comparison& comparison, const Row& row) {
 // "+0.4 %", "×12".
 std::string briefError(double ratio) {
     if (!(ratio > 0)) return "–";
-    if (ratio >= 2) return fmt::format("×{:.2g}", ratio);
+    if (ratio >= 2) return fmt::format("×{:.{}f}", ratio, ratio < 9.95 ? 1 : 0);
     return fmt::format("{:+.{}f} %", 100 * (ratio - 1), std::abs(ratio - 1) < 0.0995 ? 1 : 0);
 }
 

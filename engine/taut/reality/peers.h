@@ -14,7 +14,7 @@ struct PeerDroop {
     double droop = 0;  // H/W
     bool isAtRest = false;
     double simulated = 0, processor = 0;  // [s] until it rests, and of processor time
-    std::string told;                     // the number that stands for the rigidity
+    std::string told{};                   // the number that stands for the rigidity
 };
 
 // The columns of `text`, named in its first line: peer, gamma, cells, height_over_width, is_at_rest, simulated_s,

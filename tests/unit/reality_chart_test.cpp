@@ -15,8 +15,9 @@ TEST(DroopChart, DrawsTheFinestStripsOfEachProgramThatCameToRest) {
         {.peer = "Sheet", .gamma = 10, .cells = 10, .droop = 1.1, .isAtRest = false},
         {.peer = "Rag", .gamma = 1, .cells = 5, .droop = 30, .isAtRest = true},
     };
+    const report::Chart chart = droopChart({}, peers, {});
     std::string drawn;
-    for (const report::Curve& curve : droopChart({}, peers, {}).panels.at(0).curves) {
+    for (const report::Curve& curve : chart.panels.at(0).curves) {
         drawn += curve.title + ":";
         for (const report::ChartPoint& point : curve.points)
             drawn += " " + std::to_string(point.x) + " " + std::to_string(point.y);

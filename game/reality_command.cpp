@@ -25,6 +25,7 @@ namespace {
 struct RealityFlags {
     std::string output = "out/reality";
     std::vector<std::string> rows;
+    std::string beside;
     int cells = 0;
     bool isLong = false, list = false, quiet = false;
 };
@@ -49,9 +50,12 @@ int compareWithReality(const RealityFlags& flags) {
         return static_cast<int>(ExitCode::ok);
     }
     checkRows(flags.rows);
+    const std::vector<reality::PeerDroop> peers =
+        flags.beside.empty() ? std::vector<reality::PeerDroop>{}
+                             : reality::readPeers(core::fileContent(flags.beside), flags.beside);
     const Interruption interruption;
     const LabFolder output(flags.output, flags.quiet);
-    const reality::Comparison comparison = [&] {
+    reality::Comparison comparison = [&] {
         LabProgress line("reality", flags.quiet, interruption.flag());
         return reality::compare({.rows = flags.rows,
                                  .isLong = flags.isLong,
@@ -60,6 +64,7 @@ int compareWithReality(const RealityFlags& flags) {
                                  .progress = [&](double done, const std::string& doing) { line.show(done, doing); }});
     }();
     if (comparison.isInterrupted && comparison.lines.empty()) return output.abandon(interruption);
+    comparison.peers = peers;
     const pipeline::Machine machine = pipeline::machine();
     const std::string note =
         fmt::format("{}, {}, {}; {}", machine.processor, machine.compiler, machine.simd, programText(machine));
@@ -71,7 +76,7 @@ int compareWithReality(const RealityFlags& flags) {
     std::string svg;
     if (!comparison.droops.empty()) {
         output.write("cantilever.csv", reality::droopsCsv(comparison));
-        output.draw("cantilever", reality::droopChart(comparison.droops, {note}));
+        output.draw("cantilever", reality::droopChart(comparison.droops, comparison.peers, {note}));
         if (std::filesystem::exists(folder / "cantilever.svg")) svg = core::fileContent(folder / "cantilever.svg");
     }
     output.write("reality.html", reality::page(comparison, svg, note));
@@ -89,6 +94,8 @@ Action declareReality(Options& options) {
         .typeName("R1,R4");
     options.flag("--long", flags->isLong, "The rows that take minutes too");
     options.value("--cells", flags->cells, "So many cells along the length, instead of each row's own").within(3, 1000);
+    options.value("--beside", flags->beside, "Show beside taut's cantilevers those of other programs, as measured")
+        .typeName("PEERS.csv");
     options.flag("--list", flags->list, "List the rows");
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
@@ -96,7 +103,8 @@ Action declareReality(Options& options) {
         "Examples:\n"
         "  taut reality\n"
         "  taut reality --only R1,R8 -o out/strips\n"
-        "  taut reality --only R1 --cells 5");
+        "  taut reality --only R1 --cells 5\n"
+        "  taut reality --only R1 --beside assets/charts/peers.csv");
     return [flags] { return compareWithReality(*flags); };
 }
 

@@ -1,18 +1,20 @@
 #!/bin/sh
 # Builds everything and passes every test: g++ all of them, clang the determinism tests (its hashes against those of
 # g++) in a project that has taut as a subproject, and under AddressSanitizer and UndefinedBehaviorSanitizer the unit
-# tests. With --long also the physics tests under sanitizers, the fuzzer for ten seconds a reader, and those labelled
-# long, which take minutes and rarely break.
+# tests. With --peers also what other programs make of strips of cloth, Blender among them. With --long also the physics
+# tests under sanitizers, the fuzzer for ten seconds a reader, and those labelled long, which take minutes and rarely
+# break.
 set -eu
 case ${1-} in
-    '') without='-LE long' sanitized=unit fuzzed= farm= ;;
-    --long) without= sanitized='unit|physics' fuzzed=yes farm=farm ;;
-    *) echo "usage: sh tests/run.sh [--long]" >&2 && exit 2 ;;
+    '') without='-LE long|peers' sanitized=unit fuzzed= more= ;;
+    --peers) without='-LE long' sanitized=unit fuzzed= more=peers ;;
+    --long) without='-LE peers' sanitized='unit|physics' fuzzed=yes more=farm ;;
+    *) echo "usage: sh tests/run.sh [--long|--peers]" >&2 && exit 2 ;;
 esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/game/install.sh"
 # shellcheck disable=SC2086  # a word or none
-taut_install run package test $farm
+taut_install run package test $more
 
 # build NAME SOURCE "TARGETS" CMAKE-ARGUMENTS...: configures and builds into an ignored folder.
 build() {
@@ -42,5 +44,5 @@ fi
 ctest --test-dir "$root/build-clang" --output-on-failure -j "$jobs" -L determinism
 ctest --test-dir "$root/build-asan" --output-on-failure -j "$jobs" -L "$sanitized"
 # Last, so that the closing lines are those of the whole suite.
-# shellcheck disable=SC2086  # two words or none
+# shellcheck disable=SC2086  # two words
 ctest --test-dir "$root/build-gcc" --output-on-failure -j "$jobs" $without

@@ -1,10 +1,52 @@
 #include "taut/reality/chart.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <map>
+#include <string>
+#include <utility>
 
 namespace taut::reality {
 
-report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<std::string>& notes) {
+namespace {
+
+// Of each program the strips with the most cells.
+std::vector<report::Curve> peerCurves(const std::vector<PeerDroop>& peers) {
+    using report::Mark;
+    constexpr std::array<std::pair<const char*, Mark>, 5> looks{{{"#c51b7d", Mark::square},
+                                                                 {"#8c6d31", Mark::circle},
+                                                                 {"#1b7837", Mark::plus},
+                                                                 {"#41ab5d", Mark::cross},
+                                                                 {"#54278f", Mark::star}}};
+    std::map<std::string, int> cells;
+    for (const PeerDroop& peer : peers) cells[peer.peer] = std::max(cells[peer.peer], peer.cells);
+    std::vector<report::Curve> curves;
+    for (const PeerDroop& peer : peers) {
+        if (peer.cells != cells[peer.peer] || !peer.isAtRest || peer.droop <= 0) continue;
+        const std::string title = fmt::format("{}, {} cells", peer.peer, peer.cells);
+        auto curve =
+            std::find_if(curves.begin(), curves.end(), [&](const auto& known) { return known.title == title; });
+        if (curve == curves.end()) {
+            const auto& [colour, mark] = looks[curves.size() % looks.size()];
+            curve = curves.insert(curve, {.title = title,
+                                          .style = {.colour = colour,
+                                                    .mark = mark,
+                                                    .isFilled = false,
+                                                    .dash = report::Dash::dotted,
+                                                    .width = 1.2,
+                                                    .size = mark == Mark::square ? 1.4 : 1.05}});
+        }
+        curve->points.push_back({peer.gamma, peer.droop});
+    }
+    return curves;
+}
+
+}  // namespace
+
+report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<PeerDroop>& peers,
+                         const std::vector<std::string>& notes) {
     using report::Mark;
     struct Look {
         const char* colour;
@@ -44,12 +86,13 @@ report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vecto
         for (const auto& [gamma, droop] : curve.points) drawn.points.push_back({gamma, droop});
         panel.curves.push_back(std::move(drawn));
     }
+    for (report::Curve& curve : peerCurves(peers)) panel.curves.push_back(std::move(curve));
     report::Chart chart;
     chart.title = "A strip clamped level droops under its own weight";
     chart.subtitle =
         "A rigidity holds at every length and resolution; springs across two cells hold where they were fitted";
     chart.panels = {panel};
-    chart.panelWidth = 760;
+    chart.panelWidth = 820;
     chart.panelHeight = 520;
     chart.notes = notes;
     return chart;

@@ -9,7 +9,8 @@
 
 namespace taut::reality {
 
-// Height over width of heavy cantilevers over Γ. `notes` stand at the foot.
-report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<std::string>& notes);
+// Height over width of heavy cantilevers over Γ, with those that others have. `notes` stand at the foot.
+report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<PeerDroop>& peers,
+                         const std::vector<std::string>& notes);
 
 }  // namespace taut::reality

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "taut/reality/peers.h"
+
 namespace taut::reality {
 
 class Bench;
@@ -50,6 +52,7 @@ struct Comparison {
     std::vector<Line> lines;
     std::vector<std::pair<std::string, std::string>> scenes;  // name and text, in the order of playing
     std::vector<DroopCurve> droops;                           // with settings.draws
+    std::vector<PeerDroop> peers;                             // what stands beside them, if anything
     bool isInterrupted = false;
 
     bool passes() const;

@@ -56,6 +56,11 @@ HangingStrip hangingStrip(double weight, double load, double clampAngle) {
     return {clamp.down, clamp.across, std::exp(angle)};
 }
 
+double elasticaDroop(double weight) {
+    const HangingStrip strip = hangingStrip(weight, 0, pi / 2);
+    return strip.down / strip.out;
+}
+
 // At the least Γ at which a strip leans by itself, one whose free end leans by next to nothing has an upright foot.
 double standingWeight() {
     constexpr double lean = 1e-6;

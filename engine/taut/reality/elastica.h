@@ -32,6 +32,9 @@ struct HangingStrip {
 };
 HangingStrip hangingStrip(double weight, double load, double clampAngle);
 
+// Height over width of one that is clamped level and bears nothing else, H/W at Γ.
+double elasticaDroop(double weight);
+
 // Γ at which an upright strip buckles (Greenhill 1881).
 double standingWeight();
 

@@ -105,11 +105,6 @@ void addDroop(Bench& bench, const std::string& quantity, const std::string& sour
         bench.missing(quantity, source, expected, tolerance, cells, "does not come to rest");
 }
 
-double elasticaDroop(double gamma) {
-    const HangingStrip strip = hangingStrip(gamma, 0, pi / 2);
-    return strip.down / strip.out;
-}
-
 // A rope in place of a strip a metre wide.
 LineScene ropeStrip(int cells, double gamma) {
     LineScene scene;
@@ -155,8 +150,8 @@ void drawDroops(Bench& bench) {
     const double fitted = std::exp(
         core::rootOf([&](double logBend) { return ropeDroop(bench, 10, 10, std::exp(logBend)).value_or(0) - expected; },
                      std::log(0.1), std::log(1e5), 16));
-    curve("bend springs, 10 cells", 10, fitted);
-    curve("bend springs, 20 cells, the same", 20, fitted);
+    curve("taut, bend springs, 10 cells", 10, fitted);
+    curve("taut, same springs, 20 cells", 20, fitted);
 }
 
 // Energy over area of a sheet of n × n cells, bent to a cylinder whose axis is at 45° to the threads.

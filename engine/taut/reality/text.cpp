@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
+#include "taut/reality/elastica.h"
 #include "taut/report/column.h"
 #include "taut/report/page_parts.h"
 #include "taut/report/test_page.h"
@@ -89,6 +92,50 @@ std::string rowPart(const Comparison& comparison, const Row& row) {
         scenes.empty() ? "" : "<p class=\"quiet small\">Scenes:" + scenes + "</p>\n");
 }
 
+// "+0.4 %", "×12".
+std::string briefError(double ratio) {
+    if (!(ratio > 0)) return "–";
+    if (ratio >= 2) return fmt::format("×{:.{}f}", ratio, ratio < 9.95 ? 1 : 0);
+    return fmt::format("{:+.{}f} %", 100 * (ratio - 1), std::abs(ratio - 1) < 0.0995 ? 1 : 0);
+}
+
+// The error of H/W at each Γ, of the curves of taut and of those of others.
+std::string besidePart(const Comparison& comparison) {
+    if (comparison.peers.empty()) return "";
+    std::vector<std::pair<std::string, std::map<double, double>>> all;  // H/W at Γ, in the order of measuring
+    std::set<double> gammas;
+    const auto add = [&](const std::string& name, double gamma, double droop) {
+        auto strips = std::find_if(all.begin(), all.end(), [&](const auto& known) { return known.first == name; });
+        if (strips == all.end()) strips = all.insert(all.end(), {name, {}});
+        strips->second[gamma] = droop;
+        gammas.insert(gamma);
+    };
+    for (const DroopCurve& curve : comparison.droops)
+        if (curve.cells > 0)
+            for (const auto& [gamma, droop] : curve.points) add(curve.name, gamma, droop);
+    for (const PeerDroop& peer : comparison.peers)
+        add(fmt::format("{}, {} cells", peer.peer, peer.cells), peer.gamma, peer.isAtRest ? peer.droop : 0);
+    std::string head, rows;
+    std::map<double, double> exact;
+    for (const double gamma : gammas) {
+        head += fmt::format("<th class=\"number\">Γ = {}</th>", gamma);
+        exact[gamma] = elasticaDroop(gamma);
+    }
+    for (const auto& [name, droops] : all) {
+        rows += fmt::format("<tr><td>{}</td>", htmlText(name));
+        for (const double gamma : gammas) {
+            const auto droop = droops.find(gamma);
+            rows += fmt::format("<td class=\"number\">{}</td>",
+                                droop == droops.end() ? "" : briefError(droop->second / exact[gamma]));
+        }
+        rows += "</tr>\n";
+    }
+    return fmt::format(
+        "<h3>R1 beside others</h3>\n<table class=\"small\"><tr><th>error of H/W</th>{}</tr>\n{}</table>\n"
+        "<p class=\"quiet small\">As others were measured; –: does not come to rest, or points upwards.</p>\n",
+        head, rows);
+}
+
 }  // namespace
 
 std::string csv(const Comparison& comparison) {
@@ -127,6 +174,7 @@ std::string page(const Comparison& comparison, const std::string& svg, const std
         report::pageStyle(), htmlText(note), sums.lines, sums.lines - sums.failed, sums.failed > 0 ? "failed" : "quiet",
         sums.failed, sums.processor);
     if (!svg.empty()) text += "<div class=\"chart\">" + svg.substr(svg.find("<svg")) + "</div>\n";
+    text += besidePart(comparison);
     for (const Row& row : rows()) text += rowPart(comparison, row);
     return text +
            "<footer>L length, B bending rigidity, w weight per area, Γ = wL³/B. Theory comes from solvers that share "

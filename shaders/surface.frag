@@ -1,5 +1,5 @@
 // What of cloth, ropes, blocks and colliders can be seen: kept for light.frag, so that each pixel is lit once and small
-// triangles cost little. Variants: PATTERN 0 … 4, WEAVE, TWO_SIDED.
+// triangles cost little. Variants: PATTERN 0 … 4, WEAVE, TWO_SIDED, FIBRES.
 #include "pattern.glsl"
 uniform float weave;
 uniform float thread;  // [m]
@@ -68,5 +68,12 @@ void main() {
     shape.y = smoothNormal;
 #endif
     tint = vec4(sqrt(colour), open);
-    shape.xzw = uvec3(smoothNormal, floatBitsToUint(gl_FragCoord.w), uint(material) | side << 16 | uint(mark) << 24);
+    uint warp = 0u;
+#ifdef FIBRES
+    // The way of the warp over the picture, where v stays: 128 steps of half a turn.
+    vec2 warpWay = vec2(dFdy(along.y), -dFdx(along.y));
+    warp = uint(atan(warpWay.y, warpWay.x) * 40.743665 + 256.5) & 127u;
+#endif
+    uint marks = uint(material) | side << 16 | warp << 17 | uint(mark) << 24;
+    shape.xzw = uvec3(smoothNormal, floatBitsToUint(gl_FragCoord.w), marks);
 }

@@ -203,8 +203,10 @@ void main() {
   vec3 fibres = vec3(0.0), glossColour = vec3(0.04);
   if (anisotropy > 0.0) {
     vec3 warp = dFdx(place) * dFdy(along.y) - dFdy(place) * dFdx(along.y);
-    warp -= normal * dot(normal, warp);
-    fibres = warp * inversesqrt(max(dot(warp, warp), 1e-20));
+    warp *= inversesqrt(max(dot(warp, warp), 1e-20));
+    vec3 flatNormal = normalize(cross(dFdx(place), dFdy(place)));
+    flatNormal *= sign(dot(flatNormal, normal));
+    fibres = warp - (flatNormal + normal) * (dot(normal, warp) / (1.0 + dot(flatNormal, normal)));
     float across = 1.0 - anisotropy;
     exponent.y = max(exponent.y * across * across * across, 1.0);
     glossColour += 0.5 * anisotropy * albedo;

@@ -138,7 +138,7 @@ class GridBuilder {
         addKind(SpringKind::structural, 0, nu_ - 1, nv_, 1, 0, k.across, a_);
         addKind(SpringKind::structural, 0, nu_, nv_ - 1, 0, 1, k.down, b_);
         addKind(SpringKind::shear, 0, nu_ - 1, nv_ - 1, 1, 1, k.falling, d);
-        addKind(SpringKind::shear, 1, nu_, nv_ - 1, -1, 1, k.falling, d);
+        addKind(SpringKind::shear, 1, nu_, nv_ - 1, -1, 1, k.rising, d);
         addKind(SpringKind::bend, 0, nu_ - 2, nv_, 2, 0, k.bendAcross, 2.0 * a_);
         addKind(SpringKind::bend, 0, nu_, nv_ - 2, 0, 2, k.bendDown, 2.0 * b_);
     }

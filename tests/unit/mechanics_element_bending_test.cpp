@@ -174,8 +174,8 @@ TEST(ElementBending, AGridWithATurnedGrainHasTheRigidityAtThatAngleToTheWarp) {
     constexpr double curvature = 0.5;
     for (const double degrees : {20.0, 45.0, -45.0, 110.0, 165.0}) {
         const double grain = degrees * M_PI / 180, c = std::cos(grain), s = std::sin(grain);
-        const Model model = buildCloth(
-            {.size = {0.16, 0.15}, .cells = {8, 6}, .material = {.rigidity = threads}, .grain = grain});
+        const Model model =
+            buildCloth({.size = {0.16, 0.15}, .cells = {8, 6}, .material = {.rigidity = threads}, .grain = grain});
         ASSERT_TRUE(model.bending.isEmpty());
         PlanarState<double> state(model);
         for (int i = 0; i < state.count; ++i) {

@@ -63,7 +63,7 @@ TEST(Air, ASheetThatIsNotLevelGlidesOnAsItDoes) {
     const double cosine = std::cos(theta + low),
                  upright = cosine * ((drag - lift * cosine) * std::cos(low) + lift * std::cos(theta)),
                  speed = std::sqrt(0.1 * 9.81 / (0.5 * scene.world.airDensity * upright));
-    scene.materials["sheet"].rigidity.warp = 1e-2;
+    scene.materials["sheet"].rigidity.warp = 10.0;
     auto& cloth = static_cast<ClothSpec&>(*scene.bodies.begin());
     cloth.across = {std::cos(theta), -std::sin(theta), 0};
     cloth.velocity = speed * dvec3(std::sin(low), -std::cos(low), 0);
@@ -74,9 +74,9 @@ TEST(Air, ASheetThatIsNotLevelGlidesOnAsItDoes) {
     scene.forces.add(wind);
     World world(scene);
     support::run(world, 120);
-    // Rounding: nothing speeds it up. A force off by a thousandth would, by 2 cm/s.
+    // [m/s] As stiff as it is the sheet still bends by some 1e-5. A force off by a thousandth would make it 1e-2.
     const dvec3 off = world.metrics().momentum / (0.15 * 0.12) - cloth.velocity;
-    EXPECT_LT(glm::length(off), 1e-9);
+    EXPECT_LT(glm::length(off), 1e-4);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ if [ "${1-film}" = stills ]; then
         number=$(printf %06d "$frame")
         ffmpeg -v error -y -i "$out/$scene-$number.png" -q:v 2 "$root/assets/pictures/$scene-still.jpg"
     done
-    "$taut" render "$root/assets/pictures/fabrics.toml" -o "$out/fabrics.png" --at 2.5 --size 1400x760 --samples 16 \
+    "$taut" render "$root/assets/pictures/fabrics.toml" -o "$out/fabrics.png" --at 2.5 --size 1400x680 --samples 16 \
         -y --quiet
     ffmpeg -v error -y -i "$out/fabrics.png" -q:v 3 "$root/assets/pictures/fabrics.jpg"
     echo "Stills: $root/assets/pictures/*-still.jpg, fabrics.jpg"

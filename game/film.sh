@@ -1,6 +1,7 @@
 #!/bin/sh
 # Builds taut and cuts a film of 20 s with titles from the shipped scenes: out/film/taut.mp4. `film.sh stills` makes the
-# four large pictures of the README instead. TAUT_SIZE=1280x720 makes either smaller.
+# four large pictures of the README and that of the fabrics in the manual instead. TAUT_SIZE=1280x720 makes film and
+# pictures smaller.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 case ${1-film} in
@@ -22,7 +23,10 @@ if [ "${1-film}" = stills ]; then
         number=$(printf %06d "$frame")
         ffmpeg -v error -y -i "$out/$scene-$number.png" -q:v 2 "$root/assets/pictures/$scene-still.jpg"
     done
-    echo "Stills: $root/assets/pictures/*-still.jpg"
+    "$taut" render "$root/assets/pictures/fabrics.toml" -o "$out/fabrics.png" --at 2.5 --size 1400x680 --samples 16 \
+        -y --quiet
+    ffmpeg -v error -y -i "$out/fabrics.png" -q:v 3 "$root/assets/pictures/fabrics.jpg"
+    echo "Stills: $root/assets/pictures/*-still.jpg, fabrics.jpg"
     exit 0
 fi
 

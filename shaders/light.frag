@@ -12,7 +12,7 @@ vec3 lightFrom(vec3 way, float cone) { return hemisphere(way); }
 #endif
 uniform sampler2D tints;
 uniform usampler2D shapes;
-uniform sampler2D materials;  // two texels a row: colour of the back, roughness; sheen, dulled, translucency, woven
+uniform sampler2D materials;  // three texels a row: colour of the back, roughness; sheen, dulled, translucency, woven; anisotropy
 uniform vec3 firstWay;        // from the eye through the picture's lower left corner, 1 m ahead
 uniform vec3 rightWay;        // from one pixel to the next
 uniform vec3 upWay;
@@ -26,14 +26,24 @@ vec3 fromOctahedral(uint bits) {
     return normalize(n);
 }
 
+// The gloss around a normal of what stands between light and eye, of exponent.x along the fibres and exponent.y across
+// (Ashikhmin and Shirley 2000).
+float glossOf(vec3 normal, vec3 fibres, vec3 halfWay, vec2 exponent) {
+    float even = max(dot(normal, halfWay), 0.0);
+    if (exponent.x == exponent.y) return pow(even, exponent.x) * (exponent.x + 8.0) * 0.125;
+    float along = dot(fibres, halfWay), part = along * along / max(1.0 - even * even, 1e-5);
+    vec2 sides = exponent + 8.0;
+    return pow(even, mix(exponent.y, exponent.x, min(part, 1.0))) * sqrt(sides.x * sides.y) * 0.125;
+}
+
 #if LAMPS > 0
 // What the lamps add: on the side that is seen, from the other side, and mirrored.
 struct Lamplight {
     vec3 direct, behind, mirrored;
 };
 
-void addLamp(int lamp, vec3 place, vec3 normal, vec3 smoothNormal, vec3 toEye, float pixel, float woven,
-             float exponent, inout Lamplight sum) {
+void addLamp(int lamp, vec3 place, vec3 normal, vec3 smoothNormal, vec3 toEye, vec3 fibres, float pixel, float woven,
+             vec2 exponent, inout Lamplight sum) {
     vec3 way = lamps[lamp].way.xyz;
     float side = dot(smoothNormal, way);
     float reached = lamplight(lamp, place, side < 0.0 ? -smoothNormal : smoothNormal, pixel, true);
@@ -41,7 +51,7 @@ void addLamp(int lamp, vec3 place, vec3 normal, vec3 smoothNormal, vec3 toEye, f
     vec3 colour = lamps[lamp].colour.rgb;
     sum.direct += colour * direct;
     sum.behind += colour * (max(-side, 0.0) * reached);
-    float gloss = pow(max(dot(normal, normalize(way + toEye)), 0.0), exponent) * (exponent + 8.0) * 0.125;
+    float gloss = glossOf(normal, fibres, normalize(way + toEye), exponent);
     sum.mirrored += colour * (gloss * direct);
 }
 #endif
@@ -78,14 +88,28 @@ void main() {
     direct *= max(smoothstep(-0.02, 0.12, lightSide), 1.0 - kind.w);  // threads on the far side stay dark
 
     float alpha = mix(0.04, 1.0, roughness * roughness);
-    float exponent = 2.0 / (alpha * alpha);
+    vec2 exponent = vec2(2.0 / (alpha * alpha));
+
+    // Threads that lie side by side, as in satin, are round: they spread the gloss across them. What goes through them
+    // takes their colour (Sadeghi and others 2013).
+    float anisotropy = texelFetch(materials, ivec2(2, row), 0).x;
+    vec3 fibres = vec3(0.0);
+    vec3 glossColour = vec3(0.04);
+    if (anisotropy > 0.0) {
+        float turn = float((shape.w >> 17) & 127u) / 40.743665;
+        vec3 screenWay = cos(turn) * rightWay + sin(turn) * upWay;
+        fibres = normalize(screenWay * dot(normal, toEye) - toEye * dot(normal, screenWay));  // in the surface
+        float across = 1.0 - anisotropy;
+        exponent.y = max(exponent.y * across * across * across, 1.0);
+        glossColour += 0.5 * anisotropy * albedo;
+    }
 
     vec3 diffuse = lightColour.rgb * direct + lightOn(normal) * open;
 #if LAMPS > 0
     Lamplight fromLamps = Lamplight(vec3(0.0), vec3(0.0), vec3(0.0));
-    addLamp(0, place, normal, smoothNormal, toEye, pixel, kind.w, exponent, fromLamps);
+    addLamp(0, place, normal, smoothNormal, toEye, fibres, pixel, kind.w, exponent, fromLamps);
 #if LAMPS > 1
-    addLamp(1, place, normal, smoothNormal, toEye, pixel, kind.w, exponent, fromLamps);
+    addLamp(1, place, normal, smoothNormal, toEye, fibres, pixel, kind.w, exponent, fromLamps);
 #endif
     diffuse += fromLamps.direct;
 #endif
@@ -97,11 +121,11 @@ void main() {
     vec3 halfWay = normalize(lightWay.xyz + toEye);
     float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
     float rim2 = rim * rim;
-    float gloss = pow(max(dot(normal, halfWay), 0.0), exponent) * (exponent + 8.0) * 0.125;
+    float gloss = glossOf(normal, fibres, halfWay, exponent);
     float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
-    light += lightColour.rgb * (0.04 * gloss * direct * open);
+    light += lightColour.rgb * (glossColour * gloss * direct * open);
 #if LAMPS > 0
-    light += kind.z * shining * fromLamps.behind + 0.04 * open * fromLamps.mirrored;
+    light += kind.z * shining * fromLamps.behind + glossColour * open * fromLamps.mirrored;
 #endif
     vec3 mirrored = reflect(-toEye, normal);
     light += lightFrom(mirrored, 2.0 * roughness * roughness) * (fresnel * (1.0 - roughness) * 0.6 * open);

@@ -1,5 +1,8 @@
 // What of cloth, ropes, blocks and colliders can be seen: kept for light.frag, so that each pixel is lit once and small
-// triangles cost little. Variants: PATTERN 0 … 4, WEAVE, TWO_SIDED.
+// triangles cost little. Variants: PATTERN 0 … 4, WEAVE, TWO_SIDED, FIBRES.
+#ifdef FIBRES
+#include "frame.glsl"
+#endif
 #include "pattern.glsl"
 uniform float weave;
 uniform float thread;  // [m]
@@ -18,9 +21,11 @@ uint octahedral(vec3 n) {
     return steps.x | steps.y << 16;
 }
 
-#ifdef WEAVE
+#if defined(WEAVE) || defined(FIBRES)
 in vec3 place;
+#endif
 
+#ifdef WEAVE
 // Over and under: each cell of the weave is a pillow, stretched along the thread that lies on top. Tilts the normal
 // and returns how open the place is, 0 … 1. Fades, along either thread, where threads become smaller than pixels.
 float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
@@ -48,6 +53,26 @@ float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
 }
 #endif
 
+#ifdef FIBRES
+// The way of the warp over the picture, 128 steps of half a turn. On a triangle v stays along it; with the normal it turns
+// from that of the triangle to that of the surface.
+uint warpOver(vec2 uv, vec3 normal) {
+    vec3 placeX = dFdx(place);
+    vec3 placeY = dFdy(place);
+    vec3 warp = placeX * dFdy(uv).y - placeY * dFdx(uv).y;
+    warp *= inversesqrt(max(dot(warp, warp), 1e-20));
+    vec3 flatNormal = cross(placeX, placeY);
+    flatNormal *= inversesqrt(max(dot(flatNormal, flatNormal), 1e-30));
+    flatNormal = dot(flatNormal, normal) < 0.0 ? -flatNormal : flatNormal;
+    warp -= (flatNormal + normal) * (dot(normal, warp) / (1.0 + dot(flatNormal, normal)));
+    vec4 there = viewProjection * vec4(place, 1.0);
+    vec4 way = viewProjection * vec4(warp, 0.0);
+    mat4 rows = transpose(viewProjection);
+    vec2 over = (way.xy * there.w - there.xy * way.w) / vec2(length(rows[0].xyz), length(rows[1].xyz));
+    return uint(atan(over.y, over.x) * 40.743665 + 256.5) & 127u;
+}
+#endif
+
 void main() {
     vec3 normal = normalize(upright);
     uint side = 0u;  // 1: the back
@@ -61,6 +86,9 @@ void main() {
     vec3 colour = patternColour(along, pixel);
     uint smoothNormal = octahedral(normal);
     float open = 1.0;
+#ifdef FIBRES
+    uint warp = warpOver(along, normal);
+#endif
 #ifdef WEAVE
     open = weaveRelief(along, pixel, normal);
     shape.y = octahedral(normal);
@@ -69,4 +97,7 @@ void main() {
 #endif
     tint = vec4(sqrt(colour), open);
     shape.xzw = uvec3(smoothNormal, floatBitsToUint(gl_FragCoord.w), uint(material) | side << 16 | uint(mark) << 24);
+#ifdef FIBRES
+    shape.w |= warp << 17;
+#endif
 }

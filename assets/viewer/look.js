@@ -83,7 +83,7 @@ class Picture {
       pattern: picture ? 4 : ['plain', 'checker', 'stripes', 'tartan'].indexOf(finish.pattern) % 4,
       isTwoSided: loaded.side === THREE.DoubleSide, repeat: finish.repeat, weave: finish.weave, thread: finish.thread,
       sheen: finish.sheen, translucency: loaded.side === THREE.DoubleSide ? finish.translucency : 0,
-      roughness: loaded.roughness, picture,
+      roughness: loaded.roughness, anisotropy: finish.anisotropy || 0, picture,
     }, {side: loaded.side});
   }
 

@@ -115,7 +115,7 @@ in vec2 along;
 uniform int pattern;  // 0 plain, 1 checker, 2 stripes, 3 tartan, 4 picture
 uniform bool isTwoSided;
 uniform vec3 front, back, accent;
-uniform float repeat, weave, thread, sheen, roughness, translucency;
+uniform float repeat, weave, thread, sheen, roughness, translucency, anisotropy;
 uniform sampler2D picture;
 
 // The part of an interval of width w around x in which the fraction of x lies between a and b.
@@ -166,6 +166,16 @@ float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
   return 1.0 - 0.55 * weave * max(gap.x, gap.y);
 }
 
+// The gloss around a normal of what stands between light and eye, of exponent.x along the fibres and exponent.y across
+// (Ashikhmin and Shirley 2000).
+float glossOf(vec3 normal, vec3 fibres, vec3 halfWay, vec2 exponent) {
+  float even = max(dot(normal, halfWay), 0.0);
+  if (exponent.x == exponent.y) return pow(even, exponent.x) * (exponent.x + 8.0) * 0.125;
+  float along = dot(fibres, halfWay), part = along * along / max(1.0 - even * even, 1e-5);
+  vec2 sides = exponent + 8.0;
+  return pow(even, mix(exponent.y, exponent.x, min(part, 1.0))) * sqrt(sides.x * sides.y) * 0.125;
+}
+
 void main() {
   bool isBack = isTwoSided && !gl_FrontFacing;
   vec3 smoothNormal = normalize(upright) * (isBack ? -1.0 : 1.0), normal = smoothNormal;
@@ -186,11 +196,25 @@ void main() {
 
   // Gloss of a dielectric, and the bright rim of fibres.
   vec3 halfWay = normalize(lightWay + toEye);
-  float alpha = mix(0.04, 1.0, roughness * roughness), exponent = 2.0 / (alpha * alpha);
+  float alpha = mix(0.04, 1.0, roughness * roughness);
+  vec2 exponent = vec2(2.0 / (alpha * alpha));
+  // Threads that lie side by side, as in satin, are round: they spread the gloss across them. What goes through them
+  // takes their colour (Sadeghi and others 2013).
+  vec3 fibres = vec3(0.0), glossColour = vec3(0.04);
+  if (anisotropy > 0.0) {
+    vec3 warp = dFdx(place) * dFdy(along.y) - dFdy(place) * dFdx(along.y);
+    warp *= inversesqrt(max(dot(warp, warp), 1e-20));
+    vec3 flatNormal = normalize(cross(dFdx(place), dFdy(place)));
+    flatNormal *= sign(dot(flatNormal, normal));
+    fibres = warp - (flatNormal + normal) * (dot(normal, warp) / (1.0 + dot(flatNormal, normal)));
+    float across = 1.0 - anisotropy;
+    exponent.y = max(exponent.y * across * across * across, 1.0);
+    glossColour += 0.5 * anisotropy * albedo;
+  }
   float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0), rim2 = rim * rim;
-  float gloss = pow(max(dot(normal, halfWay), 0.0), exponent) * (exponent + 8.0) * 0.125;
+  float gloss = glossOf(normal, fibres, halfWay, exponent);
   float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
-  light += lightColour * (0.04 * gloss * direct * open);
+  light += lightColour * (glossColour * gloss * direct * open);
   light += hemisphere(reflect(-toEye, normal)) * (fresnel * (1.0 - roughness) * 0.6 * open);
   light += sheen * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight);
   colour = shown(filmic(light));

@@ -168,6 +168,30 @@ TEST(ElementBending, ASheetHasTheRigidityThatWasMeasuredAlongItsTextureCoordinat
     }
 }
 
+// The same of a grid whose warp is turned, bent along its lines across, at any angle to the warp: B(φ) of the fourth
+// order in cosine and sine, with the coupling of bend and twist that keeps it from being a mean of warp and weft.
+TEST(ElementBending, AGridWithATurnedGrainHasTheRigidityAtThatAngleToTheWarp) {
+    constexpr double curvature = 0.5;
+    for (const double degrees : {20.0, 45.0, -45.0, 110.0, 165.0}) {
+        const double grain = degrees * M_PI / 180, c = std::cos(grain), s = std::sin(grain);
+        const Model model =
+            buildCloth({.size = {0.16, 0.15}, .cells = {8, 6}, .material = {.rigidity = threads}, .grain = grain});
+        ASSERT_TRUE(model.bending.isEmpty());
+        PlanarState<double> state(model);
+        for (int i = 0; i < state.count; ++i) {
+            const dvec3 x = state.get(state.x, i);
+            state.set(state.x, i, {x.x, x.y, 0.5 * curvature * x.x * x.x});
+        }
+        const double rigidity = threads.along * c * c * c * c + threads.across * s * s * s * s +
+                                (2 * threads.both + threads.twist) * c * c * s * s;
+        EXPECT_NEAR(bendingOf(model).potentialEnergy(state.motion()),
+                    0.5 * rigidity * curvature * curvature * 0.16 * 0.15,
+                    1e-9 * rigidity * curvature * curvature * 0.16 * 0.15)
+            << degrees;
+        EXPECT_NEAR(rigidityAt(threads, grain), rigidity, 1e-15 * threads.along);
+    }
+}
+
 TEST(ElementBending, ProductsForImplicitMethodsAreThoseOfStiffnessAndDamping) {
     for (Model model : {patch(0.3, threads, 20, saddlePlace), curvedRing()}) {
         model.freeform.dampingTime = 0.25;

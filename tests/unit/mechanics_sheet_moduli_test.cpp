@@ -69,6 +69,18 @@ TEST(SheetModuli, AGridHasThoseOfItsMaterial) {
     }
 }
 
+// With the warp at 45° diagonals are its threads and sides its diagonals; a quarter turn changes warp and weft.
+TEST(SheetModuli, AGridWithATurnedGrainHasThoseOfItsMaterial) {
+    for (const double degrees : {45.0, 90.0, -45.0, 180.0, 225.0}) {
+        const double grain = degrees * std::numbers::pi / 180.0;
+        const SheetStiffness sheet =
+            sheetStiffness(buildCloth({.size = {1.0, 2.0}, .cells = {7, 14}, .material = woven(), .grain = grain}));
+        EXPECT_NEAR(sheet.c11, 940.0, 1e-9) << degrees;
+        EXPECT_NEAR(sheet.c22, 540.0, 1e-9) << degrees;
+        EXPECT_NEAR(sheet.c66, 40.0, 1e-9) << degrees;
+    }
+}
+
 // Squares with one diagonal, k = 4/3 C(φ) (A1 + A2)/c². Edges along the threads have C = warp and weft; at 45° it is
 // (warp + weft)/4 + shear.
 TEST(SheetModuli, AMeshHasThoseOfItsEdges) {

@@ -135,6 +135,7 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
     EXPECT_EQ(body.finish.thread, 0.02);
     EXPECT_EQ(body.finish.roughness, 0.5);
     EXPECT_EQ(body.finish.sheen, 0.6);
+    EXPECT_EQ(body.finish.anisotropy, 0.45);
     EXPECT_EQ(body.finish.texture, (folder / "square.png").string());
     EXPECT_EQ(body.solver.integrator, "euler");
     EXPECT_EQ(body.solver.dt, 2e-4);
@@ -183,6 +184,7 @@ TEST(SceneFields, ClothsLandInTheirMembers) {
     EXPECT_EQ(flag.cells, ivec2(36, 24));
     EXPECT_EQ(flag.origin, dvec3(0.5, 3, 0.25));
     EXPECT_EQ(flag.across, dvec3(0, 0, 1));  // made a unit vector
+    EXPECT_NEAR(flag.grain, radians(90.0), 1e-15);
     EXPECT_EQ(flag.down, dvec3(0, -1, 0));
     EXPECT_EQ(flag.material, "silk");
     EXPECT_EQ(flag.meshData, nullptr);
@@ -239,7 +241,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 127);
+    EXPECT_EQ(net.points[1].source.line, 128);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");
@@ -368,20 +370,23 @@ TEST(SceneFields, AMeshWithoutTextureCoordinatesHasNoWeave) {
     EXPECT_TRUE(unwrapped.warnings.empty());
 }
 
-TEST(SceneFields, AMeshIsSaidToHaveNoThreadsThatRub) {
+TEST(SceneFields, AMeshAndATurnedGridAreSaidToHaveNoThreadsThatRub) {
     const AssetFolder folder;
     const auto load = [&](const std::string& hysteresis) {
         return folder.load("schema = 1\n[material.m]\nbending_rigidity_N_m = 1e-5\nbending_yield_per_m = 5\n"
                            "bending_hysteresis_N = " + hysteresis +
-                           "\n[cloth.c]\nmaterial = \"m\"\nmesh = \"square.obj\"\n[cloth.grid]\nmaterial = \"m\"\n");
+                           "\n[cloth.c]\nmaterial = \"m\"\nmesh = \"square.obj\"\n[cloth.grid]\nmaterial = \"m\"\ngrain_deg = -270\n"
+                           "[cloth.bias]\nmaterial = \"m\"\ngrain_deg = 45\n");
     };
     const Loaded lost = load("1e-3");
-    ASSERT_EQ(lost.warnings.size(), 1U);
+    ASSERT_EQ(lost.warnings.size(), 2U);
     EXPECT_EQ(folder.withoutFolder(lost.warnings[0]),
-              "s.toml:6:8: warning: bending_hysteresis_N of material.m does nothing in cloth.c: a mesh has no threads "
-              "that rub at each other\n"
+              "s.toml:6:8: warning: bending_hysteresis_N of material.m does nothing in cloth.c: only threads along the "
+              "lines of a grid rub at each other\n"
               "  [cloth.c]\n"
               "         ^ make it a grid, or give the material bending_hysteresis_N = 0");
+    EXPECT_NE(lost.warnings[1].find("does nothing in cloth.bias"), std::string::npos) << lost.warnings[1];
+    EXPECT_NE(lost.warnings[1].find("give it a grain_deg that is a multiple of 90"), std::string::npos);
     EXPECT_TRUE(load("0").warnings.empty());
 }
 

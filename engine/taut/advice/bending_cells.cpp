@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "taut/bodies/cloth.h"
+#include "taut/mechanics/bending.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {
@@ -43,8 +45,12 @@ std::vector<std::string> coarseCells(const SceneSpec& scene) {
         if (cloth.meshData || material == scene.materials.end() || !material->second.rigidity.warp) continue;
         const MaterialSpec& m = material->second;
         const auto length = [&](double rigidity) { return bendingLength(rigidity, m.density, gravity); };
-        const Along u{cloth.size.x, cloth.size.x / cloth.cells.x, length(*m.rigidity.warp)};
-        const Along v{cloth.size.y, cloth.size.y / cloth.cells.y, length(m.rigidity.weft.value_or(*m.rigidity.warp))};
+        const auto rigidity = mechanics::orthotropicRigidity(
+            *m.rigidity.warp, m.rigidity.weft.value_or(*m.rigidity.warp), m.rigidity.bias);
+        if (!rigidity) continue;
+        const auto lengthAt = [&](double angle) { return length(mechanics::rigidityAt(*rigidity, angle)); };
+        const Along u{cloth.size.x, cloth.size.x / cloth.cells.x, lengthAt(cloth.grain)};
+        const Along v{cloth.size.y, cloth.size.y / cloth.cells.y, lengthAt(0.5 * std::numbers::pi - cloth.grain)};
         const double error = std::max(droopError(u.cell, u.bendingLength), droopError(v.cell, v.bendingLength));
         const bool isSaid = std::find(said.begin(), said.end(), cloth.material) != said.end();
         if (!(error > most) || isSaid) continue;

@@ -84,6 +84,12 @@ Section ClothSpec::section() {
             .only(grid)
             .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
             .only(grid)
+            .degrees(
+                "grain_deg", &ClothSpec::grain, fields::Range{-360.0, 360.0},
+                "Turns the warp of its material from across towards down. Bending is turned at any angle; stretch "
+                "at multiples of 90° and, in square cells, 45°, in between as nearly as springs along the grid can. "
+                "Hysteresis needs multiples of 90°.")
+            .only(grid)
             .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file; its groups and objects (g, o) are names of points.")
             .only(mesh)
             .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
@@ -125,7 +131,7 @@ mechanics::Model ClothSpec::buildSheet(const SceneSpec& scene) const {
     if (!meshData) {
         const dvec3 u = unit(across);
         const dvec3 v = unit(down - glm::dot(down, u) * u);
-        return mechanics::buildCloth({origin, u, v, size, cells, made});
+        return mechanics::buildCloth({origin, u, v, size, cells, made, grain});
     }
     mechanics::MeshClothShape shape = shapeOf(*this);
     shape.material = made;

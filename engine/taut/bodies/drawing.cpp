@@ -224,6 +224,7 @@ std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
     finish->roughness = static_cast<float>(spec.roughness);
     finish->sheen = static_cast<float>(spec.sheen);
     finish->translucency = static_cast<float>(spec.translucency);
+    finish->anisotropy = static_cast<float>(spec.anisotropy);
     finish->texture = spec.texture;
     return finish;
 }

@@ -49,9 +49,9 @@ std::string vectorText(const glm::vec3& v) {
 std::string finishExtras(const view::Finish& finish) {
     constexpr std::array<const char*, 5> patterns = {"plain", "checker", "stripes", "tartan", "image"};
     return fmt::format(
-        R"({{"taut":{{"back":{},"accent":{},"pattern":"{}","repeat":{},"weave":{},"thread":{},"sheen":{},"translucency":{}}}}})",
+        R"({{"taut":{{"back":{},"accent":{},"pattern":"{}","repeat":{},"weave":{},"thread":{},"sheen":{},"translucency":{},"anisotropy":{}}}}})",
         vectorText(finish.back), vectorText(finish.accent), patterns.at(static_cast<std::size_t>(finish.pattern)),
-        finish.repeat, finish.weave, finish.thread, finish.sheen, finish.translucency);
+        finish.repeat, finish.weave, finish.thread, finish.sheen, finish.translucency, finish.anisotropy);
 }
 
 }  // namespace

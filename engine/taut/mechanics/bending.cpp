@@ -12,6 +12,11 @@ double leastBias(double warp, double weft) {
     return 0.25 * difference * difference;
 }
 
+double rigidityAt(const BendingRigidity& rigidity, double angle) {
+    const double cc = std::cos(angle) * std::cos(angle), ss = 1.0 - cc;
+    return rigidity.along * cc * cc + rigidity.across * ss * ss + (2.0 * rigidity.both + rigidity.twist) * cc * ss;
+}
+
 std::optional<BendingRigidity> orthotropicRigidity(double warp, double weft, std::optional<double> bias) {
     TAUT_EXPECTS(warp >= 0 && weft >= 0);
     const double mean = std::sqrt(warp * weft);

@@ -17,6 +17,8 @@ namespace taut::mechanics {
 // energy is positive: at or below leastBias(). Expects warp, weft >= 0.
 std::optional<BendingRigidity> orthotropicRigidity(double warp, double weft, std::optional<double> bias);
 double leastBias(double warp, double weft);  // (√B_u - √B_v)²/4 [N m]
+// Of the sheet bent to a cylinder along a line at an angle [rad] to u [N m].
+double rigidityAt(const BendingRigidity& rigidity, double angle);
 
 // Of columns by rows of points, a row's a and a column's b apart [m]. Rows and columns at an edge stand for half a
 // cell's width.

@@ -65,9 +65,13 @@ struct ClothShape {
     glm::dvec2 size{1.0, 1.0};   // across, down [m]
     glm::ivec2 cells{16, 16};    // across, down
     ClothMaterial material;
+    double grain = 0.0;  // [rad] from `across` to the warp, towards `down`
 };
 // Points row by row from the top left. Structural springs on the boundary are halved when lumping is weighted.
 // A cell of a by b (not square): k_s b/a along its side a, so that stretch stays per metre.
+// A grain of whole quarter turns changes warp and weft. Any other turns the rigidity as it is (FreeformBending, without
+// friction), and the stretch as nearly as springs along the grid and its diagonals can pull: exactly at 45° in square
+// cells, but for what would have to push elsewhere.
 // Groups: left, right, top, bottom, the four corners (top-left, …), corners, edges, all.
 // Expects at least one cell, and a size above zero, each way.
 Model buildCloth(const ClothShape& shape);

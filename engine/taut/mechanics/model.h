@@ -135,6 +135,7 @@ struct Model {
 
     // Cells along u and v of a rectangular grid with points row by row, or {0, 0}.
     std::array<int, 2> grid{0, 0};
+    double grain = 0;  // [rad] from u to the warp, towards v
 
     int pointCount() const { return static_cast<int>(positions.size()); }
 };

@@ -29,12 +29,14 @@ SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudge
 
 Program& SurfacePass::programFor(const view::Surface& surface) {
     const bool woven = surface.finish->weave > 0.0F;
-    const auto key = std::make_tuple(surface.finish->pattern, woven, surface.twoSided);
+    const bool fibres = surface.finish->anisotropy > 0.0F;
+    const auto key = std::make_tuple(surface.finish->pattern, woven, surface.twoSided, fibres);
     const auto known = programs_.find(key);
     if (known != programs_.end()) return known->second;
     std::vector<std::string> definitions{"PATTERN " + std::to_string(static_cast<int>(surface.finish->pattern))};
     if (woven) definitions.emplace_back("WEAVE");
     if (surface.twoSided) definitions.emplace_back("TWO_SIDED");
+    if (fibres) definitions.emplace_back("FIBRES");
     return programs_.emplace(key, shaders_->program("surface.vert", "surface.frag", definitions)).first->second;
 }
 
@@ -47,9 +49,10 @@ Program& SurfacePass::programUnder(const LightKind& kind) {
 // Neighbours mostly share a material: it is looked for from the last backwards.
 int SurfacePass::rowOf(const view::Surface& surface) {
     const view::Finish& finish = *surface.finish;
-    const Material material{
-        glm::vec4(finish.back, finish.roughness),
-        {finish.sheen, surface.dulled, surface.twoSided ? finish.translucency : 0.0F, finish.weave > 0.0F ? 1.0F : 0.0F}};
+    const Material material{glm::vec4(finish.back, finish.roughness),
+                            {finish.sheen, surface.dulled, surface.twoSided ? finish.translucency : 0.0F,
+                             finish.weave > 0.0F ? 1.0F : 0.0F},
+                            {finish.anisotropy, 0.0F, 0.0F, 0.0F}};
     const auto known = std::find(materials_.rbegin(), materials_.rend(), material);
     if (known != materials_.rend()) return static_cast<int>(materials_.rend() - known) - 1;
     if (materials_.size() == mostMaterials)
@@ -92,7 +95,7 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
 void SurfacePass::uploadMaterials() {
     gl_->ActiveTexture(GL_TEXTURE0 + materialsUnit);
     gl_->BindTexture(GL_TEXTURE_2D, materialTexture_.id());
-    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 2, static_cast<GLsizei>(materials_.size()), 0, GL_RGBA, GL_FLOAT,
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 3, static_cast<GLsizei>(materials_.size()), 0, GL_RGBA, GL_FLOAT,
                     materials_.data());
 }
 

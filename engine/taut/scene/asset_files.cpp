@@ -8,6 +8,7 @@
 #include <memory>
 #include <system_error>
 
+#include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
 #include "taut/scene/private/obj_file.h"
 
@@ -92,18 +93,22 @@ void warnOfLostDirections(const ReadScene& scene, Problems& problems) {
     }
 }
 
-// Only grids have threads that rub at each other.
+// Only grids whose warp runs along them have threads that rub at each other.
 void warnOfLostFriction(const ReadScene& scene, Problems& problems) {
     for (const world::BodySpec& body : scene.spec.bodies) {
         const auto material = scene.spec.materials.find(std::string(body.materialName()));
-        if (body.meshSource() == nullptr || body.meshSource()->meshData == nullptr ||
-            material == scene.spec.materials.end() || !(material->second.friction.hysteresis.value_or(0) > 0))
+        const auto* cloth = dynamic_cast<const world::ClothSpec*>(&body);
+        const bool isTurned = cloth != nullptr && std::abs(std::sin(2.0 * cloth->grain)) > 1e-9;
+        const bool isMesh = body.meshSource() != nullptr && body.meshSource()->meshData != nullptr;
+        if ((!isMesh && !isTurned) || material == scene.spec.materials.end() ||
+            !(material->second.friction.hysteresis.value_or(0) > 0))
             continue;
         problems.addWarning(scene.owners.at(body.fullName()),
-                            fmt::format("bending_hysteresis_N of material.{} does nothing in {}: a mesh has no threads "
-                                        "that rub at each other",
+                            fmt::format("bending_hysteresis_N of material.{} does nothing in {}: only threads along "
+                                        "the lines of a grid rub at each other",
                                         material->first, body.fullName()),
-                            "make it a grid, or give the material bending_hysteresis_N = 0");
+                            fmt::format("{}, or give the material bending_hysteresis_N = 0",
+                                        isMesh ? "make it a grid" : "give it a grain_deg that is a multiple of 90"));
     }
 }
 

@@ -100,6 +100,9 @@ Section finishSection() {
             .number("translucency", &FinishSpec::translucency, "", fields::share,
                     "Of a cloth: the share of the light on its other side that comes through, in its colour: 0.4 thin "
                     "silk, 0.2 cotton, 0.03 velvet.")
+            .number("anisotropy", &FinishSpec::anisotropy, "", fields::share,
+                    "How far the gloss is spread across the warp, which takes the threads' colour: 0 of a smooth skin, "
+                    "0.8 of satin.")
             .number("hem_m", &FinishSpec::hem, "m", Range{0.0, 1.0},
                     "Thickness of a cloth as its free edges show it where that is more than a pixel; nothing else "
                     "knows of it.")

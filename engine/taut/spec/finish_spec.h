@@ -21,6 +21,7 @@ struct FinishSpec {
     double roughness = 0.7;     // 0 … 1
     double sheen = 0.0;         // 0 … 1
     double translucency = 0.2;  // 0 … 1
+    double anisotropy = 0.0;    // 0 … 1
     double hem = 0.001;         // [m] thickness of a cloth at its free edges
     std::string texture;        // path, resolved by the loader
 };

@@ -33,7 +33,8 @@ class SurfacePass {
     // What light.frag has to know of a surface: a row of its table.
     struct Material {
         glm::vec4 backRoughness;
-        glm::vec4 kind;  // sheen, dulled, translucency, woven
+        glm::vec4 kind;    // sheen, dulled, translucency, woven
+        glm::vec4 fibres;  // anisotropy; rest 0
         bool operator==(const Material&) const = default;
     };
 
@@ -45,7 +46,7 @@ class SurfacePass {
     const Gl* gl_;
     const ShaderFolder* shaders_;
     TextureCache textures_;
-    std::map<std::tuple<view::Pattern, bool, bool>, Program> programs_;  // pattern, woven, two-sided
+    std::map<std::tuple<view::Pattern, bool, bool, bool>, Program> programs_;  // pattern, woven, two-sided, fibres
     std::map<LightKind, Program> lights_;
     std::vector<Material> materials_;
     GlObject materialTexture_, empty_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/core/trig.h"
 
 namespace taut::mechanics {
 
@@ -13,7 +14,7 @@ double leastBias(double warp, double weft) {
 }
 
 double rigidityAt(const BendingRigidity& rigidity, double angle) {
-    const double cc = std::cos(angle) * std::cos(angle), ss = 1.0 - cc;
+    const double cc = core::cosine(angle) * core::cosine(angle), ss = 1.0 - cc;
     return rigidity.along * cc * cc + rigidity.across * ss * ss + (2.0 * rigidity.both + rigidity.twist) * cc * ss;
 }
 

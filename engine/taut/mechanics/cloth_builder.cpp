@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "taut/core/error.h"
+#include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/private/builder_support.h"
 
@@ -45,7 +46,7 @@ CellStiffness turnedStiffness(const ClothMaterial& material, double grain, doubl
                                 2.0 * material.shear};
     double c1111 = 0.0, c2222 = 0.0, c1122 = 0.0, c1112 = 0.0, c1222 = 0.0;
     for (int k = 0; k < 4; ++k) {
-        const double angle = grain + k * std::numbers::pi / 4.0, c = std::cos(angle), s = std::sin(angle);
+        const double angle = grain + k * std::numbers::pi / 4.0, c = core::cosine(angle), s = core::sine(angle);
         c1111 += strengths[k] * c * c * c * c;
         c2222 += strengths[k] * s * s * s * s;
         c1122 += strengths[k] * c * c * s * s;
@@ -146,9 +147,9 @@ class GridBuilder {
     void addBending() {
         const BendingRigidity& rigidity = shape_.material.rigidity;
         if (!(rigidity.along > 0.0) && !(rigidity.across > 0.0)) return;
-        if (shape_.grain !=
-            0.0) {  // bends and twists are coupled then, which the grid's own second differences are not
-            const dvec3 warp = std::cos(shape_.grain) * shape_.across + std::sin(shape_.grain) * shape_.down;
+        if (shape_.grain != 0.0) {
+            // Bends and twists are coupled then, which the grid's own second differences are not.
+            const dvec3 warp = core::cosine(shape_.grain) * shape_.across + core::sine(shape_.grain) * shape_.down;
             model_.freeform = {.rigidity = rigidity,
                                .rest = model_.positions,
                                .warp = std::vector<dvec3>(model_.triangles.size(), warp),

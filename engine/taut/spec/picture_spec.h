@@ -31,11 +31,11 @@ struct CameraSpec {
 struct LightSpec {
     dvec3 direction{-0.5, -1.0, -0.4};  // the way the light travels
     dvec3 colour{1.0, 0.96, 0.9};
-    double intensity = 2.7;  // factor on colour
+    double intensity = 2.9;  // factor on colour
     double softness = 0.03;  // [rad]
     dvec3 sky{0.70, 0.74, 0.80};
     dvec3 ground{0.50, 0.48, 0.45};
-    double ambient = 1.5;  // factor on sky and ground: the shade is a fifth as bright as the light, as by day
+    double ambient = 1.1;  // factor on sky and ground: the shade is a quarter to a sixth as bright as the light, as by day
 };
 
 struct EnvironmentSpec {

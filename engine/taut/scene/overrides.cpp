@@ -8,6 +8,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
+#include "taut/scene/private/by_key.h"
 #include "taut/scene/private/document.h"
 #include "taut/scene/private/inheritance.h"
 
@@ -21,16 +22,6 @@ std::string withoutBlanks(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t");
     if (first == std::string_view::npos) return "";
     return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
-std::vector<std::string> partsOf(std::string_view key) {
-    std::vector<std::string> parts;
-    while (true) {
-        const std::size_t dot = key.find('.');
-        parts.emplace_back(key.substr(0, dot));
-        if (dot == std::string_view::npos) return parts;
-        key.remove_prefix(dot + 1);
-    }
 }
 
 bool isWord(std::string_view text) {
@@ -182,7 +173,7 @@ void applyOverride(const std::string& text, int origin, const std::vector<SceneS
                    Problems& problems) {
     const Place place{origin, 1, 1};
     const std::size_t equals = text.find('=');
-    const std::vector<std::string> parts = partsOf(withoutBlanks(std::string_view(text).substr(0, equals)));
+    const std::vector<std::string> parts = keyParts(withoutBlanks(std::string_view(text).substr(0, equals)));
     const std::optional<Node> value =
         valueOf(withoutBlanks(std::string_view(text).substr(equals + 1)), place, problems);
     if (!value) return;

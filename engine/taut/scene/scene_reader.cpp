@@ -66,8 +66,10 @@ class SceneReader {
                                fmt::format("write [{}{}]", section.name, name));
         } else if (section.layout == Layout::table) {
             enter(section.name);
+            const int before = problems_.errorCount();
             readTable(section, member.value, member.place, fmt::format("[{}]", section.name),
                       section.enter(out_.spec, "", sourceOf(member.place)));
+            if (problems_.errorCount() > before) out_.faulty.insert(owner_);
         } else {
             for (const Member& element : member.value.members) readNamed(section, element);
         }

@@ -4,24 +4,24 @@
 namespace taut::scene {
 namespace {
 
-constexpr const char* scene =
+constexpr const char* fittedRope =
     "[rope.r]\n"
     "ends = [[0, 0, 0], [1, 0, 0]]\n"
     "mass_kg = 0.5\n";
-constexpr const char* target =
+constexpr const char* fitTarget =
     "[[fit.target]]\n"
     "that = \"lowest(rope.r)\"\n"
     "at = 1\n"
     "value = 0.2\n"
     "sigma = 0.1\n";
 
-std::string messageFor(const std::string& fit, const AssetFolder& folder) {
-    return folder.messageOf("schema = 1\n" + std::string(scene) + fit);
+std::string fitMessage(const std::string& fit, const AssetFolder& folder) {
+    return folder.messageOf("schema = 1\n" + std::string(fittedRope) + fit);
 }
 
 std::string keyMessage(const std::string& key, const std::string& more = "") {
     const AssetFolder folder;
-    return messageFor("[fit]\nkeys = [\"" + key + "\"]\nlow = 0.1\nhigh = 1\n" + target + more, folder);
+    return fitMessage("[fit]\nkeys = [\"" + key + "\"]\nlow = 0.1\nhigh = 1\n" + fitTarget + more, folder);
 }
 
 TEST(SceneErrors, KeysOfAFitLeadToNumbers) {
@@ -53,7 +53,7 @@ TEST(SceneErrors, KeysOfAFitLeadToNumbers) {
 TEST(SceneErrors, BoundsOfAFitAreInOrderAndHoldTheValue) {
     const AssetFolder folder;
     const auto bounds = [&](const std::string& low, const std::string& high) {
-        return messageFor("[fit]\nkeys = [\"rope.r.mass_kg\"]\nlow = " + low + "\nhigh = " + high + "\n" + target,
+        return fitMessage("[fit]\nkeys = [\"rope.r.mass_kg\"]\nlow = " + low + "\nhigh = " + high + "\n" + fitTarget,
                           folder);
     };
     EXPECT_EQ(bounds("[2]", "[1]"),
@@ -77,7 +77,7 @@ TEST(SceneErrors, BoundsOfAFitAreInOrderAndHoldTheValue) {
 TEST(SceneErrors, TargetsOfAFitAreNumbersWithASigma) {
     const AssetFolder folder;
     const auto with = [&](const std::string& lines) {
-        return messageFor("[fit]\nkeys = [\"rope.r.mass_kg\"]\nlow = 0.1\nhigh = 1\n[[fit.target]]\n" + lines, folder);
+        return fitMessage("[fit]\nkeys = [\"rope.r.mass_kg\"]\nlow = 0.1\nhigh = 1\n[[fit.target]]\n" + lines, folder);
     };
     EXPECT_EQ(with("that = \"position(rope.r)\"\nat = 1\nvalue = 2\nsigma = 1\n"),
               "s.toml:10:8: error: this is 3 numbers, not one\n"
@@ -106,9 +106,9 @@ TEST(SceneErrors, TargetsOfAFitAreNumbersWithASigma) {
               "  curve = \"bad.csv\"\n"
               "          ^");
     EXPECT_EQ(with("that = \"time\"\ncurve = \"none.csv\"\nsigma = 1\n"),
-              "s.toml:11:9: error: cannot use this curve: none.csv: error: there is no such file\n"
+              "s.toml:11:9: error: there is no file \"none.csv\"\n"
               "  curve = \"none.csv\"\n"
-              "          ^");
+              "          ^ looked for none.csv");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace taut::study {
 namespace {
 
-constexpr double g = 9.81;  // [m/s²]
+constexpr double earth = 9.81;  // [m/s²]
 
 Fit fitOf(const std::string& text) {
     FitSettings settings;
@@ -30,7 +30,7 @@ Fit fitOf(const std::string& text) {
     return makeFit(spec, settings);
 }
 
-const char* const head = R"(schema = 1
+const char* const solverLines = R"(schema = 1
 
 [solver]
 integrator = "implicit-euler"
@@ -44,7 +44,7 @@ target = [0.05, 0.96, 0]
 
 // A strip of 100 mm and 0.2 kg/m² that is clamped level and hangs; drag that damps its slowest swing as fast as can be.
 std::string hangingScene(const std::string& fit) {
-    return head + std::string(R"(
+    return solverLines + std::string(R"(
 [run]
 fps = 30
 seconds = 1.6
@@ -68,16 +68,16 @@ clamp = ["left"]
 )") + fit;
 }
 
-constexpr double weight = 0.2 * g, length = 0.1, rigidity = weight * length * length * length / 10;
+constexpr double hungLength = 0.1, hungRigidity = 0.2 * earth * hungLength * hungLength * hungLength / 10;
 
-const std::string droop = fmt::format(R"(
+const std::string droopLines = fmt::format(R"(
 [[fit.target]]
 that = "1 - position(cloth.strip@right).y"
 at = 1.5
 value = {}
 sigma = 1e-5
 )",
-                                      length * reality::hangingStrip(10, 0, std::numbers::pi / 2).down);
+                                           hungLength* reality::hangingStrip(10, 0, std::numbers::pi / 2).down);
 
 // From five times as much.
 TEST(Fit, FindsTheRigidityOfAHangingStrip) {
@@ -85,10 +85,10 @@ TEST(Fit, FindsTheRigidityOfAHangingStrip) {
 keys = ["material.m.bending_rigidity_N_m"]
 low = 1e-6
 high = 1e-2
-)" + droop));
+)" + droopLines));
     EXPECT_TRUE(fit.isMet()) << fitSummary(fit);
-    EXPECT_NEAR(fit.keys[0].value / rigidity, 1.0, 0.01) << "cells of an eleventh of the bending length";
-    EXPECT_LT(fit.keys[0].deviation, 0.01 * rigidity);
+    EXPECT_NEAR(fit.keys[0].value / hungRigidity, 1.0, 0.01) << "cells of an eleventh of the bending length";
+    EXPECT_LT(fit.keys[0].deviation, 0.01 * hungRigidity);
     EXPECT_EQ(fitVerdict(fit), "The targets are met.");
     EXPECT_LE(fit.trials.size(), 40U) << "one number, 5 steps of 2 + 3 runs";
     std::cerr << fitSummary(fit);
@@ -100,7 +100,7 @@ TEST(Fit, SaysThatStiffnessAndWeightCannotBeToldApart) {
 keys = ["material.m.bending_rigidity_N_m", "material.m.density_kg_per_m2"]
 low = [1e-6, 0.1]
 high = [1e-2, 0.5]
-)" + droop));
+)" + droopLines));
     EXPECT_FALSE(fit.isMet());
     EXPECT_NE(fitVerdict(fit).find("they see only material.m.bending_rigidity_N_m / material.m.density_kg_per_m2."),
               std::string::npos)
@@ -113,14 +113,15 @@ TEST(Fit, SaysWhatCannotBeMetAndWhichBoundIsInTheWay) {
 keys = ["material.m.bending_rigidity_N_m"]
 low = 5e-4
 high = 1e-2
-)" + droop));
+)" + droopLines));
     EXPECT_FALSE(fit.isMet());
     EXPECT_TRUE(fit.keys[0].isHeld);
     EXPECT_EQ(fit.keys[0].value, 5e-4);
     const std::string verdict = fitVerdict(fit);
     EXPECT_TRUE(verdict.starts_with("The targets cannot be met: with the best numbers found, 1 - position")) << verdict;
-    EXPECT_NE(verdict.find("material.m.bending_rigidity_N_m is at its bound: the targets would have it lower than 0.0005."),
-              std::string::npos)
+    EXPECT_NE(
+        verdict.find("material.m.bending_rigidity_N_m is at its bound: the targets would have it lower than 0.0005."),
+        std::string::npos)
         << verdict;
 }
 
@@ -148,8 +149,8 @@ Loaded loadedStrip(double w, double l, double b, double h, double yield) {
 
 TEST(Fit, FindsRigidityAndHysteresisFromLoadingAndUnloading) {
     constexpr double b = 2e-4, twoHb = 1e-3, yield = 0.5, l = 0.04;
-    const Loaded exact = loadedStrip(0.2 * g, l, b, 0.5 * twoHb, yield);
-    const Fit fit = fitOf(head + fmt::format(R"(
+    const Loaded exact = loadedStrip(0.2 * earth, l, b, 0.5 * twoHb, yield);
+    const Fit fit = fitOf(solverLines + fmt::format(R"(
 [run]
 fps = 60
 seconds = 1.7
@@ -206,7 +207,7 @@ at = 1.6
 value = {}
 sigma = 1e-5
 )",
-                                             yield, l, exact.full, exact.after));
+                                                    yield, l, exact.full, exact.after));
     EXPECT_TRUE(fit.isMet()) << fitSummary(fit);
     EXPECT_NEAR(fit.keys[0].value / b, 1.0, 0.02);
     EXPECT_NEAR(fit.keys[1].value / twoHb, 1.0, 0.02);
@@ -217,10 +218,10 @@ sigma = 1e-5
 // C22 = stretch + shear and C12 = shear. A strip of width a that is held along both sides is sheared by its own weight:
 // its middle comes down by w a² / (8 shear). All strains are below 1 %.
 TEST(Fit, FindsStretchAndShearFromTwoStrips) {
-    constexpr double stretch = 2000, shear = 10, w = 0.5 * g, load = 0.02 * g;
+    constexpr double stretch = 2000, shear = 10, w = 0.5 * earth, load = 0.02 * earth;
     const double young = stretch + shear - shear * shear / (stretch + shear);
     const double longer = (load / 0.02 + 0.5 * w * 0.1) * 0.1 / young, lower = w * 0.04 * 0.04 / (8 * shear);
-    const Fit fit = fitOf(head + fmt::format(R"(
+    const Fit fit = fitOf(solverLines + fmt::format(R"(
 [run]
 fps = 30
 seconds = 0.6
@@ -267,7 +268,7 @@ at = 0.5
 value = {}
 sigma = 1e-7
 )",
-                                             longer, lower));
+                                                    longer, lower));
     EXPECT_TRUE(fit.isMet()) << fitSummary(fit);
     EXPECT_NEAR(fit.keys[0].value / stretch, 1.0, 0.01);
     EXPECT_NEAR(fit.keys[1].value / shear, 1.0, 0.01);

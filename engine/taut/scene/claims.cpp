@@ -54,7 +54,8 @@ class Claims {
         try {
             spec.parsed = std::make_shared<const check::Check>(check::Check::parse(spec.that));
             for (const check::Mention& mention : spec.parsed->mentions())
-                checkMention(spec.at ? *spec.at : spec.from.value_or(0.0), "give the check a later from", that, mention);
+                checkMention(spec.at ? *spec.at : spec.from.value_or(0.0), "give the check a later from", that,
+                             mention);
             for (const check::Call& call : spec.parsed->calls()) doubtCall(that, call);
         } catch (const check::ClaimError& fault) {
             problems_.addError(problems_.placeInside(that.place, that.text, fault.at), fault.what(), fault.remedy);

@@ -78,14 +78,16 @@ void checkFitKeys(const Node& root, const std::vector<SceneSection>& sections, R
     world::FitSpec& fit = scene.spec.fit;
     const Node& keys = table.find("keys")->value;
     if (fit.keys.empty() || fit.keys.size() > mostKeys)
-        return problems.addError(keys.place, fmt::format("a fit seeks 1 to {} numbers, not {}", mostKeys, fit.keys.size()));
+        return problems.addError(keys.place,
+                                 fmt::format("a fit seeks 1 to {} numbers, not {}", mostKeys, fit.keys.size()));
     if (fit.targets.empty())
         problems.addError(member->place, "[fit] has no targets", "add [[fit.target]] with that, at, value and sigma");
     for (const auto& [bound, values] : {std::pair("low", &fit.low), std::pair("high", &fit.high)})
         if (values->size() != fit.keys.size())
-            return problems.addError(table.find(bound)->value.place,
-                                     fmt::format("there are {} keys and {} numbers here", fit.keys.size(), values->size()),
-                                     fmt::format("write one for each key"));
+            return problems.addError(
+                table.find(bound)->value.place,
+                fmt::format("there are {} keys and {} numbers here", fit.keys.size(), values->size()),
+                fmt::format("write one for each key"));
     for (std::size_t i = 0; i < fit.keys.size(); ++i) {
         const std::string& key = fit.keys[i];
         const Place place = keys.items[i].place;
@@ -109,7 +111,8 @@ void checkFitKeys(const Node& root, const std::vector<SceneSection>& sections, R
         const Place lowPlace = placeOf(table.find("low")->value, i), highPlace = placeOf(table.find("high")->value, i);
         const Range range = row != nullptr ? row->range : anyNumber;
         if (!(low < high))
-            problems.addError(lowPlace, fmt::format("low of {} is {:g}, high is {:g}", key, low, high), "low must be less");
+            problems.addError(lowPlace, fmt::format("low of {} is {:g}, high is {:g}", key, low, high),
+                              "low must be less");
         else if (low < range.low || high > range.high)
             problems.addError(low < range.low ? lowPlace : highPlace,
                               fmt::format("{} must be {}", key, description(range, row->unit)));

@@ -18,10 +18,10 @@
 #include "taut/scene/private/overrides.h"
 #include "taut/scene/private/references.h"
 #include "taut/scene/private/scene_reader.h"
-#include "taut/scene/state_keys.h"
 #include "taut/scene/private/suspicions.h"
 #include "taut/scene/private/text_file.h"
 #include "taut/scene/private/timeline.h"
+#include "taut/scene/state_keys.h"
 
 namespace taut::scene {
 

@@ -74,6 +74,12 @@ void readCurves(const Node& root, const Confinement& confinement, ReadScene& sce
         const Place place = root.find("fit")->value.find("target")->value.items[i].find("curve")->value.place;
         const std::filesystem::path namedIn(place.origin > 0 ? scene.spec.file : problems.fileOf(place));
         const std::filesystem::path file = namedIn.parent_path() / target.curve;
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(file, ignored)) {
+            problems.addError(place, fmt::format("there is no file \"{}\"", target.curve),
+                              fmt::format("looked for {}", file.string()));
+            continue;
+        }
         try {
             if (!confinement.allows(file)) throw core::Error(core::ErrorKind::badContent, outsideMessage(file));
             target.points = pointsOf(textFile(file, maxCurveSize), file.string(), target.sigma);

@@ -79,15 +79,14 @@ class Override {
   private:
     // Goes on below a node at `path`, which the first `depth` parts of the key lead to.
     void setIn(Node& node, std::size_t depth, const std::string& path) {
-        if (depth == parts_.size()) {
+        if (depth == parts_.size())
             node = value_;
-        } else if (node.kind == NodeKind::list) {
+        else if (node.kind == NodeKind::list)
             setInList(node, depth, path);
-        } else if (node.kind == NodeKind::table) {
+        else if (node.kind == NodeKind::table)
             setInTable(node, depth, path);
-        } else {
+        else
             report(fmt::format("{} is {}: it has no \"{}\"", path, description(node), parts_[depth]));
-        }
     }
 
     void setInList(Node& list, std::size_t depth, const std::string& path) {

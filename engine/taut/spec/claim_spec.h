@@ -39,7 +39,7 @@ struct FitTarget {
         double sigma = 1;  // standard deviation of the value
     };
     Source source;
-    std::string that;         // an expression of the language of checks
+    std::string that;          // an expression of the language of checks
     std::optional<double> at;  // [s]
     std::optional<double> value, sigma;
     std::string curve;          // CSV file

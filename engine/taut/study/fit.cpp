@@ -51,7 +51,7 @@ class Gauge {
     void look(const world::World& world, double tick) {
         if (isDone() || next().time > world.time() + tick) return;
         const double value = figure_.of(world).front();
-        for (; !isDone() && next().time <= world.time() + 1e-9; ) {
+        for (; !isDone() && next().time <= world.time() + 1e-9;) {
             const double share = std::clamp((world.time() - next().time) / tick, 0.0, 1.0);
             values_.push_back(share > 1e-6 ? value + share * (last_ - value) : value);
         }
@@ -114,8 +114,8 @@ class Fitting {
         }
         const Minimum minimum = leastSquares(problem);
         if (minimum.residuals.empty())
-            throw core::Error(core::ErrorKind::diverged,
-                              fmt::format("{}: the scene does not run as it is: {}", spec_.file, fit_.trials[0].failure));
+            throw core::Error(core::ErrorKind::diverged, fmt::format("{}: the scene does not run as it is: {}",
+                                                                     spec_.file, fit_.trials[0].failure));
         fit_.misfit = minimum.sum();
         fit_.hasConverged = minimum.hasConverged;
         fit_.unseen = minimum.unseen;
@@ -207,18 +207,20 @@ class Fitting {
 
 bool Fit::isMet() const {
     return hasConverged && unseen.empty() &&
-           std::all_of(targets.begin(), targets.end(), [](const FittedTarget& target) { return target.isMet(); });
+           std::all_of(
+               targets.begin(), targets.end(), [](const FittedTarget& target) { return target.isMet(); });
 }
 
 Fit makeFit(const world::SceneSpec& spec, const FitSettings& settings) {
     if (spec.fit.keys.empty())
         throw core::Error(
             core::ErrorKind::badContent,
-            fmt::format("{}{}error: the scene does not say what to fit: it has no [fit]\n  add for example\n\n    [fit]\n"
-                        "    keys = [\"material.m.bending_rigidity_N_m\"]\n    low = [1e-7]\n    high = [1e-3]\n\n"
-                        "    [[fit.target]]\n    that = \"lowest(cloth.strip)\"\n    at = 3.0\n    value = 0.031\n"
-                        "    sigma = 0.001\n",
-                        spec.file, spec.file.empty() ? "" : ": "));
+            fmt::format(
+                "{}{}error: the scene does not say what to fit: it has no [fit]\n  add for example\n\n    [fit]\n"
+                "    keys = [\"material.m.bending_rigidity_N_m\"]\n    low = [1e-7]\n    high = [1e-3]\n\n"
+                "    [[fit.target]]\n    that = \"lowest(cloth.strip)\"\n    at = 3.0\n    value = 0.031\n"
+                "    sigma = 0.001\n",
+                spec.file, spec.file.empty() ? "" : ": "));
     return Fitting(spec, settings).run();
 }
 

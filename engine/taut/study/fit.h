@@ -62,8 +62,8 @@ struct Fit {
     bool isMet() const;  // every target, and the values are the only ones
 };
 
-// Expects what the loader accepts. Throws core::Error: badContent where there is no [fit], diverged where the scene does
-// not run as it is, interrupted.
+// Expects what the loader accepts. Throws core::Error: badContent where there is no [fit], diverged where the scene
+// does not run as it is, interrupted.
 Fit makeFit(const world::SceneSpec& spec, const FitSettings& settings);
 
 }  // namespace taut::study

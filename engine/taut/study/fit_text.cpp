@@ -33,15 +33,13 @@ std::size_t sharedBeginning(const Fit& fit) {
 
 report::Columns<FitTrial> trialColumns(const Fit& fit) {
     using Trial = FitTrial;
-    report::Columns<Trial> columns{
-        {"number", [&fit](const Trial& t) { return &t - fit.trials.data() + 1; }, "trial"}};
+    report::Columns<Trial> columns{{"number", [&fit](const Trial& t) { return &t - fit.trials.data() + 1; }, "trial"}};
     for (std::size_t i = 0; i < fit.keys.size(); ++i)
         columns.emplace_back(
             fit.keys[i].key, [i](const Trial& t) { return t.values[i]; }, fit.keys[i].key.substr(sharedBeginning(fit)),
             [i](const Trial& t) { return brief(t.values[i]); });
-    columns.emplace_back(
-        "misfit", &Trial::misfit, "misfit",
-        [](const Trial& t) { return t.failure.empty() ? rounded(t.misfit, 4) : t.failure; });
+    columns.emplace_back("misfit", &Trial::misfit, "misfit",
+                         [](const Trial& t) { return t.failure.empty() ? rounded(t.misfit, 4) : t.failure; });
     columns.emplace_back("failure", &Trial::failure);
     return columns;
 }
@@ -77,9 +75,10 @@ std::string unseenText(const Fit& fit, const std::vector<double>& direction) {
         if (std::abs(direction[i]) > 0.1 * most) parts.push_back(i);
     const auto key = [&](std::size_t i) { return fit.keys[parts[i]].key; };
     if (parts.size() == 1)
-        return fmt::format("The targets do not tell {}: they are alike for very different values. Leave it out, or add "
-                           "a target that it changes.",
-                           key(0));
+        return fmt::format(
+            "The targets do not tell {}: they are alike for very different values. Leave it out, or add "
+            "a target that it changes.",
+            key(0));
     const bool areLogarithmic =
         std::all_of(parts.begin(), parts.end(), [&](std::size_t i) { return fit.keys[i].isLogarithmic; });
     std::string seen;
@@ -91,15 +90,19 @@ std::string unseenText(const Fit& fit, const std::vector<double>& direction) {
     } else {
         seen = "they stay as they are where";
         for (std::size_t i = 0; i < parts.size(); ++i)
-            seen += fmt::format("{} {} {}", i == 0 ? "" : i + 1 == parts.size() ? " and" : ",", key(i),
-                                direction[parts[i]] * direction[parts[0]] > 0 ? "grows" : "shrinks");
+            seen += fmt::format("{} {} {}",
+                                i == 0                  ? ""
+                                : i + 1 == parts.size() ? " and"
+                                                        : ",",
+                                key(i), direction[parts[i]] * direction[parts[0]] > 0 ? "grows" : "shrinks");
     }
     std::string names;
     for (std::size_t i = 0; i < parts.size(); ++i)
         names += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + key(i);
-    return fmt::format("The targets cannot tell {} apart: {}. Leave one of them out, or add a target that changes "
-                       "with one alone.",
-                       names, seen);
+    return fmt::format(
+        "The targets cannot tell {} apart: {}. Leave one of them out, or add a target that changes "
+        "with one alone.",
+        names, seen);
 }
 
 }  // namespace
@@ -107,15 +110,15 @@ std::string unseenText(const Fit& fit, const std::vector<double>& direction) {
 std::string fitVerdict(const Fit& fit) {
     std::string text;
     const auto add = [&](const std::string& sentence) { text += (text.empty() ? "" : "\n") + sentence; };
-    const auto worst =
-        std::max_element(fit.targets.begin(), fit.targets.end(),
-                         [](const FittedTarget& a, const FittedTarget& b) { return a.off < b.off; });
+    const auto worst = std::max_element(fit.targets.begin(), fit.targets.end(),
+                                        [](const FittedTarget& a, const FittedTarget& b) { return a.off < b.off; });
     const bool isReached = worst->isMet();
     if (!isReached)
-        add(fmt::format("The targets {}: with the best numbers found, {} is {:.4g} at {:.4g} s, where {:.4g} was "
-                        "measured{}: {:.3g} sigma off.",
-                        fit.hasConverged ? "cannot be met" : "are not met yet", worst->that, worst->reached, worst->time,
-                        worst->wanted, worst->when.starts_with("at ") ? "" : "; over all of the curve", worst->off));
+        add(fmt::format(
+            "The targets {}: with the best numbers found, {} is {:.4g} at {:.4g} s, where {:.4g} was "
+            "measured{}: {:.3g} sigma off.",
+            fit.hasConverged ? "cannot be met" : "are not met yet", worst->that, worst->reached, worst->time,
+            worst->wanted, worst->when.starts_with("at ") ? "" : "; over all of the curve", worst->off));
     if (!fit.hasConverged)
         add(fmt::format("{} trials did not do. Allow more of them, or begin nearer.", fit.trials.size()));
     for (const FittedKey& key : fit.keys)

@@ -10,9 +10,9 @@ namespace {
 
 using Matrix = std::vector<Vector>;  // of rows
 
-constexpr double longest = 1.5;       // step of an unknown
-constexpr double leastDamping = 1e-6; // next to columns of length 1
-constexpr double collinear = 1e-4;    // eigenvalue, next to columns of length 1
+constexpr double longest = 1.5;        // step of an unknown
+constexpr double leastDamping = 1e-6;  // next to columns of length 1
+constexpr double collinear = 1e-4;     // eigenvalue, next to columns of length 1
 
 double dot(const Vector& a, const Vector& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);

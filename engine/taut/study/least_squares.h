@@ -18,8 +18,9 @@ struct LeastSquares {
     int most = 300;            // points in all
 };
 
-// Residuals hardly change along a direction if ten times the differences do not tell it, next to what each unknown does
-// by itself (a correlation of 0.9999), or if its standard deviation is above 1.
+// Residuals hardly change along a direction if they do so by less than a hundredth of what each unknown changes by
+// itself (a correlation of 0.9999, beyond which differences of runs are too rough), or if the standard deviation along
+// it is above 1.
 struct Minimum {
     Vector x;                        // (unknowns)
     Vector residuals;                // there; none: there are none at the start

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "taut/check/figures.h"
@@ -165,6 +166,8 @@ class Fitting {
             key.isHeld = minimum.isHeld[i];
             key.isLogarithmic = sought_[i].isLogarithmic();
             key.deviation = sought_[i].deviation(key.value, minimum.deviation[i]);
+            for (const Vector& direction : minimum.unseen)
+                if (std::abs(direction[i]) > 0.1) key.deviation = std::numeric_limits<double>::quiet_NaN();
             if (key.value != key.before) fit_.changes.push_back({key.key, scene::numberText(key.value)});
             fit_.keys.push_back(std::move(key));
             Vector& row = fit_.correlation.emplace_back();

@@ -34,7 +34,7 @@ struct FitSettings {
 struct FittedKey {
     std::string key;
     double before = 0, value = 0, low = 0, high = 0;
-    double deviation = 0;  // standard; not a number for one that is held by a bound
+    double deviation = 0;  // standard; not a number where a bound holds it or it is not told apart
     bool isHeld = false;
     bool isLogarithmic = false;
 };

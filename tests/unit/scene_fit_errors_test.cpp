@@ -26,10 +26,10 @@ std::string keyMessage(const std::string& key, const std::string& more = "") {
 
 TEST(SceneErrors, KeysOfAFitLeadToNumbers) {
     EXPECT_EQ(keyMessage("rope.r.mass_kg"), "");
-    EXPECT_EQ(keyMessage("rope.s.mass_kg"),
-              "s.toml:6:9: error: rope has no \"s\" to begin from\n"
-              "  keys = [\"rope.s.mass_kg\"]\n"
-              "          ^ did you mean \"r\"?");
+    EXPECT_EQ(keyMessage("rope.r.mass_gk"),
+              "s.toml:6:9: error: rope.r has no \"mass_gk\" to begin from\n"
+              "  keys = [\"rope.r.mass_gk\"]\n"
+              "          ^ did you mean \"mass_kg\"?");
     EXPECT_EQ(keyMessage("rope.r.drag_per_s"),
               "s.toml:6:9: error: rope.r has no \"drag_per_s\" to begin from\n"
               "  keys = [\"rope.r.drag_per_s\"]\n"

@@ -91,7 +91,6 @@ high = 1e-2
     EXPECT_LT(fit.keys[0].deviation, 0.01 * hungRigidity);
     EXPECT_EQ(fitVerdict(fit), "The targets are met.");
     EXPECT_LE(fit.trials.size(), 40U) << "one number, 5 steps of 2 + 3 runs";
-    std::cerr << fitSummary(fit);
 }
 
 // How far a strip hangs down says how stiff it is for its weight, no more.
@@ -105,7 +104,6 @@ high = [1e-2, 0.5]
     EXPECT_NE(fitVerdict(fit).find("they see only material.m.bending_rigidity_N_m / material.m.density_kg_per_m2."),
               std::string::npos)
         << fitSummary(fit);
-    std::cerr << fitSummary(fit);
 }
 
 TEST(Fit, SaysWhatCannotBeMetAndWhichBoundIsInTheWay) {
@@ -211,7 +209,6 @@ sigma = 1e-5
     EXPECT_TRUE(fit.isMet()) << fitSummary(fit);
     EXPECT_NEAR(fit.keys[0].value / b, 1.0, 0.02);
     EXPECT_NEAR(fit.keys[1].value / twoHb, 1.0, 0.02);
-    std::cerr << fitSummary(fit);
 }
 
 // A strip along the warp of weight w with a load F becomes longer by (F / W + w L / 2) L / (C11 - C12²/C22), with C11 =
@@ -272,7 +269,6 @@ sigma = 1e-7
     EXPECT_TRUE(fit.isMet()) << fitSummary(fit);
     EXPECT_NEAR(fit.keys[0].value / stretch, 1.0, 0.01);
     EXPECT_NEAR(fit.keys[1].value / shear, 1.0, 0.01);
-    std::cerr << fitSummary(fit);
 }
 
 }  // namespace

@@ -84,17 +84,17 @@ TEST(SceneErrors, TargetsOfAFitAreNumbersWithASigma) {
               "  that = \"position(rope.r)\"\n"
               "         ^ of a vector .x, .y or .z, or length(…)");
     EXPECT_EQ(with("that = \"lowest(rope.s)\"\nat = 1\nvalue = 2\nsigma = 1\n"),
-              "s.toml:10:16: error: there is no rope \"s\"\n"
+              "s.toml:10:16: error: there is no rope.s\n"
               "  that = \"lowest(rope.s)\"\n"
-              "                 ^ did you mean \"r\"?");
+              "                 ^ did you mean \"rope.r\"?");
     EXPECT_EQ(with("that = \"lowest(rope.r)\"\nat = 9\nvalue = 2\nsigma = 1\n"),
               "s.toml:11:6: error: 9 s is past the end: the last frame shows 4.98333 s\n"
               "  at = 9\n"
               "       ^ set seconds in [run]");
     EXPECT_EQ(with("that = \"lowest(rope.r)\"\nat = 1\nvalue = 2\n"),
-              "s.toml:9:3: error: target[0] of [fit] needs sigma\n"
+              "s.toml:9:1: error: target[0] of [fit] needs sigma\n"
               "  [[fit.target]]\n"
-              "    ^ how far the measured value may be off");
+              "  ^ how far the measured value may be off");
     EXPECT_EQ(with("that = \"time\"\ncurve = \"curve.csv\"\n"), "");
     folder.write("bad.csv", "time,value\n0,1\n1,x\n");
     EXPECT_EQ(with("that = \"time\"\ncurve = \"bad.csv\"\nsigma = 1\n"),

@@ -15,6 +15,7 @@
     COMMAND(atlasCommand)                \
     COMMAND(realityCommand)              \
     COMMAND(planCommand)                 \
+    COMMAND(fitCommand)                  \
     COMMAND(testCommand)                 \
     COMMAND(recordCommand)               \
     COMMAND(replayCommand)               \

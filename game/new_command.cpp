@@ -126,7 +126,7 @@ std::string number(double value) {
 
 // The pieces stand side by side, and the camera so far off that it sees them all.
 std::string sceneText(const std::string& title, const std::vector<std::string>& with) {
-    constexpr double apart = 1.7, reach = 0.6;  // [m]
+    constexpr double apart = 1.7, half = 0.6;  // [m]
     const auto count = static_cast<double>(with.size());
     std::string text = fmt::format(fmt::runtime(head), fmt::arg("title", title));
     for (std::size_t i = 0; i < with.size(); ++i) {
@@ -136,7 +136,7 @@ std::string sceneText(const std::string& title, const std::vector<std::string>& 
         const std::string name = before == 0 ? "first" : fmt::format("first{}", before + 1);
         const double x = apart * (static_cast<double>(i) - 0.5 * (count - 1.0));
         text += fmt::format(fmt::runtime(piece->text), fmt::arg("name", name), fmt::arg("x", number(x)),
-                            fmt::arg("left", number(x - reach)), fmt::arg("right", number(x + reach)));
+                            fmt::arg("left", number(x - half)), fmt::arg("right", number(x + half)));
     }
     return text + fmt::format(fmt::runtime(surroundings), fmt::arg("eyeX", number(0.4 + 0.2 * count)),
                               fmt::arg("eyeZ", number(1.75 + 0.95 * count)));

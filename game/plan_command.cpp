@@ -71,18 +71,10 @@ void write(const std::filesystem::path& file, const std::string& text, const wor
 }
 
 int plan(const PlanFlags& flags) {
-    if (flags.write && !flags.overrides.empty())
-        throw core::Error(core::ErrorKind::usage,
-                          "--write and --set do not go together: what is planned would not be what the file says");
     const std::filesystem::path file = sceneFile(flags.scene);
     const std::string text = core::fileContent(file);
     const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
-    if (flags.write && !spec.bases.empty())
-        throw core::Error(
-            core::ErrorKind::usage,
-            fmt::format("{}: --write needs a scene that is one file; this one builds on {}: plan that, or "
-                        "leave --write out and copy the values",
-                        file.string(), spec.bases.front()));
+    if (flags.write) expectWritable(file, spec, flags.overrides);
     if (!flags.json.empty()) core::prepareFolderOf(flags.json);
 
     const Interruption interruption;

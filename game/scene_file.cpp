@@ -97,11 +97,23 @@ void notePreparation(const world::SceneSpec& spec) {
     if (const std::string text = preparationText(spec); !text.empty()) printNote("note: {}\n", text);
 }
 
+void expectWritable(const std::filesystem::path& file, const world::SceneSpec& spec,
+                    const std::vector<std::string>& overrides) {
+    if (!overrides.empty())
+        throw core::Error(core::ErrorKind::usage,
+                          "--write and --set do not go together: what is found would not be what the file says");
+    if (!spec.bases.empty())
+        throw core::Error(core::ErrorKind::usage,
+                          fmt::format("{}: --write needs a scene that is one file; this one builds on {}: take that, "
+                                      "or leave --write out and copy the values",
+                                      file.string(), spec.bases.front()));
+}
+
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {
     if (core::fileContent(file) != expected)
         throw core::Error(
             core::ErrorKind::inputOutput,
-            fmt::format("{}: the file has changed while it was planned; nothing is written", file.string()));
+            fmt::format("{}: the file has changed meanwhile; nothing is written", file.string()));
     std::error_code ignored;
     const std::filesystem::path real = std::filesystem::canonical(file, ignored);
     const std::filesystem::perms permissions = std::filesystem::status(file, ignored).permissions();

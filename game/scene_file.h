@@ -32,6 +32,11 @@ scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<s
 std::string preparationText(const world::SceneSpec& spec);
 void notePreparation(const world::SceneSpec& spec);
 
+// Throws core::Error(usage) where results cannot be written into the file of a scene: with overrides they would not be
+// of what the file says, and one that builds on others is not all there.
+void expectWritable(const std::filesystem::path& file, const world::SceneSpec& spec,
+                    const std::vector<std::string>& overrides);
+
 // Replaces a scene file that still holds `expected` by `content`. Links and permissions stay. Throws
 // core::Error(inputOutput), also if somebody else has changed the file meanwhile.
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content);

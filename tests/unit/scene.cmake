@@ -7,6 +7,7 @@ list(APPEND TAUT_UNIT_TESTS
   scene_field_table_test.cpp
   scene_fields_test.cpp
   scene_files_test.cpp
+  scene_fit_errors_test.cpp
   scene_inheritance_test.cpp
   scene_label_test.cpp
   scene_merge_test.cpp

@@ -298,6 +298,18 @@ at = 2
 that = "time >= 0"
 from = 1
 to = 3
+[fit]
+keys = ["solver.safety", "rope.rail.mass_kg"]
+low = [0.5, 1e-3]
+high = [1, 100]
+[[fit.target]]
+that = "lowest(cloth.flag.*)"
+at = 2
+value = 0.5
+sigma = 0.01
+[[fit.target]]
+that = "time"
+curve = "curve.csv"
 [[golden]]
 frames = [10, 20]
 restart = true

@@ -15,7 +15,7 @@
 
 namespace taut::scene {
 
-// A folder of its own with a good and a broken model and an empty picture; goes with everything in it.
+// A folder of its own with a good and a broken model, an empty picture and a curve; goes with everything in it.
 class AssetFolder {
   public:
     AssetFolder() {
@@ -25,6 +25,7 @@ class AssetFolder {
         write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
         write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
         write("square.png", "");
+        write("curve.csv", "time,value,sigma\n0,1,0.5\n1.5,2,0.25\n");
         std::filesystem::create_directory(path_ / "models");
     }
     ~AssetFolder() {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "taut/check/check.h"
+#include "taut/check/figures.h"
 #include "taut/check/private/function_table.h"
 #include "taut/scene/private/body_index.h"
 #include "taut/scene/private/references.h"
@@ -29,6 +30,8 @@ class Claims {
             checkTimes(item);
             checkClaim(scene_.spec.checks[i], item.find("that")->value);
         }
+        for (std::size_t i = 0; i < scene_.spec.fit.targets.size(); ++i)
+            checkTarget(scene_.spec.fit.targets[i], root_.find("fit")->value.find("target")->value.items[i]);
     }
 
   private:
@@ -50,14 +53,37 @@ class Claims {
         if (first.origin > 0) spec.source = {problems_.fileOf(first), 0, 0};
         try {
             spec.parsed = std::make_shared<const check::Check>(check::Check::parse(spec.that));
-            for (const check::Mention& mention : spec.parsed->mentions()) checkMention(spec, that, mention);
+            for (const check::Mention& mention : spec.parsed->mentions())
+                checkMention(spec.at ? *spec.at : spec.from.value_or(0.0), "give the check a later from", that,
+                             mention);
             for (const check::Call& call : spec.parsed->calls()) doubtCall(that, call);
         } catch (const check::ClaimError& fault) {
             problems_.addError(problems_.placeInside(that.place, that.text, fault.at), fault.what(), fault.remedy);
         }
     }
 
-    void checkMention(const world::CheckSpec& spec, const Node& that, const check::Mention& mention) {
+    void checkTarget(const world::FitTarget& target, const Node& item) {
+        if (target.points.empty()) return;  // something else is wrong with it
+        if (ticks_.at(target.points.back().time) > ticks_.last() && !isLengthOverridden(root_))
+            problems_.addError(item.find(target.curve.empty() ? "at" : "curve")->value.place,
+                               fmt::format("{:.6g} s is past the end: the last frame shows {:.6g} s",
+                                           target.points.back().time, ticks_.secondsOf(ticks_.last())),
+                               "set seconds in [run]");
+        const Node& that = item.find("that")->value;
+        try {
+            const check::Figures figures = check::Figures::parse(target.that);
+            if (figures.names().size() != 1)
+                problems_.addError(that.place, fmt::format("this is {} numbers, not one", figures.names().size()),
+                                   "of a vector .x, .y or .z, or length(…)");
+            for (const check::Mention& mention : figures.mentions())
+                checkMention(target.points.front().time, "measure it later", that, mention);
+        } catch (const check::ClaimError& fault) {
+            problems_.addError(problems_.placeInside(that.place, that.text, fault.at), fault.what(), fault.remedy);
+        }
+    }
+
+    // What is measured from a moment on must be there by then.
+    void checkMention(double begin, const char* remedy, const Node& that, const check::Mention& mention) {
         const Place place = problems_.placeInside(that.place, that.text, mention.at);
         if (mention.isJoint) {
             if (const auto fault = nameFault(scene_.spec, mention.target))
@@ -70,8 +96,6 @@ class Claims {
             if (const auto same = bodies_.betweenFault(mention.against, mention.target))
                 return problems_.addError(place, same->message, same->remedy);
         if (!mention.isNeeded) return;
-        // They must exist whenever the claim asks for them.
-        const double begin = spec.at ? *spec.at : spec.from.value_or(0.0);
         std::optional<double> birth;
         for (const std::string& name : bodies_.names(mention.target)) {
             const std::optional<double> t = birthOf(name);
@@ -81,7 +105,7 @@ class Claims {
         if (!birth || ticks_.at(*birth) < ticks_.at(begin)) return;
         problems_.addError(place,
                            fmt::format("{} is not there at {} s: it is spawned at {} s", mention.target, begin, *birth),
-                           "give the check a later from");
+                           remedy);
     }
 
     // A function that can never find anything is hardly meant.

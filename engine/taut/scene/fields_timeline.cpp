@@ -87,6 +87,62 @@ SceneSection checkSection() {
     return section;
 }
 
+namespace {
+
+Section fitTargetSection() {
+    Section section;
+    const char *value = "a target at a moment", *curve = "a measured curve";
+    section.variant = [=](const Node& table) { return table.find("curve") != nullptr ? curve : value; };
+    section.fields = FieldList<FitTarget>()
+                         .text("that", &FitTarget::that, Role::none,
+                               "The quantity, in the language of checks, e.g. \"lowest(cloth.strip)\".")
+                         .required()
+                         .number("at", &FitTarget::at, "s", momentRange, "When it was measured.")
+                         .required()
+                         .only({value})
+                         .number("value", &FitTarget::value, "", anyNumber, "What was measured, in the unit of it.")
+                         .required()
+                         .only({value})
+                         .text("curve", &FitTarget::curve, Role::none,
+                               "CSV file of what was measured: time [s], value, and sigma or not.")
+                         .only({curve})
+                         .number("sigma", &FitTarget::sigma, "", Range{1e-12, 1e12},
+                                 "Standard deviation of what was measured, in the unit of it; of a curve, where its "
+                                 "file has none.")
+                         .take();
+    section.check = [](const CheckInput& input, void* target) {
+        auto& fit = *static_cast<FitTarget*>(target);
+        if (!input.isClean || !fit.curve.empty()) return;
+        if (!fit.sigma)
+            input.problems.addError(input.place, input.where + " needs sigma", "how far the measured value may be off");
+        else
+            fit.points = {{*fit.at, *fit.value, *fit.sigma}};
+    };
+    return section;
+}
+
+}  // namespace
+
+SceneSection fitSection() {
+    SceneSection section;
+    section.name = "fit";
+    section.help = "Which numbers of the scene taut fit seeks, from what was measured.";
+    section.enter = enterPart(&SceneSpec::fit);
+    section.fields =
+        FieldList<FitSpec>()
+            .texts("keys", &FitSpec::keys, Role::none,
+                   "The numbers, six at most, as --set names them, e.g. \"material.m.bending_rigidity_N_m\".")
+            .required()
+            .numbers("low", &FitSpec::low, "The least that each may be; above 0 it is sought by its logarithm.")
+            .required()
+            .numbers("high", &FitSpec::high, "The most that each may be.")
+            .required()
+            .tables("target", &FitSpec::targets, fitTargetSection(),
+                    "What was measured, one [[fit.target]] a quantity.")
+            .take();
+    return section;
+}
+
 SceneSection goldenSection() {
     SceneSection section;
     section.name = "golden";

@@ -11,15 +11,17 @@
 #include "taut/scene/private/claims.h"
 #include "taut/scene/private/document.h"
 #include "taut/scene/private/fabrics.h"
+#include "taut/scene/private/fit_keys.h"
 #include "taut/scene/private/inheritance.h"
+#include "taut/scene/private/measured_curves.h"
 #include "taut/scene/private/merge.h"
 #include "taut/scene/private/overrides.h"
 #include "taut/scene/private/references.h"
 #include "taut/scene/private/scene_reader.h"
-#include "taut/scene/state_keys.h"
 #include "taut/scene/private/suspicions.h"
 #include "taut/scene/private/text_file.h"
 #include "taut/scene/private/timeline.h"
+#include "taut/scene/state_keys.h"
 
 namespace taut::scene {
 
@@ -164,7 +166,9 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     const BodyIndex bodies(scene.spec, kinds, scene.faulty);
     checkReferences(scene, bodies, problems);
     checkTimeline(root, sections, bodies, scene, problems);
+    readCurves(root, confinementOf(fileName, options), scene, problems);
     checkClaims(root, bodies, scene, problems);
+    checkFitKeys(root, sections, scene, problems);
     checkLights(scene, problems);
     throwIfAny(problems);
     checkSize(scene, options.memoryLimit > 0 ? options.memoryLimit : memoryLimit(), problems);

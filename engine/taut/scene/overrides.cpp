@@ -8,6 +8,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
+#include "taut/scene/private/by_key.h"
 #include "taut/scene/private/document.h"
 #include "taut/scene/private/inheritance.h"
 
@@ -21,16 +22,6 @@ std::string withoutBlanks(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t");
     if (first == std::string_view::npos) return "";
     return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
-std::vector<std::string> partsOf(std::string_view key) {
-    std::vector<std::string> parts;
-    while (true) {
-        const std::size_t dot = key.find('.');
-        parts.emplace_back(key.substr(0, dot));
-        if (dot == std::string_view::npos) return parts;
-        key.remove_prefix(dot + 1);
-    }
 }
 
 bool isWord(std::string_view text) {
@@ -88,15 +79,14 @@ class Override {
   private:
     // Goes on below a node at `path`, which the first `depth` parts of the key lead to.
     void setIn(Node& node, std::size_t depth, const std::string& path) {
-        if (depth == parts_.size()) {
+        if (depth == parts_.size())
             node = value_;
-        } else if (node.kind == NodeKind::list) {
+        else if (node.kind == NodeKind::list)
             setInList(node, depth, path);
-        } else if (node.kind == NodeKind::table) {
+        else if (node.kind == NodeKind::table)
             setInTable(node, depth, path);
-        } else {
+        else
             report(fmt::format("{} is {}: it has no \"{}\"", path, description(node), parts_[depth]));
-        }
     }
 
     void setInList(Node& list, std::size_t depth, const std::string& path) {
@@ -182,7 +172,7 @@ void applyOverride(const std::string& text, int origin, const std::vector<SceneS
                    Problems& problems) {
     const Place place{origin, 1, 1};
     const std::size_t equals = text.find('=');
-    const std::vector<std::string> parts = partsOf(withoutBlanks(std::string_view(text).substr(0, equals)));
+    const std::vector<std::string> parts = keyParts(withoutBlanks(std::string_view(text).substr(0, equals)));
     const std::optional<Node> value =
         valueOf(withoutBlanks(std::string_view(text).substr(equals + 1)), place, problems);
     if (!value) return;

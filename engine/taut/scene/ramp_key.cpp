@@ -5,20 +5,11 @@
 #include <algorithm>
 
 #include "taut/fields/private/problems.h"
+#include "taut/scene/private/by_key.h"
 
 namespace taut::scene {
 
 namespace {
-
-std::vector<std::string> partsOf(const std::string& key) {
-    std::vector<std::string> parts(1);
-    for (const char c : key)
-        if (c == '.')
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
 
 // A field by its path inside a section, and how to get from the section's struct to the struct of the field.
 struct Row {
@@ -93,7 +84,7 @@ struct RowField final : world::RampField {
 
 std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<SceneSection>& sections,
                                world::SceneSpec& scene, TargetFault& fault) {
-    const std::vector<std::string> parts = partsOf(key);
+    const std::vector<std::string> parts = keyParts(key);
     const auto section = std::find_if(sections.begin(), sections.end(),
                                       [&](const Section& s) { return !s.name.empty() && s.name == parts[0]; });
     const auto fail = [&](std::string message, std::string remedy) {

@@ -66,8 +66,10 @@ class SceneReader {
                                fmt::format("write [{}{}]", section.name, name));
         } else if (section.layout == Layout::table) {
             enter(section.name);
+            const int before = problems_.errorCount();
             readTable(section, member.value, member.place, fmt::format("[{}]", section.name),
                       section.enter(out_.spec, "", sourceOf(member.place)));
+            if (problems_.errorCount() > before) out_.faulty.insert(owner_);
         } else {
             for (const Member& element : member.value.members) readNamed(section, element);
         }
@@ -255,9 +257,8 @@ class SceneReader {
         if (field.role == Role::none) return;
         if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
             for (std::size_t i = 0; i < texts->size(); ++i)
-                out_.references.push_back({field.role,
-                                           node.kind == NodeKind::text ? node.place : node.items[i].place, (*texts)[i],
-                                           0.0, owner_});
+                out_.references.push_back({field.role, node.kind == NodeKind::text ? node.place : node.items[i].place,
+                                           (*texts)[i], 0.0, owner_});
         else if (const auto* text = std::get_if<std::string>(&value))
             out_.references.push_back({field.role, node.place, *text, 0.0, owner_});
         else if (const auto* number = std::get_if<double>(&value))

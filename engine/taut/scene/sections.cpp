@@ -112,7 +112,7 @@ std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
     for (const auto& kind : kinds.forces.all()) all.push_back(kindSection(kind, &world::SceneSpec::forces));
     all.insert(all.end(), {colliderSection(kinds.shapes), cameraSection(), lightSection(), lampSection(),
                            environmentSection(), backgroundSection(), labelSection(), handSection(),
-                           atSection(kinds.actions), checkSection(), goldenSection()});
+                           atSection(kinds.actions), checkSection(), fitSection(), goldenSection()});
     std::vector<std::string> methods;
     for (const ode::MethodInfo& method : kinds.methods.all()) methods.emplace_back(method.name);
     for (SceneSection& section : all) nameMethods(section, methods);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
+#include "taut/scene/private/by_key.h"
 #include "taut/scene/private/document.h"
 
 namespace taut::scene {
@@ -222,24 +223,13 @@ void addParts(const Written& file, const Node* before, const Written& given, con
     }
 }
 
-KeyPath pathOf(const std::string& key) {
-    KeyPath path;
-    std::size_t begin = 0;
-    while (true) {
-        const std::size_t dot = key.find('.', begin);
-        path.push_back(key.substr(begin, dot == std::string::npos ? dot : dot - begin));
-        if (dot == std::string::npos) return path;
-        begin = dot + 1;
-    }
-}
-
 }  // namespace
 
 std::string spliced(std::string_view text, std::span<const Change> changes) {
     std::string result(text);
     Node expected = treeOf(text);
     for (const Change& change : changes) {
-        const KeyPath path = pathOf(change.key);
+        const KeyPath path = keyParts(change.key);
         try {
             const std::string alone = "value = " + change.value;
             const Written given(alone);

@@ -17,7 +17,7 @@ constexpr std::string_view picturesOnly[] = {"picture", "camera", "light", "lamp
 // What a material says of cloth, each cloth has by now.
 constexpr std::string_view finishOnly[] = {"finish", "visible", "edge", "ball", "cloth"};
 // Sections that change nothing before their time, or nothing at all. For files that are named the content counts.
-constexpr std::string_view neither[] = {"schema", "title", "scene", "defaults", "need", "check", "golden", "at"};
+constexpr std::string_view neither[] = {"schema", "title", "scene", "defaults", "need", "fit", "check", "golden", "at"};
 
 template <std::size_t n>
 bool isOneOf(std::string_view key, const std::string_view (&keys)[n]) {

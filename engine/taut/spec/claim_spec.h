@@ -1,4 +1,4 @@
-// What a scene asks of a run: accuracy, claims about the state, pictures to compare.
+// What a scene asks of a run: accuracy, claims about the state, numbers to fit, pictures to compare.
 #pragma once
 
 #include <memory>
@@ -29,6 +29,29 @@ struct CheckSpec {
     std::shared_ptr<const check::Check> parsed;  // set by the loader; none: whoever needs it parses the text
     std::optional<double> at;                    // [s] at this moment
     std::optional<double> from, upTo;            // [s] all through this span, ends included
+};
+
+// What was measured of a quantity, such as "lowest(cloth.strip)": one value at a moment, or a curve.
+struct FitTarget {
+    struct Point {
+        double time = 0;   // [s]
+        double value = 0;  // in the unit of the quantity, as sigma
+        double sigma = 1;  // standard deviation of the value
+    };
+    Source source;
+    std::string that;          // an expression of the language of checks
+    std::optional<double> at;  // [s]
+    std::optional<double> value, sigma;
+    std::string curve;          // CSV file
+    std::vector<Point> points;  // set by the loader, by time
+};
+
+// Numbers of the scene that are sought, so that it does what was measured.
+struct FitSpec {
+    std::vector<std::string> keys;  // dotted paths, as of --set
+    std::vector<double> low, high;  // (keys)
+    std::vector<double> start;      // (keys) set by the loader: their values in the scene
+    std::vector<FitTarget> targets;
 };
 
 // Pictures to compare with recorded ones.

@@ -65,6 +65,7 @@ struct SceneSpec {
     SolverSpec solver;
     RunSpec run;
     NeedSpec need;
+    FitSpec fit;
     PictureSpec picture;
     LightSpec light;
     EnvironmentSpec environment;

@@ -18,7 +18,7 @@ std::string number(const char* format, double value) {
     return text;
 }
 
-struct Range {
+struct Extremes {
     double least = HUGE_VAL, most = -HUGE_VAL;
     void add(double value) {
         least = std::min(least, value);
@@ -26,15 +26,15 @@ struct Range {
     }
 };
 
-Range cellsOf(const RefinementStudy& study) {
-    Range cells;
+Extremes cellsOf(const RefinementStudy& study) {
+    Extremes cells;
     for (const RefinementRun& run : study.runs) cells.add(run.cells);
     return cells;
 }
 
 report::Axis cellsAxis(const RefinementStudy& study) {
     report::Axis axis;
-    const Range cells = cellsOf(study);
+    const Extremes cells = cellsOf(study);
     axis.label = "cells along the longest side";
     axis.scale = Scale::log;
     axis.least = cells.least / 1.3;
@@ -90,7 +90,7 @@ std::string boundText(const RefinementFacts& facts) {
 }
 
 // A line of slope -p through (x, y), to compare with.
-void addSlope(Panel& panel, const Range& cells, int p, double y) {
+void addSlope(Panel& panel, const Extremes& cells, int p, double y) {
     report::Curve line;
     line.style = {"#b0b0b0", report::Mark::none, true, report::Dash::dotted, 1.4, 1.0};
     for (const double x : {cells.least, cells.most}) line.points.push_back({x, y * std::pow(x / cells.least, -p)});
@@ -115,7 +115,7 @@ Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, boo
     const bool isExact = !(*std::max_element(facts.strongest.begin(), facts.strongest.end(), [](double a, double b) {
         return a < b || std::isnan(a);
     }) > refinementFloor);
-    const Range cells = cellsOf(study);
+    const Extremes cells = cellsOf(study);
     if (!isExact) {
         addSlope(panel, cells, 1, 0.6);
         addSlope(panel, cells, 2, 0.007);
@@ -140,7 +140,7 @@ Panel drapePanel(const RefinementStudy& study, const RefinementFacts& facts, boo
     panel.title = body.title;
     panel.x = cellsAxis(study);
     panel.y.label = isFirst ? "difference from the limit [%]" : "";
-    Range percent;
+    Extremes percent;
     for (const RefinementRun& run : study.runs)
         if (run.body == body.name) percent.add(100.0 * run.error);
     const double room = 0.12 * (percent.most - percent.least);

@@ -24,7 +24,7 @@ struct NameReference {
 struct ReadScene {
     world::SceneSpec spec;                // sections in the order of the file
     std::vector<NameReference> references;    // in the order of the table
-    std::set<std::string> faulty;         // owners with an error inside, "cloth.flag" or "at[0]"
+    std::set<std::string> faulty;         // owners with an error inside, "cloth.flag", "at[0]" or "fit"
     std::map<std::string, Place> owners;  // where "cloth.flag" or "joint[0]" begins
 };
 

@@ -51,6 +51,7 @@ SceneSection labelSection();
 SceneSection handSection();
 SceneSection atSection(const world::KindTable<world::ActionSpec>& kinds);
 SceneSection checkSection();
+SceneSection fitSection();
 SceneSection goldenSection();
 
 // Keys must ascend in t. Reports each that does not.

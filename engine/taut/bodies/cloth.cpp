@@ -84,6 +84,9 @@ Section ClothSpec::section() {
             .only(grid)
             .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
             .only(grid)
+            .flag("round", &ClothSpec::isRound,
+                  "Only the cells of which the middle lies in the ellipse that fits into its size: a round tablecloth.")
+            .only(grid)
             .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file; its groups and objects (g, o) are names of points.")
             .only(mesh)
             .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
@@ -125,7 +128,7 @@ mechanics::Model ClothSpec::buildSheet(const SceneSpec& scene) const {
     if (!meshData) {
         const dvec3 u = unit(across);
         const dvec3 v = unit(down - glm::dot(down, u) * u);
-        return mechanics::buildCloth({origin, u, v, size, cells, made});
+        return mechanics::buildCloth({origin, u, v, size, cells, made, isRound});
     }
     mechanics::MeshClothShape shape = shapeOf(*this);
     shape.material = made;
@@ -149,6 +152,7 @@ BodyOutline ClothSpec::outline(const SceneSpec&) const {
     BodyOutline outline;
     outline.hasSurface = true;
     outline.isGrid = mesh.empty();
+    outline.isRound = isRound;
     if (meshData) {
         outline.points = static_cast<double>(meshData->positions.size());
         outline.springs = 3.0 * static_cast<double>(meshData->triangles.size());
@@ -157,7 +161,7 @@ BodyOutline ClothSpec::outline(const SceneSpec&) const {
         outline.points = (x + 1) * (y + 1);
         outline.springs = 6.0 * x * y + x + y;
     }
-    outline.groups = outline.isGrid ? mechanics::clothGroups() : mechanics::meshClothGroups();
+    outline.groups = outline.isGrid ? mechanics::clothGroups(isRound) : mechanics::meshClothGroups();
     if (meshData)
         for (const auto& group : meshData->groups) outline.groups.push_back(group.first);
     return outline;

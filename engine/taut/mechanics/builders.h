@@ -65,13 +65,16 @@ struct ClothShape {
     glm::dvec2 size{1.0, 1.0};   // across, down [m]
     glm::ivec2 cells{16, 16};    // across, down
     ClothMaterial material;
+    bool isRound = false;
 };
-// Points row by row from the top left. Structural springs on the boundary are halved when lumping is weighted.
+// Points row by row from the top left. A round cloth has the cells of which the middle lies in the ellipse that fits
+// into the size; points of no cell are held, in no group, and weigh a billionth of a cell.
+// Structural springs on the boundary are halved when lumping is weighted.
 // A cell of a by b (not square): k_s b/a along its side a, so that stretch stays per metre.
 // Groups: left, right, top, bottom, the four corners (top-left, …), corners, edges, all.
 // Expects at least one cell, and a size above zero, each way.
 Model buildCloth(const ClothShape& shape);
-std::vector<std::string> clothGroups();
+std::vector<std::string> clothGroups(bool isRound = false);  // of a round one neither corners
 
 struct MeshClothShape {
     std::vector<glm::dvec3> positions;          // (vertices) [m] welded, each used by a triangle

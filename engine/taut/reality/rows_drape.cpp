@@ -26,7 +26,7 @@ struct Fabric {
 };
 
 std::string drapeScene(const Fabric& fabric, double weight, int cells, int seed) {
-    return fmt::format(R"(schema = 1
+    return fmt::format(R"toml(schema = 1
 
 [run]
 fps = 60
@@ -62,9 +62,9 @@ radius = {}
 height = 0.3
 
 [camera.main]
-eye = [0.18, 0.56, 0.42]
+eye = [0.11, 0.44, 0.27]
 target = [0, 0.25, 0]
-)",
+)toml",
                        weight, fabric.rigidity, fabric.hysteresis, 0.05 * fabric.hysteresis / fabric.rigidity,
                        2 * clothRadius, 2 * clothRadius, cells, cells, -clothRadius, -clothRadius, discRadius, noise,
                        seed, fabric.colour, discRadius - 0.002);
@@ -130,7 +130,7 @@ DrapeBand bandOf(Bench& bench, const Fabric& fabric, double weight, int cells, i
 // Cusick's drape meter (ISO 9073-9): cloth of 15 cm on a disc of 9 cm, held between it and another one; let go where it
 // lies flat.
 void holdDrape(Bench& bench) {
-    const int cells = bench.cells(60);
+    const int cells = bench.cells(100);
     const Fabric fabrics[] = {
         {"cotton broadcloth", "#3f78b5", 1.1572e-5, 1.2160e-3, 0.829, {0.12, 0.08, 0.10, 0.15, 0.20}},
         {"polyester faille", "#7c2f5e", 1.8633e-6, 6.8647e-5, 0.283, {0.11, 0.06, 0.085, 0.15, 0.20}},
@@ -143,7 +143,7 @@ void holdDrape(Bench& bench) {
         bench.drapes().push_back(band);
         if (!bench.settings().draws) continue;
         for (std::size_t i = 1; i < fabric.weights.size(); ++i)
-            bench.drapes().push_back(bandOf(bench, fabric, fabric.weights[i], cells, 4));
+            bench.drapes().push_back(bandOf(bench, fabric, fabric.weights[i], cells, 2));
     }
 }
 

@@ -73,13 +73,19 @@ int compareWithReality(const RealityFlags& flags) {
     for (const auto& [name, text] : comparison.scenes) output.write("scenes/" + name + ".toml", text);
     output.write("reality.csv", reality::csv(comparison));
     printResult("{}", reality::summary(comparison));
-    std::string svg;
-    if (!comparison.droops.empty()) {
-        output.write("cantilever.csv", reality::droopsCsv(comparison));
-        output.draw("cantilever", reality::droopChart(comparison.droops, comparison.peers, {note}));
-        if (std::filesystem::exists(folder / "cantilever.svg")) svg = core::fileContent(folder / "cantilever.svg");
-    }
-    output.write("reality.html", reality::page(comparison, svg, note));
+    std::vector<std::string> charts;
+    const auto draw = [&](const std::string& name, const std::string& csv, const report::Chart& chart) {
+        output.write(name + ".csv", csv);
+        output.draw(name, chart);
+        const std::filesystem::path svg = folder / (name + ".svg");
+        if (std::filesystem::exists(svg)) charts.push_back(core::fileContent(svg));
+    };
+    if (!comparison.droops.empty())
+        draw("cantilever", reality::droopsCsv(comparison),
+             reality::droopChart(comparison.droops, comparison.peers, {note}));
+    if (!comparison.drapes.empty())
+        draw("drape", reality::drapesCsv(comparison), reality::drapeChart(comparison.drapes, {note}));
+    output.write("reality.html", reality::page(comparison, charts, note));
     const int code = output.finish(interruption);
     return code == 0 && !comparison.passes() ? static_cast<int>(ExitCode::checkFailed) : code;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "taut/check/private/function_table.h"
+#include "taut/check/private/shadow.h"
 #include "taut/core/error.h"
 #include "unit/check_support.h"
 
@@ -174,6 +175,52 @@ TEST(CheckFunctions, WhatCrossesIsCountedAndHasNoGap) {
     EXPECT_EQ(valueIn(world, "crossings()"), 1.0);
     EXPECT_EQ(valueIn(world, "crossings(rope.r)"), 1.0);
     EXPECT_EQ(valueIn(world, "body_contacts"), 0.0);
+}
+
+// Squares of a metre: one flat, one half way beside it and over it, one at 60° to the ground, one upright.
+TEST(CheckFunctions, ShadowsAreThoseOfProjections) {
+    const auto square = [](const std::string& name, const std::string& where) {
+        return "[cloth." + name + "]\nmaterial = \"m\"\nsize = [1, 1]\ncells = [2, 2]\n" + where + "\n";
+    };
+    const world::World world(sceneOf("[material.m]\n" + square("flat", "down = [0, 0, 1]") +
+                                     square("flatter", "origin = [0.5, 1, 0.5]\ndown = [0, 0, 1]") +
+                                     square("slant", "down = [0, 0.8660254037844386, 0.5]") + square("hung", "") +
+                                     lineOf("r", "[[0, 0, 0], [1, 0, 1]]")));
+    EXPECT_NEAR(valueIn(world, "shadow(cloth.flat, y)"), 1.0, rounding);
+    EXPECT_NEAR(valueIn(world, "shadow(cloth.flat*, y)"), 1.75, rounding);
+    EXPECT_NEAR(valueIn(world, "shadow(cloth.slant, y)"), 0.5, rounding);
+    EXPECT_NEAR(valueIn(world, "shadow(cloth.slant, z)"), 0.8660254037844386, rounding);
+    EXPECT_NEAR(valueIn(world, "shadow(cloth.slant, x)"), 0.0, rounding);
+    EXPECT_NEAR(valueIn(world, "shadow(cloth.hung, z)"), 1.0, rounding);
+    EXPECT_EQ(valueIn(world, "shadow(rope.r, y)"), 0.0);
+}
+
+TEST(CheckFunctions, ShadowsLoseWhatIsTorn) {
+    world::World world(sceneOf(weightless + "[material.m]\n[cloth.c]\nmaterial = \"m\"\nsize = [1, 1]\ncells = [4, 4]\n"
+                                            "[[at]]\nt = 0\ndo = \"cut\"\ntarget = \"cloth.c\"\n"));
+    EXPECT_NEAR(valueIn(world, "shadow(cloth.c, z)"), 1.0, rounding);
+    play(world, 1);
+    EXPECT_EQ(valueIn(world, "shadow(cloth.c, z)"), 0.0);
+}
+
+// A fan of 720 triangles, once and again turned within itself; two triangles that make a star of six points, of which
+// each is 1/9 of a triangle; two specks a kilometre apart.
+TEST(CheckFunctions, CoveredAreasCountEachPlaceOnce) {
+    const auto corner = [](double degrees) {
+        return glm::dvec2(std::cos(degrees * 3.141592653589793 / 180), std::sin(degrees * 3.141592653589793 / 180));
+    };
+    std::vector<FlatTriangle> disc;
+    for (int i = 0; i < 720; ++i) disc.push_back({glm::dvec2(0.0), corner(0.5 * i), corner(0.5 * (i + 1))});
+    const double area = 360 * std::sin(3.141592653589793 / 360);
+    EXPECT_NEAR(coveredArea(disc), area, rounding);
+    for (int i = 0; i < 720; ++i)
+        disc.push_back({glm::dvec2(0.1, 0), 0.8 * corner(7 + 0.5 * i), 0.8 * corner(7.5 + 0.5 * i)});
+    EXPECT_NEAR(coveredArea(disc), area, rounding);
+    const double triangle = 0.75 * std::sqrt(3.0);
+    EXPECT_NEAR(coveredArea({{corner(90), corner(210), corner(330)}, {corner(30), corner(150), corner(270)}}),
+                triangle * 4 / 3, 1e-6);  // six crossings, a strip of 7.5e-4 squared over 8 each
+    const auto speck = [](double y) { return FlatTriangle{glm::dvec2(0, y), {2e-3, y}, {0, y + 1e-3}}; };
+    EXPECT_NEAR(coveredArea({speck(0), speck(1000)}), 2e-6, 1e-15);  // rounding of 1000 m
 }
 
 TEST(CheckFunctions, NumbersAreComputedLikeNumbers) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "taut/mechanics/builders.h"
@@ -156,6 +157,28 @@ TEST(ClothBuilder, TrianglesCoverItAndFaceForward) {
     }
     EXPECT_NEAR(area.z, 1.8 * 1.2, clothRounding);
     EXPECT_EQ(model.triangles.size(), 48U);
+}
+
+// Cells of which the middle lies in a circle: about π/4 of all (Gauss's circle problem).
+TEST(ClothBuilder, RoundOneHasWhatTheCellsInTheEllipseHave) {
+    ClothShape shape = flag(60, 40);
+    shape.isRound = true;
+    shape.material.rigidity = {1e-5, 1e-5, 0, 1e-5};
+    const Model model = buildCloth(shape);
+    const auto cells = static_cast<double>(model.triangles.size()) / 2;
+    EXPECT_NEAR(cells / 2400, 0.7854, 0.005);
+    EXPECT_NEAR(totalMass(model), 0.2 * cells * 0.03 * 0.03, 1e-6 * totalMass(model));
+    std::set<int> used;
+    for (const auto& triangle : model.triangles) used.insert(triangle.begin(), triangle.end());
+    EXPECT_TRUE(std::equal(used.begin(), used.end(), model.groups.at("all").begin(), model.groups.at("all").end()));
+    for (const Spring& s : model.springs) EXPECT_TRUE(used.contains(s.a) && used.contains(s.b));
+    int terms = 0;
+    eachTerm(model.bending, [&](const BendingTerm& term) {
+        ++terms;
+        for (int k = 0; k < term.count; ++k) EXPECT_TRUE(used.contains(term.points[k]));
+    });
+    EXPECT_NEAR(terms, 3 * cells, 0.1 * terms);  // two folds and a twist a cell, but for the hem
+    for (int p = 0; p < model.pointCount(); ++p) EXPECT_EQ(model.held[static_cast<std::size_t>(p)], !used.contains(p));
 }
 
 TEST(ClothBuilder, GroupsAreWhereTheirNamesSay) {

@@ -20,6 +20,9 @@ TEST(BuilderGroups, AreThoseThatTheirListsName) {
     expectGroups(buildRope({}), ropeGroups());
     expectGroups(buildBlock({}), blockGroups());
     expectGroups(buildCloth({}), clothGroups());
+    ClothShape round;
+    round.isRound = true;
+    expectGroups(buildCloth(round), clothGroups(true));
     MeshClothShape square;
     square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     square.triangles = {{0, 1, 2}, {0, 2, 3}};

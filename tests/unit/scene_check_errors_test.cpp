@@ -54,6 +54,14 @@ TEST(SceneErrors, ClaimsThatCannotBeReadAreReported) {
          "s.toml:5:9: error: there is no function \"zzz\"\n"
          "  that = \"zzz(rope.r) < 1\"\n"
          "          ^ see taut schema --manual"},
+        {"no axis",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "[[check]]\n"
+         "that = \"shadow(rope.r, up) < 1\"\n",
+         "s.toml:5:24: error: an axis is x, y or z\n"
+         "  that = \"shadow(rope.r, up) < 1\"\n"
+         "                         ^ write shadow(BODIES, AXIS)"},
         {"too few arguments",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"

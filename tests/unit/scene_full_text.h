@@ -72,6 +72,7 @@ break_cell_m = 0.05
 size = [1.8, 1.2]
 cells = [36, 24]
 origin = [0.5, 3, 0.25]
+round = false
 across = [0, 0, 2]
 down = [0, -3, 0]
 grain_deg = 90

@@ -168,7 +168,7 @@ TEST(SceneErrors, ReferencesToWhatIsNotThereAreReported) {
          "hold = [\"(0.5,1.5)\"]\n",
          "s.toml:5:9: error: \"(0.5,1.5)\" is not a place on a cloth\n"
          "  hold = [\"(0.5,1.5)\"]\n"
-         "          ^ write (u,v), each 0 … 1"},
+         "          ^ write (u,v), each 0 … 1, or (u,v,r) with a radius r in metres"},
         {"a place without a comma",
          "[material.m]\n"
          "[cloth.c]\n"
@@ -176,7 +176,24 @@ TEST(SceneErrors, ReferencesToWhatIsNotThereAreReported) {
          "hold = [\"(0.5)\"]\n",
          "s.toml:5:9: error: \"(0.5)\" is not a place on a cloth\n"
          "  hold = [\"(0.5)\"]\n"
-         "          ^ write (u,v), each 0 … 1"},
+         "          ^ write (u,v), each 0 … 1, or (u,v,r) with a radius r in metres"},
+        {"a radius below zero",
+         "[material.m]\n"
+         "[cloth.c]\n"
+         "material = \"m\"\n"
+         "hold = [\"(0.5,0.5,-1)\"]\n",
+         "s.toml:5:9: error: \"(0.5,0.5,-1)\" is not a place on a cloth\n"
+         "  hold = [\"(0.5,0.5,-1)\"]\n"
+         "          ^ write (u,v), each 0 … 1, or (u,v,r) with a radius r in metres"},
+        {"a corner of a round cloth",
+         "[material.m]\n"
+         "[cloth.c]\n"
+         "material = \"m\"\n"
+         "round = true\n"
+         "hold = [\"(0,1)\"]\n",
+         "s.toml:6:9: error: cloth.c is round: there is nothing of it at (0,1)\n"
+         "  hold = [\"(0,1)\"]\n"
+         "          ^ (0.5,0.5) is its middle"},
         {"a place on a rope",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"

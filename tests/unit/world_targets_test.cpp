@@ -41,8 +41,15 @@ TEST_F(Selectors, NameSinglePoints) {
     EXPECT_EQ(selectPoints(line, "100%"), (std::vector<int>{20}));
 }
 
+// Cells of 0.25 by 0.5 m.
+TEST_F(Selectors, NameWhatIsWithinARadiusOfAPlace) {
+    EXPECT_EQ(selectPoints(grid, "(0.5,0.5,0.3)"), (std::vector<int>{6, 7, 8}));
+    EXPECT_EQ(selectPoints(grid, "(0,0,0.5)"), (std::vector<int>{0, 1, 2, 5}));
+    EXPECT_EQ(selectPoints(grid, "(0.4,0.6,0)"), (std::vector<int>{7}));  // the nearest, none is nearer than 0.1
+}
+
 TEST_F(Selectors, NameNothingWhereThereIsNothing) {
-    for (const char* selector : {"#15", "#-1", "(1.1,0)", "(0.5)", "middle", "101%", "#", "(,)", "%"})
+    for (const char* selector : {"#15", "#-1", "(1.1,0)", "(0.5)", "(0.5,0.5,r)", "middle", "101%", "#", "(,)", "%"})
         EXPECT_TRUE(selectPoints(grid, selector).empty()) << selector;
     EXPECT_TRUE(selectPoints(line, "(0.5,0.5)").empty());  // a rope has no grid
 }

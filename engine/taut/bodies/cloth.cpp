@@ -90,6 +90,9 @@ Section ClothSpec::section() {
                 "at multiples of 90° and, in square cells, 45°, in between as nearly as springs along the grid can. "
                 "Hysteresis needs multiples of 90°.")
             .only(grid)
+            .flag("round", &ClothSpec::isRound,
+                  "Only the cells of which the middle lies in the ellipse that fits into its size: a round tablecloth.")
+            .only(grid)
             .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file; its groups and objects (g, o) are names of points.")
             .only(mesh)
             .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
@@ -131,7 +134,7 @@ mechanics::Model ClothSpec::buildSheet(const SceneSpec& scene) const {
     if (!meshData) {
         const dvec3 u = unit(across);
         const dvec3 v = unit(down - glm::dot(down, u) * u);
-        return mechanics::buildCloth({origin, u, v, size, cells, made, grain});
+        return mechanics::buildCloth({origin, u, v, size, cells, made, grain, isRound});
     }
     mechanics::MeshClothShape shape = shapeOf(*this);
     shape.material = made;
@@ -155,6 +158,7 @@ BodyOutline ClothSpec::outline(const SceneSpec&) const {
     BodyOutline outline;
     outline.hasSurface = true;
     outline.isGrid = mesh.empty();
+    outline.isRound = isRound;
     if (meshData) {
         outline.points = static_cast<double>(meshData->positions.size());
         outline.springs = 3.0 * static_cast<double>(meshData->triangles.size());
@@ -163,7 +167,7 @@ BodyOutline ClothSpec::outline(const SceneSpec&) const {
         outline.points = (x + 1) * (y + 1);
         outline.springs = 6.0 * x * y + x + y;
     }
-    outline.groups = outline.isGrid ? mechanics::clothGroups() : mechanics::meshClothGroups();
+    outline.groups = outline.isGrid ? mechanics::clothGroups(isRound) : mechanics::meshClothGroups();
     if (meshData)
         for (const auto& group : meshData->groups) outline.groups.push_back(group.first);
     return outline;

@@ -1,6 +1,7 @@
 // What is measured of whole bodies.
 #include "taut/check/private/function_table.h"
 #include "taut/check/private/places.h"
+#include "taut/check/private/shadow.h"
 #include "taut/island/metric_table.h"
 
 namespace taut::check {
@@ -11,6 +12,15 @@ glm::dvec3 asVector(const world::MetricValue& value) {
     if (const auto* vector = std::get_if<glm::dvec3>(&value)) return *vector;
     if (const auto* number = std::get_if<double>(&value)) return {*number, 0, 0};
     return {static_cast<double>(std::get<std::int64_t>(value)), 0, 0};
+}
+
+// Seen along x it is the plane of y and z, and so on.
+Quantity shadow(const Now& now, std::span<const Expression> arguments) {
+    const int axis = arguments[1].axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::vector<FlatTriangle> flat;
+    for (const auto& t : now.triangles(arguments[0].target))
+        flat.push_back({glm::dvec2(t[0][u], t[0][v]), {t[1][u], t[1][v]}, {t[2][u], t[2][v]}});
+    return {glm::dvec3(coveredArea(std::move(flat)), 0, 0)};
 }
 
 std::string bodiesOf(std::span<const Expression> arguments) {
@@ -41,6 +51,15 @@ std::vector<Function> bodyFunctions() {
             });
         };
     }
+    functions.push_back({"shadow",
+                         {Takes::bodies, Takes::axis},
+                         false,
+                         false,
+                         "m²",
+                         "Area of the bodies' shadow in light along an axis, places under several layers counted once. "
+                         "Ropes and nets have none.",
+                         shadow,
+                         {}});
     return functions;
 }
 

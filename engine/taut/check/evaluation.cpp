@@ -34,6 +34,10 @@ const world::PointsNow& Now::points(const std::string& target) const {
     return found->second;
 }
 
+std::vector<std::array<glm::dvec3, 3>> Now::triangles(const std::string& bodies) const {
+    return world_.triangles(selection(bodies));
+}
+
 world::SurfaceGap& Now::gap(const std::string& first, const std::string& second) const {
     const world::Selection &a = selection(first), &b = selection(second);
     for (const auto& [name, found] : {std::pair(first, &a), std::pair(second, &b)})

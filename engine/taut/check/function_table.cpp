@@ -16,6 +16,7 @@ const char* word(Takes takes) {
         case Takes::number: return "NUMBER";
         case Takes::vector: return "VECTOR";
         case Takes::joint: return "JOINT";
+        case Takes::axis: return "AXIS";
     }
     return "";
 }
@@ -45,7 +46,7 @@ std::string functionsManual() {
         "  Numbers and functions, + - * /, parentheses, compared by < <= > >= == !=, also in a chain:\n"
         "  \"0.1 < height(cloth.flag) < 0.2\". BODIES are KIND.NAME, POINTS are KIND.NAME@SELECTOR or all of a body,\n"
         "  a PLACE is POINTS, which stand for their centre of mass, or [x, y, z], a JOINT is the\n"
-        "  name of joints. Of a vector .x, .y and .z.\n\n";
+        "  name of joints, an AXIS x, y or z. Of a vector .x, .y and .z.\n\n";
     for (const Function& function : functionTable()) {
         const std::string unit = function.unit.empty() ? "" : fmt::format(" [{}]", function.unit);
         const char* kind = function.isVector ? "a vector" : "a number";

@@ -288,6 +288,7 @@ class Parser {
 
     Expression argument(const Function& function, Takes takes) {
         if (takes == Takes::number) return scalar(sum());
+        if (takes == Takes::axis) return axis(function);
         if (takes == Takes::vector || (takes == Takes::place && next() == '[')) {
             const std::size_t at = at_;
             Expression expression = sum();
@@ -295,6 +296,16 @@ class Parser {
             return expression;
         }
         return target(function, takes);
+    }
+
+    Expression axis(const Function& function) {
+        const std::size_t begin = at_, letter = std::string_view("xyz").find(next());
+        if (isAtEnd() || letter == std::string_view::npos || (++at_, isNameStart(next()) || isDigit(next())))
+            fail(begin, "an axis is x, y or z", "write " + function.signature());
+        skipBlanks();
+        Expression expression;
+        expression.axis = static_cast<int>(letter);
+        return expression;
     }
 
     // Up to the comma or the bracket that ends the argument; a selector such as @(0.5,1) has its own.

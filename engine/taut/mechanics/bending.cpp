@@ -1,10 +1,12 @@
 #include "taut/mechanics/bending.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "taut/core/error.h"
 #include "taut/core/trig.h"
+#include "taut/mechanics/private/grid_cells.h"
 
 namespace taut::mechanics {
 
@@ -30,7 +32,8 @@ std::optional<BendingRigidity> orthotropicRigidity(double warp, double weft, std
 }
 
 // The area of a cell has x_uu = d/a² and so on. Folds along an edge of the grid have half the width.
-Bending gridBending(int columns, int rows, const BendingRigidity& rigidity, double a, double b) {
+Bending gridBending(int columns, int rows, const BendingRigidity& rigidity, double a, double b, bool isRound) {
+    const GridCells cells{columns - 1, rows - 1, isRound};
     Bending bending;
     bending.columns = columns;
     bending.rows = rows;
@@ -41,11 +44,10 @@ Bending gridBending(int columns, int rows, const BendingRigidity& rigidity, doub
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
             const auto own = static_cast<std::size_t>(j * columns + i);
-            const bool isColumnEnd = i == 0 || i == columns - 1, isRowEnd = j == 0 || j == rows - 1;
-            if (!isColumnEnd) bending.along[own] = along * (isRowEnd ? 0.5 : 1.0);
-            if (!isRowEnd) bending.across[own] = across * (isColumnEnd ? 0.5 : 1.0);
-            if (!isColumnEnd && !isRowEnd) bending.both[own] = both;
-            if (i < columns - 1 && j < rows - 1) bending.twist[own] = twist;
+            bending.along[own] = along * std::min(cells.beside(i - 1, j, 1, 0), cells.beside(i, j, 1, 0)) / 2.0;
+            bending.across[own] = across * std::min(cells.beside(i, j - 1, 0, 1), cells.beside(i, j, 0, 1)) / 2.0;
+            if (cells.around(i, j) == 4) bending.both[own] = both;
+            if (cells.has(i, j)) bending.twist[own] = twist;
         }
     return bending;
 }
@@ -79,14 +81,17 @@ Bending clamped(Bending bending, const std::vector<bool>& isHeld, const std::vec
             fold *= 2;
         }
     };
+    // Points inside a line have the line's stiffness.
+    std::vector<double> along(at(bending.rows)), across(at(n));
+    for (int i = 0; i < n * bending.rows; ++i) {
+        along[at(i / n)] = std::max(along[at(i / n)], alongs[at(i)]);
+        across[at(i % n)] = std::max(across[at(i % n)], acrosses[at(i)]);
+    }
     for (int i = 0; i < n * bending.rows; ++i) {
         if (!isHeld[at(i)]) continue;
         const int column = i % n, row = i / n;
-        // Every inner point of a line has the line's stiffness.
-        const double along = n > 2 ? alongs[at(row * n + 1)] : 0;
-        const double across = bending.rows > 2 ? acrosses[at(n + column)] : 0;
-        visit(bending.along, i, 1, column > 0, column < n - 1, along);
-        visit(bending.across, i, n, row > 0, row < bending.rows - 1, across);
+        visit(bending.along, i, 1, column > 0, column < n - 1, along[at(row)]);
+        visit(bending.across, i, n, row > 0, row < bending.rows - 1, across[at(column)]);
     }
     return bending;
 }

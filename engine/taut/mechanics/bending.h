@@ -21,8 +21,8 @@ double leastBias(double warp, double weft);  // (√B_u - √B_v)²/4 [N m]
 double rigidityAt(const BendingRigidity& rigidity, double angle);
 
 // Of columns by rows of points, a row's a and a column's b apart [m]. Rows and columns at an edge stand for half a
-// cell's width.
-Bending gridBending(int columns, int rows, const BendingRigidity& rigidity, double a, double b);
+// cell's width. A round one has the cells that buildCloth() gives a round cloth.
+Bending gridBending(int columns, int rows, const BendingRigidity& rigidity, double a, double b, bool isRound = false);
 // Of a line of points a apart [m], EI [N m²].
 Bending lineBending(int points, double rigidity, double a);
 

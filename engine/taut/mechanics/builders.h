@@ -66,8 +66,11 @@ struct ClothShape {
     glm::ivec2 cells{16, 16};    // across, down
     ClothMaterial material;
     double grain = 0.0;  // [rad] from `across` to the warp, towards `down`
+    bool isRound = false;
 };
-// Points row by row from the top left. Structural springs on the boundary are halved when lumping is weighted.
+// Points row by row from the top left. A round cloth has the cells of which the middle lies in the ellipse that fits
+// into the size; points of no cell are held, in no group, and weigh a billionth of a cell.
+// Structural springs on the boundary are halved when lumping is weighted.
 // A cell of a by b (not square): k_s b/a along its side a, so that stretch stays per metre.
 // A grain of whole quarter turns changes warp and weft. Any other turns the rigidity as it is (FreeformBending, without
 // friction), and the stretch as nearly as springs along the grid and its diagonals can pull: exactly at 45° in square
@@ -75,7 +78,7 @@ struct ClothShape {
 // Groups: left, right, top, bottom, the four corners (top-left, …), corners, edges, all.
 // Expects at least one cell, and a size above zero, each way.
 Model buildCloth(const ClothShape& shape);
-std::vector<std::string> clothGroups();
+std::vector<std::string> clothGroups(bool isRound = false);  // of a round one neither corners
 
 struct MeshClothShape {
     std::vector<glm::dvec3> positions;          // (vertices) [m] welded, each used by a triangle

@@ -7,6 +7,7 @@
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/private/builder_support.h"
+#include "taut/mechanics/private/grid_cells.h"
 
 namespace taut::mechanics {
 namespace {
@@ -85,7 +86,8 @@ class GridBuilder {
           nu_(shape.cells.x),
           nv_(shape.cells.y),
           a_(shape.size.x / nu_),
-          b_(shape.size.y / nv_) {}
+          b_(shape.size.y / nv_),
+          cells_{nu_, nv_, shape.isRound} {}
 
     Model build() {
         detail::addRestingPoints(model_, (nu_ + 1) * (nv_ + 1), shape_.material.dragRate);
@@ -101,23 +103,34 @@ class GridBuilder {
 
   private:
     int at(int i, int j) const { return j * (nu_ + 1) + i; }
-    // A boundary row stands for half a cell's width of material, every other row for a whole width.
-    double share(int line, int lines) const {
-        const bool isBoundary = line == 0 || line == lines;
-        return isBoundary && shape_.material.lumping == Lumping::weighted ? 0.5 : 1.0;
+    bool isWeighted() const { return shape_.material.lumping == Lumping::weighted; }
+    // An edge stands for half the width of the cells beside it, one of several lengths for that of the narrowest.
+    double share(int i, int j, int di, int dj) const {
+        if (di != 0 && dj != 0) return cells_.has(std::min(i, i + di), j) ? 1.0 : 0.0;
+        int least = 2;
+        for (int k = 0; k < di + dj; ++k)
+            least = std::min(least, di > 0 ? cells_.beside(i + k, j, 1, 0) : cells_.beside(i, j + k, 0, 1));
+        return isWeighted() ? least / 2.0 : std::min(least, 1);
     }
 
     void addPoints() {
-        const bool isUniform = shape_.material.lumping == Lumping::uniform;
-        const double each = shape_.material.density * shape_.size.x * shape_.size.y / model_.pointCount();
-        const double cell = shape_.material.density * a_ * b_;
+        int count = 0;
+        for (int c = 0; c < nu_ * nv_; ++c) count += cells_.has(c % nu_, c / nu_) ? 1 : 0;
+        std::vector<int>& all = model_.groups["all"];
+        std::erase_if(all, [&](int p) { return cells_.around(p % (nu_ + 1), p / (nu_ + 1)) == 0; });
+        const double filled = static_cast<double>(count) / (nu_ * nv_), cell = shape_.material.density * a_ * b_,
+                     each = shape_.material.density * shape_.size.x * shape_.size.y * filled /
+                            static_cast<double>(all.size());
         for (int j = 0; j <= nv_; ++j)
             for (int i = 0; i <= nu_; ++i) {
                 const auto p = static_cast<std::size_t>(at(i, j));
                 const double u = shape_.size.x * i / nu_, v = shape_.size.y * j / nv_;
                 model_.positions[p] = detail::withoutNegativeZero(shape_.origin + u * shape_.across + v * shape_.down);
                 model_.uv[p] = {u, v};
-                model_.masses[p] = isUniform ? each : cell * share(i, nu_) * share(j, nv_);
+                model_.masses[p] = isWeighted() ? cell * cells_.around(i, j) / 4.0 : each;
+                if (cells_.around(i, j) > 0) continue;
+                model_.masses[p] = 1e-9 * cell;  // left out: it stays where it is and weighs next to nothing
+                model_.held[p] = true;
             }
     }
 
@@ -126,7 +139,8 @@ class GridBuilder {
         if (k == 0.0 && kind != SpringKind::structural) return;
         for (int j = 0; j <= j1; ++j)
             for (int i = i0; i <= i1; ++i) {
-                const double factor = di == 0 ? share(i, nu_) : dj == 0 ? share(j, nv_) : 1.0;
+                const double factor = share(i, j, di, dj);
+                if (factor == 0.0) continue;
                 model_.springs.push_back(
                     {at(i, j), at(i + di, j + dj), k * factor, restLength, shape_.material.dampingTime, kind});
             }
@@ -156,11 +170,12 @@ class GridBuilder {
                                .dampingTime = shape_.material.dampingTime};
             return;
         }
-        model_.bending = gridBending(nu_ + 1, nv_ + 1, rigidity, a_, b_);
+        model_.bending = gridBending(nu_ + 1, nv_ + 1, rigidity, a_, b_, shape_.isRound);
         model_.bending.dampingTime = shape_.material.dampingTime;
         const double moment = shape_.material.frictionMoment, yield = shape_.material.frictionYield;
         if (!(yield > 0.0)) return;
-        model_.friction = {gridBending(nu_ + 1, nv_ + 1, {moment / yield, moment / yield, 0, 0}, a_, b_),
+        const BendingRigidity stuck{moment / yield, moment / yield, 0, 0};
+        model_.friction = {gridBending(nu_ + 1, nv_ + 1, stuck, a_, b_, shape_.isRound),
                            yield,
                            {a_, b_},
                            glm::cross(shape_.across, shape_.down)};
@@ -172,6 +187,7 @@ class GridBuilder {
     void addTriangles() {
         for (int j = 0; j < nv_; ++j)
             for (int i = 0; i < nu_; ++i) {
+                if (!cells_.has(i, j)) continue;
                 model_.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
                 model_.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
             }
@@ -179,17 +195,18 @@ class GridBuilder {
 
     void addGroups() {
         auto& groups = model_.groups;
-        for (int j = 0; j <= nv_; ++j)
-            for (int i = 0; i <= nu_; ++i) {
-                const int p = at(i, j);
-                if (i == 0) groups["left"].push_back(p);
-                if (i == nu_) groups["right"].push_back(p);
-                if (j == 0) groups["top"].push_back(p);
-                if (j == nv_) groups["bottom"].push_back(p);
-                const bool isColumnEnd = i == 0 || i == nu_, isRowEnd = j == 0 || j == nv_;
-                if (isColumnEnd || isRowEnd) groups["edges"].push_back(p);
-                if (isColumnEnd && isRowEnd) groups["corners"].push_back(p);
-            }
+        const std::vector<int> all = groups["all"];
+        for (const int p : all) {
+            const int i = p % (nu_ + 1), j = p / (nu_ + 1);
+            if (i == 0) groups["left"].push_back(p);
+            if (i == nu_) groups["right"].push_back(p);
+            if (j == 0) groups["top"].push_back(p);
+            if (j == nv_) groups["bottom"].push_back(p);
+            if (cells_.around(i, j) < 4) groups["edges"].push_back(p);
+            const bool isColumnEnd = i == 0 || i == nu_, isRowEnd = j == 0 || j == nv_;
+            if (isColumnEnd && isRowEnd && !shape_.isRound) groups["corners"].push_back(p);
+        }
+        if (shape_.isRound) return;
         groups["top-left"] = {at(0, 0)};
         groups["top-right"] = {at(nu_, 0)};
         groups["bottom-left"] = {at(0, nv_)};
@@ -200,6 +217,7 @@ class GridBuilder {
     double grain_;  // [rad] as given
     int nu_, nv_;
     double a_, b_;  // [m] sides of a cell
+    GridCells cells_;
     Model model_;
 };
 
@@ -210,7 +228,8 @@ Model buildCloth(const ClothShape& shape) {
     return GridBuilder(shape).build();
 }
 
-std::vector<std::string> clothGroups() {
+std::vector<std::string> clothGroups(bool isRound) {
+    if (isRound) return {"left", "right", "top", "bottom", "edges"};
     return {"left",      "right",       "top",          "bottom",  "top-left",
             "top-right", "bottom-left", "bottom-right", "corners", "edges"};
 }

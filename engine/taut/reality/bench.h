@@ -63,6 +63,7 @@ class Bench {
     static double threshold(double low, double high, int halvings, const std::function<bool(double)>& gives);
 
     std::vector<DroopCurve>& droops() { return study_.droops; }
+    std::vector<DrapeBand>& drapes() { return study_.drapes; }
 
   private:
     const Settings& settings_;

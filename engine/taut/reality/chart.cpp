@@ -98,4 +98,45 @@ report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vecto
     return chart;
 }
 
+report::Chart drapeChart(const std::vector<DrapeBand>& bands, const std::vector<std::string>& notes) {
+    report::Panel panel;
+    panel.x = {.label = "weight of the cloth [g/m²]", .least = 50, .most = 220};
+    panel.y = {.label = "drape coefficient [%]", .least = 0, .most = 100};
+    std::map<std::string, std::vector<DrapeBand>> fabrics;
+    for (const DrapeBand& band : bands) fabrics[band.fabric].push_back(band);
+    for (auto& [name, own] : fabrics) {
+        const double measured = 100 * own.front().measured, weight = 1e3 * own.front().weight;
+        const std::string colour = own.front().colour;
+        panel.regions.push_back({.y0 = measured - 10, .y1 = measured + 10, .colour = colour, .opacity = 0.12});
+        panel.guides.push_back({.y = measured,
+                                .label = name + ", measured ±10 points",
+                                .style = {.colour = colour, .dash = report::Dash::dashed, .width = 1.4},
+                                .labelAt = 0.02});
+        report::Curve swept{name + ", taut, ± spread", {.colour = colour, .mark = report::Mark::circle}, {}};
+        std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.weight < b.weight; });
+        for (const DrapeBand& band : own) {
+            const double x = 1e3 * band.weight, y = 100 * band.mean, bar = 100 * band.spread;
+            swept.points.push_back({.x = x, .y = y, .yLow = y - bar, .yHigh = y + bar});
+            panel.labels.push_back(
+                {.x = x, .y = y, .text = fmt::format("{:.2g} folds", band.folds), .colour = colour, .dx = 6, .dy = 9});
+        }
+        panel.curves.push_back(swept);
+        panel.curves.push_back(
+            {.title = "weight in assets/fabrics, chosen",
+             .style = {.colour = "#202020", .mark = report::Mark::circle, .isFilled = false, .width = 0, .size = 1.9},
+             .points = {*std::find_if(swept.points.begin(), swept.points.end(),
+                                      [&](const auto& p) { return p.x == weight; })}});
+    }
+    report::Chart chart;
+    chart.title = "Cloth of 15 cm over a disc of 9 cm";
+    chart.subtitle =
+        "Bending and its friction are measured, the weight is not: each curve is what weights would give, no "
+        "prediction";
+    chart.panels = {panel};
+    chart.panelWidth = 760;
+    chart.panelHeight = 460;
+    chart.notes = notes;
+    return chart;
+}
+
 }  // namespace taut::reality

@@ -23,6 +23,7 @@ std::span<const Row> rows() {
         {"R10", "a folded chain falls", false, holdFoldedChain},
         {"R11", "friction holds a rope", false, holdFriction},
         {"R13", "strips of measured fabrics keep a crease", false, holdCreases},
+        {"R14", "measured fabrics drape over a disc", true, holdDrape},
         {"R15", "strips of measured fabrics droop", false, holdFabrics},
     };
     return all;

@@ -48,11 +48,22 @@ struct DroopCurve {
     std::vector<std::pair<double, double>> points;  // Γ, H/W
 };
 
+// The drape coefficient of a fabric that is dropped so many times.
+struct DrapeBand {
+    std::string fabric, colour;
+    double measured = 0;
+    double weight = 0;  // [kg/m²]
+    int drops = 0;
+    double mean = 0, spread = 0;  // standard deviation
+    double folds = 0;             // mean
+};
+
 struct Comparison {
     std::vector<Line> lines;
     std::vector<std::pair<std::string, std::string>> scenes;  // name and text, in the order of playing
     std::vector<DroopCurve> droops;                           // with settings.draws
     std::vector<PeerDroop> peers;                             // what stands beside them, if anything
+    std::vector<DrapeBand> drapes;                            // further weights with settings.draws
     bool isInterrupted = false;
 
     bool passes() const;

@@ -12,6 +12,8 @@ void holdTipLoad(Bench& bench);
 void holdLoops(Bench& bench);
 void holdColumn(Bench& bench);
 void holdCreases(Bench& bench);
+// Cloth over a disc.
+void holdDrape(Bench& bench);
 // Where what was at rest gives way.
 void holdStanding(Bench& bench);
 void holdLateral(Bench& bench);

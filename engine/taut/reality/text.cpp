@@ -151,6 +151,15 @@ std::string droopsCsv(const Comparison& comparison) {
     return report::csv(table);
 }
 
+std::string drapesCsv(const Comparison& comparison) {
+    report::TextTable table;
+    table.columns = {"fabric", "weight_kg_per_m2", "drops", "measured", "mean", "spread", "folds"};
+    for (const DrapeBand& band : comparison.drapes)
+        table.rows.push_back({band.fabric, band.weight, static_cast<long long>(band.drops), band.measured, band.mean,
+                              band.spread, band.folds});
+    return report::csv(table);
+}
+
 std::string summary(const Comparison& comparison) {
     const Sums sums = sumsOf(comparison);
     return fmt::format("{}\n{} of {} pass, in {:.1f} s of processor time\n",
@@ -158,14 +167,15 @@ std::string summary(const Comparison& comparison) {
                        sums.lines, sums.processor);
 }
 
-std::string page(const Comparison& comparison, const std::string& svg, const std::string& note) {
+std::string page(const Comparison& comparison, const std::vector<std::string>& charts, const std::string& note) {
     const Sums sums = sumsOf(comparison);
     std::string text = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>taut reality</title>\n"
         "<style>{}\n.chart {{ background: #fff; border: 1px solid var(--line); border-radius: 14px; padding: 18px; "
-        "text-align: center; }}\n.chart svg {{ max-width: 100%; height: auto; }}\n</style>\n</head>\n<body>\n<main>\n"
+        "margin: 0 0 18px; text-align: center; }}\n.chart svg {{ max-width: 100%; height: auto; "
+        "}}\n</style>\n</head>\n<body>\n<main>\n"
         "<div class=\"top\"><h1>taut against theory and measurement</h1></div>\n<div class=\"facts\">{}</div>\n"
         "<div class=\"tiles\"><div class=\"tile\"><b>{}</b><span>quantities</span></div>"
         "<div class=\"tile\"><b class=\"passed\">{}</b><span>pass</span></div>"
@@ -173,14 +183,14 @@ std::string page(const Comparison& comparison, const std::string& svg, const std
         "<div class=\"tile\"><b>{:.1f} s</b><span>processor time</span></div></div>\n",
         report::pageStyle(), htmlText(note), sums.lines, sums.lines - sums.failed, sums.failed > 0 ? "failed" : "quiet",
         sums.failed, sums.processor);
-    if (!svg.empty()) text += "<div class=\"chart\">" + svg.substr(svg.find("<svg")) + "</div>\n";
+    for (const std::string& svg : charts) text += "<div class=\"chart\">" + svg.substr(svg.find("<svg")) + "</div>\n";
     text += besidePart(comparison);
     for (const Row& row : rows()) text += rowPart(comparison, row);
     return text +
            "<footer>L length, B bending rigidity, w weight per area, Γ = wL³/B. Theory comes from solvers that share "
            "no "
            "code with the engine. ms: processor time of all plays of a line; ″: those of the line above. Not modelled: "
-           "softening of a fabric with curvature, hysteresis.</footer>\n</main>\n</body>\n</html>\n";
+           "softening of a fabric with curvature.</footer>\n</main>\n</body>\n</html>\n";
 }
 
 }  // namespace taut::reality

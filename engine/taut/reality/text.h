@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "taut/reality/comparison.h"
 
@@ -11,9 +12,11 @@ namespace taut::reality {
 std::string csv(const Comparison& comparison);
 // Γ and H/W of every curve of the chart.
 std::string droopsCsv(const Comparison& comparison);
+// Drape coefficient, its spread and the number of folds of every fabric and weight.
+std::string drapesCsv(const Comparison& comparison);
 std::string summary(const Comparison& comparison);
 
-// One HTML page that needs nothing besides. `svg`: the chart; empty: none. `note`: the machine.
-std::string page(const Comparison& comparison, const std::string& svg, const std::string& note);
+// One HTML page that needs nothing besides. `charts`: as SVG. `note`: the machine.
+std::string page(const Comparison& comparison, const std::vector<std::string>& charts, const std::string& note);
 
 }  // namespace taut::reality

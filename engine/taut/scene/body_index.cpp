@@ -56,14 +56,24 @@ std::optional<TargetFault> indexFault(const BodyEntry& body, const std::string& 
 }
 
 std::optional<TargetFault> uvFault(const BodyEntry& body, const std::string& selector) {
-    const std::size_t comma = selector.find(',');
-    const bool isPair = comma != std::string::npos && selector.back() == ')' &&
-                        isShare(std::string_view(selector).substr(1, comma - 1), 1.0) &&
-                        isShare(std::string_view(selector).substr(comma + 1, selector.size() - comma - 2), 1.0);
-    if (!isPair)
-        return TargetFault{fmt::format("\"{}\" is not a place on a cloth", selector), "write (u,v), each 0 … 1"};
-    if (body.outline.isGrid || body.isFaulty) return std::nullopt;
-    return TargetFault{fmt::format("{} is no grid: it has no (u,v)", body.title()), ""};
+    std::vector<std::optional<double>> numbers;
+    const std::string_view inside = std::string_view(selector).substr(1, selector.size() - 2);
+    for (std::size_t begin = 0, comma = 0; comma != std::string_view::npos; begin = comma + 1) {
+        comma = inside.find(',', begin);
+        numbers.push_back(number(inside.substr(begin, comma - begin)));
+    }
+    const auto isIn = [&](std::size_t i, double most) { return numbers[i] && *numbers[i] >= 0 && *numbers[i] <= most; };
+    const bool isPlace = selector.ends_with(')') && (numbers.size() == 2 || (numbers.size() == 3 && isIn(2, 1e6))) &&
+                         isIn(0, 1) && isIn(1, 1);
+    if (!isPlace)
+        return TargetFault{fmt::format("\"{}\" is not a place on a cloth", selector),
+                           "write (u,v), each 0 … 1, or (u,v,r) with a radius r in metres"};
+    if (body.isFaulty) return std::nullopt;
+    if (!body.outline.isGrid) return TargetFault{fmt::format("{} is no grid: it has no (u,v)", body.title()), ""};
+    const double u = 2 * *numbers[0] - 1, v = 2 * *numbers[1] - 1;
+    if (!body.outline.isRound || u * u + v * v <= 1) return std::nullopt;
+    return TargetFault{fmt::format("{} is round: there is nothing of it at {}", body.title(), selector),
+                       "(0.5,0.5) is its middle"};
 }
 
 std::optional<TargetFault> percentFault(const BodyEntry& body, const std::string& selector) {

@@ -73,7 +73,8 @@ struct ArraySpec {  // copies of a body along three directions, named NAME.0, NA
 struct BodyOutline {
     double points = 0, springs = 0, volumes = 0;
     std::vector<std::string> groups;  // names of point groups, as its builder gives them
-    bool isGrid = false;              // accepts "(u,v)"
+    bool isGrid = false;              // accepts "(u,v)" and "(u,v,r)"
+    bool isRound = false;             // has only the places in the ellipse
     bool isLine = false;              // accepts "50%"
     bool hasSurface = false;          // on which wind acts
 };
@@ -81,7 +82,7 @@ struct BodyOutline {
 struct BodySpec {
     std::string name;  // without the kind: "flag"
     Source source;
-    std::vector<std::string> hold;   // selectors, see mechanics: a group, "(u,v)", "50%", "#index"
+    std::vector<std::string> hold;   // selectors, see mechanics: a group, "(u,v)", "(u,v,r)", "50%", "#index"
     std::vector<std::string> clamp;  // further selectors; the direction at these points is held too
     std::string holdOn;              // "collider.pole" that carries the held points; empty: they stay in place
     dvec3 velocity{0.0};             // [m/s] at the start

@@ -66,7 +66,7 @@ std::vector<fields::Field> bodyRows() {
     using fields::Range;
     fields::FieldList<Spec> list;
     list.texts("hold", &Spec::hold, fields::Role::selector,
-               "Points that never move: a group, \"#12\", \"(u,v)\", \"50%\".")
+               "Points that never move: a group, \"#12\", \"(u,v)\", \"(u,v,r)\", \"50%\".")
         .texts("clamp", &Spec::clamp, fields::Role::selector,
                "Points that are held and whose direction is held too, as by a jaw: there what has a bending rigidity "
                "goes on straight. `hold` alone is a hinge.")

@@ -1,7 +1,9 @@
 #include "taut/spec/targets.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 
 namespace taut::world {
@@ -21,14 +23,21 @@ std::vector<int> onePoint(const mechanics::Model& model, double index) {
     return {static_cast<int>(index)};
 }
 
-std::vector<int> gridPoint(const mechanics::Model& model, std::string_view inside) {
+std::vector<int> gridPoints(const mechanics::Model& model, std::string_view inside) {
     const std::size_t comma = inside.find(',');
     if (comma == std::string_view::npos || model.grid[0] == 0) return {};
-    const auto u = number(inside.substr(0, comma)), v = number(inside.substr(comma + 1));
-    if (!u || !v || !(*u >= 0 && *u <= 1 && *v >= 0 && *v <= 1)) return {};
+    const std::size_t second = std::min(inside.find(',', comma + 1), inside.size());
+    const auto u = number(inside.substr(0, comma)), v = number(inside.substr(comma + 1, second - comma - 1)),
+               r = second < inside.size() ? number(inside.substr(second + 1)) : 0.0;
+    if (!u || !v || !r || !(*u >= 0 && *u <= 1 && *v >= 0 && *v <= 1)) return {};
     const int column = static_cast<int>(std::floor(*u * model.grid[0] + 0.5));
     const int row = static_cast<int>(std::floor(*v * model.grid[1] + 0.5));
-    return {row * (model.grid[0] + 1) + column};
+    const int nearest = row * (model.grid[0] + 1) + column;
+    const glm::dvec2 middle = glm::dvec2(*u, *v) * model.uv.back();
+    std::vector<int> points;
+    for (const int i : model.groups.at("all"))
+        if (i == nearest || glm::distance(model.uv[static_cast<std::size_t>(i)], middle) <= *r) points.push_back(i);
+    return points;
 }
 
 }  // namespace
@@ -50,7 +59,7 @@ std::vector<int> selectPoints(const mechanics::Model& model, std::string_view se
     if (selector.front() == '#')
         if (const auto index = number(selector.substr(1))) return onePoint(model, *index);
     if (selector.front() == '(' && selector.back() == ')')
-        return gridPoint(model, selector.substr(1, selector.size() - 2));
+        return gridPoints(model, selector.substr(1, selector.size() - 2));
     if (selector.back() == '%')
         if (const auto percent = number(selector.substr(0, selector.size() - 1)); percent && *percent <= 100)
             return onePoint(model, std::floor(*percent / 100.0 * (model.pointCount() - 1) + 0.5));

@@ -22,8 +22,8 @@ Target parseTarget(std::string_view text);
 using core::matches;
 
 // The points of a selector, ascending: a group of the model ("left", "corners", "all" …), "#12" (by index), "(u,v)"
-// (the grid point nearest to that fraction of width and height, from the top left), "50%" (along a rope). Empty if it
-// names none.
+// (the grid point nearest to that fraction of width and height, from the top left), "(u,v,r)" (besides all within r [m]
+// of that place of the flat cloth), "50%" (along a rope). Empty if it names none.
 std::vector<int> selectPoints(const mechanics::Model& model, std::string_view selector);
 
 }  // namespace taut::world

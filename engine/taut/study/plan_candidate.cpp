@@ -127,6 +127,7 @@ Resolution resolutionOf(const SceneSpec& spec) {
     };
     for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
         if (cloth.meshData) resolution.fixed.emplace(cloth.fullName(), "its cells are those of a mesh file");
+        if (cloth.isRound) resolution.fixed.emplace(cloth.fullName(), "it is round, and other cells have another hem");
         add(cloth, std::max(cloth.cells.x, cloth.cells.y));
     }
     for (const world::RopeSpec& rope : spec.bodies.of<world::RopeSpec>()) add(rope, rope.segments);

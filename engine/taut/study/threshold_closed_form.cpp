@@ -34,7 +34,7 @@ double ropeFrequency(const world::RopeSpec& rope) {
 double gridFrequency(const world::ClothSpec& cloth, const world::MaterialSpec& material) {
     const double a = cloth.size.x / cloth.cells.x, b = cloth.size.y / cloth.cells.y;
     const bool isSquare = std::abs(a - b) < 1e-9 * a;
-    if (!isSquare || cloth.meshData || cloth.cells.x < 4 || cloth.cells.y < 4) return unknown;
+    if (!isSquare || cloth.isRound || cloth.meshData || cloth.cells.x < 4 || cloth.cells.y < 4) return unknown;
     if (material.lumping == mechanics::Lumping::uniform || material.rigidity.warp || material.weftStretch) return unknown;
     const double ks = material.stretch, kd = material.shear.value_or(ks / 2), kb = material.bend;
     const double sum = ks + kd, bends = kb + kd;

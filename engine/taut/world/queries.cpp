@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "taut/bodies/private/bare_faces.h"
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island_report.h"
 #include "taut/world/private/bodies.h"
@@ -90,6 +91,24 @@ std::vector<glm::dvec3> World::positions(const Selection& selection) const {
         for (int i : numbers) positions.push_back(island.position(body->pointOf[static_cast<std::size_t>(i)]));
     }
     return positions;
+}
+
+std::vector<std::array<glm::dvec3, 3>> World::triangles(const Selection& bodies) const {
+    TAUT_EXPECTS(isCurrent(bodies));
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    for (const Selection::Part& part : bodies.parts) {
+        const Body& body = *part.body;
+        const Island& island = islandOf(body);
+        const auto add = [&](const std::array<int, 3>& corners) {
+            auto& triangle = triangles.emplace_back();
+            for (std::size_t i = 0; i < 3; ++i)
+                triangle[i] = island.position(body.pointOf[static_cast<std::size_t>(corners[i])]);
+        };
+        for (std::size_t t = 0; t < body.model.triangles.size(); ++t)
+            if (!body.damage.isTriangleGone(t)) add(body.model.triangles[t]);
+        for (const std::array<int, 3>& bared : bareFaces(body)) add(bared);
+    }
+    return triangles;
 }
 
 std::vector<glm::dvec3> World::positions(ecs::Entity entity) const {

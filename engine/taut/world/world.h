@@ -2,6 +2,7 @@
 // It knows neither files nor GL.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -91,6 +92,9 @@ class World {
     Metrics metrics(const Selection& selection, Measures what = Measures::all) const;
     PointsNow points(const Selection& selection) const;
     std::vector<glm::dvec3> positions(const Selection& selection) const;  // those of points() [m], at less cost
+    // (triangles) corners [m] of all the bodies' surfaces, without what cuts and tears took away and with what they
+    // bared.
+    std::vector<std::array<glm::dvec3, 3>> triangles(const Selection& bodies) const;
 
     // save() returns everything that the ticks so far have changed, as bytes. restore() reads them into a world that
     // has not ticked yet. That world needs the same forces and a scene that is the same up to that tick; later ticks of

@@ -1,6 +1,7 @@
 // What claims are built of, and how their parts become numbers. It parses nothing.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <map>
 #include <span>
@@ -30,6 +31,8 @@ class Now {
     const world::Metrics& metrics(const std::string& bodies, world::Measures what) const;  // empty: of all
     // Throws core::Error(badContent) if there are none.
     const world::PointsNow& points(const std::string& target) const;
+    // (triangles) corners [m]; none if there are no such bodies.
+    std::vector<std::array<glm::dvec3, 3>> triangles(const std::string& bodies) const;
     // The same, or if they are one and the same body.
     world::SurfaceGap& gap(const std::string& first, const std::string& second) const;
 
@@ -49,7 +52,7 @@ struct Expression {
     std::size_t begin = 0, end = 0;  // bytes of the text
     bool isVector = false;
     double number = 0;
-    int axis = 0;                        // of a component
+    int axis = 0;                        // of a component, or an argument that is one
     std::string target;                  // of a target
     const Function* function = nullptr;  // of a call
     std::vector<Expression> inside;      // operands or arguments

@@ -17,7 +17,8 @@ enum class Takes {
     place,   // points, which stand for their centre of mass, or [x, y, z]
     number,
     vector,
-    joint,   // the name of joints
+    joint,  // the name of joints
+    axis,   // x, y or z
 };
 
 struct Function {

@@ -53,14 +53,14 @@ int list(const std::vector<path>& files) {
                     fmt::format("{:.1f}, {:.1f}", 1e3 * world::cellFor(0.01, least), 1e3 * world::cellFor(0.1, least)),
                     fabric.title);
     }
-    printResult("\nIn a scene: material = \"fabric:denim\" of a cloth, or like = \"fabric:denim\" of a [material.NAME].\n");
+    printResult(
+        "\nIn a scene: material = \"fabric:denim\" of a cloth, or like = \"fabric:denim\" of a [material.NAME].\n");
     return static_cast<int>(ExitCode::ok);
 }
 
 int show(const std::string& name, const std::vector<path>& files) {
-    const std::string stem = name.starts_with(scene::fabricPrefix)
-                                 ? name.substr(std::string_view(scene::fabricPrefix).size())
-                                 : name;
+    const std::string stem =
+        name.starts_with(scene::fabricPrefix) ? name.substr(std::string_view(scene::fabricPrefix).size()) : name;
     std::vector<std::string> known;
     for (const path& file : files) {
         known.push_back(file.stem().string());
@@ -77,7 +77,8 @@ Action declareMaterials(Options& options) {
     const auto name = std::make_shared<std::string>();
     options.value("FABRIC", *name, "Print this one: every number with its source");
     options.footer(
-        "The bending length is that at which stiffness and weight balance; a strip's droop is right to 1 % with cells of a\n"
+        "The bending length is that at which stiffness and weight balance; a strip's droop is right to 1 % with cells "
+        "of a\n"
         "seventh of it. Examples:\n"
         "  taut materials\n"
         "  taut materials denim\n"

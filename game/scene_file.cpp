@@ -111,9 +111,8 @@ void expectWritable(const std::filesystem::path& file, const world::SceneSpec& s
 
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {
     if (core::fileContent(file) != expected)
-        throw core::Error(
-            core::ErrorKind::inputOutput,
-            fmt::format("{}: the file has changed meanwhile; nothing is written", file.string()));
+        throw core::Error(core::ErrorKind::inputOutput,
+                          fmt::format("{}: the file has changed meanwhile; nothing is written", file.string()));
     std::error_code ignored;
     const std::filesystem::path real = std::filesystem::canonical(file, ignored);
     const std::filesystem::perms permissions = std::filesystem::status(file, ignored).permissions();

@@ -146,9 +146,7 @@ TEST(RecordedHash, CoversEveryShippedScene) {
     std::map<std::string, int> seen;
     for (const Recorded& r : recorded()) ++seen[r.scene];
     for (const auto& entry : std::filesystem::directory_iterator(source / "assets/scenes"))
-        if (entry.path().extension() == ".toml") {
-            EXPECT_TRUE(seen.contains(entry.path().stem())) << entry.path();
-        }
+        if (entry.path().extension() == ".toml") EXPECT_TRUE(seen.contains(entry.path().stem())) << entry.path();
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "taut/mechanics/builders.h"
 #include "mechanics_lattice_facts.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::mechanics {
 namespace {
@@ -126,9 +126,7 @@ TEST(ClothBuilder, SpringsComeByKindAndShareRestLengths) {
     std::set<double> lengths;
     for (std::size_t i = 0; i < model.springs.size(); ++i) {
         lengths.insert(model.springs[i].restLength);
-        if (i > 0) {
-            EXPECT_LE(static_cast<int>(model.springs[i - 1].kind), static_cast<int>(model.springs[i].kind));
-        }
+        if (i > 0) EXPECT_LE(static_cast<int>(model.springs[i - 1].kind), static_cast<int>(model.springs[i].kind));
         const Spring& s = model.springs[i];
         const double now = glm::length(at(model.positions, s.b) - at(model.positions, s.a));
         EXPECT_NEAR(now, s.restLength, 1e-14);  // coordinates of about 3 carry 4e-16

@@ -9,9 +9,9 @@
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
+#include "taut/island/metric_table.h"
 #include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/sealed_file.h"
-#include "taut/island/metric_table.h"
 
 namespace taut::pipeline {
 namespace {
@@ -214,6 +214,9 @@ TEST(CheckpointFolder, FindsTheLastThatFits) {
         writeCheckpoint(folder.pathOf(frame), example(frame, frame < 30 ? 1 : 2));
     std::ofstream(folder.pathOf(15)) << "nothing of the sort";
     std::ofstream(folder.path() / "checkpoint_x.taut") << "not ours";
+    std::string below = folder.pathOf(40).string();
+    below[below.find_last_of('_') + 1] = '-';
+    std::ofstream(below) << "not ours";
     EXPECT_EQ(folder.framesThere(), (std::vector<std::int64_t>{10, 15, 20, 30, 40}));
 
     const auto always = [](std::uint64_t key) { return [key](std::int64_t) { return key; }; };

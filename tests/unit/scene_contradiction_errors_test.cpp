@@ -32,7 +32,8 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 9e-6 }\n",
          "s.toml:3:59: error: no sheet is so soft at 45° with this warp and weft\n"
          "  bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 9e-6 }\n"
-         "                                                            ^ it must be above (√warp - √weft)²/4 = 1e-05 N m"},
+         "                                                            ^ it must be above (√warp - √weft)²/4 = 1e-05 N "
+         "m"},
         {"a hysteresis that slips nowhere",
          "[material.m]\n"
          "bending_rigidity_N_m = 1e-5\n"

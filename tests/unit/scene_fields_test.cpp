@@ -241,7 +241,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 128);
+    EXPECT_EQ(net.points[1].source.line, 129);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");
@@ -373,10 +373,12 @@ TEST(SceneFields, AMeshWithoutTextureCoordinatesHasNoWeave) {
 TEST(SceneFields, AMeshAndATurnedGridAreSaidToHaveNoThreadsThatRub) {
     const AssetFolder folder;
     const auto load = [&](const std::string& hysteresis) {
-        return folder.load("schema = 1\n[material.m]\nbending_rigidity_N_m = 1e-5\nbending_yield_per_m = 5\n"
-                           "bending_hysteresis_N = " + hysteresis +
-                           "\n[cloth.c]\nmaterial = \"m\"\nmesh = \"square.obj\"\n[cloth.grid]\nmaterial = \"m\"\ngrain_deg = -270\n"
-                           "[cloth.bias]\nmaterial = \"m\"\ngrain_deg = 45\n");
+        return folder.load(
+            "schema = 1\n[material.m]\nbending_rigidity_N_m = 1e-5\nbending_yield_per_m = 5\n"
+            "bending_hysteresis_N = " +
+            hysteresis +
+            "\n[cloth.c]\nmaterial = \"m\"\nmesh = \"square.obj\"\n[cloth.grid]\nmaterial = \"m\"\ngrain_deg = -270\n"
+            "[cloth.bias]\nmaterial = \"m\"\ngrain_deg = 45\n");
     };
     const Loaded lost = load("1e-3");
     ASSERT_EQ(lost.warnings.size(), 2U);

@@ -59,9 +59,8 @@ class AssetFolder {
 
     std::string withoutFolder(std::string message) const {
         const std::string prefix = path_.string() + "/";
-        for (std::size_t at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
+        for (std::size_t at = message.find(prefix); at != std::string::npos; at = message.find(prefix))
             message.erase(at, prefix.size());
-        }
         return message;
     }
 

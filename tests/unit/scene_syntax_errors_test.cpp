@@ -141,7 +141,7 @@ TEST(SceneErrors, KeysAndTablesOutOfPlaceAreReportedWithARemedy) {
          "zzzzzz = 1\n",
          "s.toml:5:1: error: [cloth.c] has no key \"zzzzzz\"\n"
          "  zzzzzz = 1\n"
-         "  ^ it has material, size, cells, origin, across, down, round, hold, clamp, hold_on, velocity, "
+         "  ^ it has material, size, cells, origin, across, down, grain_deg, round, hold, clamp, hold_on, velocity, "
          "spin_rad_per_s, "
          "jitter_m, seed, friction, thickness, collide, touch, finish, solver, array, like"},
         {"a timeline below a table",

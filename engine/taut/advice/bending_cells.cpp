@@ -55,12 +55,14 @@ std::vector<std::string> coarseCells(const SceneSpec& scene) {
         const bool isSaid = std::find(said.begin(), said.end(), cloth.material) != said.end();
         if (!(error > most) || isSaid) continue;
         said.push_back(cloth.material);
-        notes.push_back(fmt::format(
-            "the cells of cloth.{} are coarse for {}, whose bending length is {:.2g} by {:.2g} mm: {}; cells = [{}, {}] "
-            "would do for 10 %, [{}, {}] for 1 %",
-            cloth.name, cloth.material, 1e3 * u.bendingLength, 1e3 * v.bendingLength,
-            error < 1 ? fmt::format("how it droops is {:.0f} % off", 100 * error) : "its folds are as wide as cells allow",
-            u.cellsFor(0.1), v.cellsFor(0.1), u.cellsFor(0.01), v.cellsFor(0.01)));
+        notes.push_back(
+            fmt::format("the cells of cloth.{} are coarse for {}, whose bending length is {:.2g} by {:.2g} mm: {}; "
+                        "cells = [{}, {}] "
+                        "would do for 10 %, [{}, {}] for 1 %",
+                        cloth.name, cloth.material, 1e3 * u.bendingLength, 1e3 * v.bendingLength,
+                        error < 1 ? fmt::format("how it droops is {:.0f} % off", 100 * error)
+                                  : "its folds are as wide as cells allow",
+                        u.cellsFor(0.1), v.cellsFor(0.1), u.cellsFor(0.01), v.cellsFor(0.01)));
     }
     return notes;
 }

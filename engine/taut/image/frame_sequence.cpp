@@ -79,7 +79,8 @@ std::vector<std::int64_t> FramePattern::framesThere() const {
         const char* const first = name.data() + before_.size();
         const char* const last = name.data() + name.size() - after_.size();
         const auto [end, error] = std::from_chars(first, last, frame);
-        if (error == std::errc() && end == last && pathOf(frame).filename() == name) frames.push_back(frame);
+        if (error == std::errc() && end == last && frame >= 0 && pathOf(frame).filename() == name)
+            frames.push_back(frame);
     }
     std::sort(frames.begin(), frames.end());
     return frames;

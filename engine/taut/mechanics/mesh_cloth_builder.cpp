@@ -150,7 +150,8 @@ void addSprings(Model& model, const std::map<Edge, EdgeUse>& edges, const ClothM
     // same for every φ.
     const double weft = material.weftStretch.value_or(material.stretch);
     const auto youngAlong = [&](const Edge& edge) {
-        const dvec2 e = model.uv[static_cast<std::size_t>(edge.second)] - model.uv[static_cast<std::size_t>(edge.first)];
+        const dvec2 e =
+            model.uv[static_cast<std::size_t>(edge.second)] - model.uv[static_cast<std::size_t>(edge.first)];
         const double length2 = glm::dot(e, e);
         if (!(length2 > 0.0)) return material.stretch * 4.0 / 3.0;
         const double cc = e.x * e.x / length2, ss = e.y * e.y / length2;

@@ -13,7 +13,8 @@ struct StripModuli {
 
 // The stiffness of an orthotropic sheet, per metre of width: (σ_u, σ_v, τ) = C (ε_u, ε_v, γ).
 struct SheetStiffness {
-    double c11 = 0, c22 = 0, c12 = 0, c66 = 0;  // [N/m]; C12 = C66 in every sheet of springs between neighbours (Cauchy)
+    double c11 = 0, c22 = 0, c12 = 0,
+           c66 = 0;  // [N/m]; C12 = C66 in every sheet of springs between neighbours (Cauchy)
 
     StripModuli at(double angle) const;  // [rad] from the warp. {0, 0} where the sheet does not resist.
 };

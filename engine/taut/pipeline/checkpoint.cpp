@@ -77,7 +77,8 @@ std::vector<std::int64_t> CheckpointFolder::framesThere() const {
         const char* last = name.data() + name.size() - after.size();
         std::int64_t frame = 0;
         const auto [end, error] = std::from_chars(first, last, frame);
-        if (error == std::errc{} && end == last && pathOf(frame).filename() == name) frames.push_back(frame);
+        if (error == std::errc{} && end == last && frame >= 0 && pathOf(frame).filename() == name)
+            frames.push_back(frame);
     }
     std::sort(frames.begin(), frames.end());
     return frames;

@@ -67,7 +67,8 @@ std::string faultOf(const NameReference& reference, const LoadOptions& options, 
 std::vector<path> foldersFor(Place place, const world::SceneSpec& spec) {
     std::vector<path> folders{path(spec.file).parent_path()};
     for (const std::string& base : spec.bases) folders.push_back(path(base).parent_path());
-    if (place.origin < 0 && -place.origin < static_cast<int>(folders.size())) folders.insert(folders.begin(), folders[static_cast<std::size_t>(-place.origin)]);
+    if (place.origin < 0 && -place.origin < static_cast<int>(folders.size()))
+        folders.insert(folders.begin(), folders[static_cast<std::size_t>(-place.origin)]);
     std::vector<path> once;
     for (const path& folder : folders)
         if (std::find(once.begin(), once.end(), folder) == once.end()) once.push_back(folder);

@@ -118,8 +118,9 @@ std::vector<std::string> addFabrics(const std::vector<path>& assetFolders, Node&
         std::vector<Member> added;
         const Member* materials = root.find("material");
         eachFabric(root, [&](const std::string& name, Place place) {
-            const bool isThere = (materials != nullptr && materials->value.find(name) != nullptr) ||
-                                 std::any_of(added.begin(), added.end(), [&](const Member& m) { return m.key == name; });
+            const bool isThere =
+                (materials != nullptr && materials->value.find(name) != nullptr) ||
+                std::any_of(added.begin(), added.end(), [&](const Member& m) { return m.key == name; });
             if (!isThere) added.push_back(library.fabric(name, place));
         });
         if (added.empty()) return library.takeUsed();

@@ -87,9 +87,10 @@ SceneSection materialSection() {
                 "Spring constant along the diagonals. If not given: half of stretch_N_per_m, an isotropic sheet, where "
                 "that is one number; a twentieth of the softer one, as woven cloth has it, where there are two.")
         .ramps(Affects::springs)
-        .number("bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative,
-                "Spring constant across two cells, as textbooks have it: it has no bending rigidity, and depends on the "
-                "cells. 0 if there is a bending_rigidity_N_m and it is not given.")
+        .number(
+            "bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative,
+            "Spring constant across two cells, as textbooks have it: it has no bending rigidity, and depends on the "
+            "cells. 0 if there is a bending_rigidity_N_m and it is not given.")
         .ramps(Affects::springs)
         .table("bending_rigidity_N_m", &MaterialSpec::rigidity, rigiditySection(),
                "What a strip of the cloth resists bending with, for each metre of its width; the same for any cells. "
@@ -100,9 +101,10 @@ SceneSection materialSection() {
         .ramps(Affects::springs)
         .number("bending_yield_per_m", &MaterialSpec::friction, &BendingFrictionSpec::yield, "1/m", positive,
                 "How far a sheet bends, or bends back, until its threads slip.");
-    list.number("air_kg_per_m2", &MaterialSpec::air, "kg/m²", notNegative,
-                "Mass of the air that a square metre takes along where there is a [wind]: it has inertia and no weight. "
-                "Folds of length λ take along ρ λ/π, some 0.05.");
+    list.number(
+        "air_kg_per_m2", &MaterialSpec::air, "kg/m²", notNegative,
+        "Mass of the air that a square metre takes along where there is a [wind]: it has inertia and no weight. "
+        "Folds of length λ take along ρ λ/π, some 0.05.");
     section.fields = withPlasticity(withLosses(list))
                          .choice("lumping", &MaterialSpec::lumping, lumpingNames(),
                                  "How mass is shared out: by area, or the same for every point.")

@@ -32,7 +32,8 @@ void writeFields(const Section& section, void* target, const std::string& indent
         out += fmt::format("{:<27}{}\n", "", help);
         const bool isRepeated = section.name == "material" && field.inside.size() == 1 &&
                                 field.inside.front().layout == Layout::named;  // keys of a section that follows
-        if (!field.inside.empty() && !isRepeated) writeFields(field.inside.front(), field.enter(target, {}), indent + "  ", out);
+        if (!field.inside.empty() && !isRepeated)
+            writeFields(field.inside.front(), field.enter(target, {}), indent + "  ", out);
     }
 }
 

@@ -81,8 +81,9 @@ Field thingsOfMaterial(const SceneSection& section) {
     Field row;
     row.key = section.name;
     row.kind = FieldKind::table;
-    row.help = fmt::format("Keys that each {} made of it has, unless it says otherwise: thickness, friction, finish and so on.",
-                           section.name);
+    row.help = fmt::format(
+        "Keys that each {} made of it has, unless it says otherwise: thickness, friction, finish and so on.",
+        section.name);
     row.inside = {partly(section)};
     row.enter = [enter = section.enter, scratch = std::make_shared<world::SceneSpec>()](
                     void*, const core::Source& source) { return enter(*scratch, "material", source); };

@@ -6,14 +6,15 @@
 #include "taut/core/private/hash.h"
 #include "taut/scene/private/document.h"
 #include "taut/spec/actions.h"
-#include "taut/spec/ticks.h"
 #include "taut/spec/spec.h"
+#include "taut/spec/ticks.h"
 
 namespace taut::scene {
 namespace {
 
 // Sections that only a picture shows, and keys of bodies and colliders.
-constexpr std::string_view picturesOnly[] = {"picture", "camera", "light", "lamp", "environment", "background", "label"};
+constexpr std::string_view picturesOnly[] = {"picture",     "camera",     "light", "lamp",
+                                             "environment", "background", "label"};
 // What a material says of cloth, each cloth has by now.
 constexpr std::string_view finishOnly[] = {"finish", "visible", "edge", "ball", "cloth"};
 // Sections that change nothing before their time, or nothing at all. For files that are named the content counts.

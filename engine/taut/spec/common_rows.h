@@ -10,8 +10,8 @@
 #include "taut/spec/action_spec.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/force_spec.h"
-#include "taut/spec/specs.h"
 #include "taut/spec/joint_spec.h"
+#include "taut/spec/specs.h"
 
 namespace taut::world {
 
@@ -70,9 +70,10 @@ std::vector<fields::Field> bodyRows() {
         .texts("clamp", &Spec::clamp, fields::Role::selector,
                "Points that are held and whose direction is held too, as by a jaw: there what has a bending rigidity "
                "goes on straight. `hold` alone is a hinge.")
-        .text("hold_on", &Spec::holdOn, fields::Role::collider,
-              "The collider that carries the points of `hold` and `clamp`, e.g. \"collider.pole\": they go and turn with "
-              "it. Without it they stay where they are.")
+        .text(
+            "hold_on", &Spec::holdOn, fields::Role::collider,
+            "The collider that carries the points of `hold` and `clamp`, e.g. \"collider.pole\": they go and turn with "
+            "it. Without it they stay where they are.")
         .vector("velocity", &Spec::velocity, "m/s", speedRange,
                 "At the start. Whatever moves faster than 3000 m/s counts as diverged.")
         .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange, "At the start, about the centre of mass.")
@@ -137,15 +138,14 @@ template <class Own>
 Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
     Kind<JointSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};
     kind.section.help = std::move(help);
-    kind.section.fields =
-        fields::FieldList<Own>()
-            .targets("a", &JointSpec::a, &JointSide::targets, fields::Role::tieable,
-                     "Points: KIND.NAME@SELECTOR, or a list of such.")
-            .required()
-            .targets("b", &JointSpec::b, &JointSide::targets, fields::Role::tieable,
-                     "The others, of the same body or of others; or collider.NAME, on either side.")
-            .required()
-            .take();
+    kind.section.fields = fields::FieldList<Own>()
+                              .targets("a", &JointSpec::a, &JointSide::targets, fields::Role::tieable,
+                                       "Points: KIND.NAME@SELECTOR, or a list of such.")
+                              .required()
+                              .targets("b", &JointSpec::b, &JointSide::targets, fields::Role::tieable,
+                                       "The others, of the same body or of others; or collider.NAME, on either side.")
+                              .required()
+                              .take();
     for (fields::Field& row : own.take()) {
         TAUT_EXPECTS(row.inside.empty());
         kind.section.fields.push_back(std::move(row));

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "taut/core/error.h"
-#include "taut/spec/spec.h"
-#include "taut/study/threshold.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
+#include "taut/core/error.h"
 #include "taut/forces/anchor.h"
+#include "taut/spec/spec.h"
+#include "taut/study/threshold.h"
 
 namespace taut::study {
 namespace {
@@ -35,7 +35,8 @@ double gridFrequency(const world::ClothSpec& cloth, const world::MaterialSpec& m
     const double a = cloth.size.x / cloth.cells.x, b = cloth.size.y / cloth.cells.y;
     const bool isSquare = std::abs(a - b) < 1e-9 * a;
     if (!isSquare || cloth.isRound || cloth.meshData || cloth.cells.x < 4 || cloth.cells.y < 4) return unknown;
-    if (material.lumping == mechanics::Lumping::uniform || material.rigidity.warp || material.weftStretch) return unknown;
+    if (material.lumping == mechanics::Lumping::uniform || material.rigidity.warp || material.weftStretch)
+        return unknown;
     const double ks = material.stretch, kd = material.shear.value_or(ks / 2), kb = material.bend;
     const double sum = ks + kd, bends = kb + kd;
     double most = 4 * sum;

@@ -27,8 +27,8 @@ struct Finish {
     float roughness = 0.7F;     // 0 mirror … 1 chalk
     float sheen = 0.0F;         // bright rim of fabric, 0 … 1
     float translucency = 0.2F;  // share of the light on the other side of a cloth that comes through, in its colour
-    float anisotropy = 0.0F;    // how far the threads of the warp spread the gloss across them, in their colour, 0 … 1
-    std::string texture;        // path of a PNG or JPEG when pattern is image; spans one repeat
+    float anisotropy = 0.0F;  // how far the threads of the warp spread the gloss across them, in their colour, 0 … 1
+    std::string texture;      // path of a PNG or JPEG when pattern is image; spans one repeat
 };
 
 // What of a surface never changes: drawn by index, shared by all frames.

@@ -6,13 +6,13 @@
 #include "taut/bodies/private/bare_faces.h"
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island_report.h"
+#include "taut/spec/targets.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/joints.h"
 #include "taut/world/private/publish.h"
 #include "taut/world/private/tick.h"
 #include "taut/world/world.h"
-#include "taut/spec/targets.h"
 
 namespace taut::world {
 namespace {
@@ -34,7 +34,8 @@ Metrics metricsOf(WorldImpl& w, const std::function<bool(const Body&)>& wanted, 
 }  // namespace
 
 Metrics World::metrics(Measures what) const {
-    return metricsOf(*impl_, [](const Body&) { return true; }, what);
+    return metricsOf(
+        *impl_, [](const Body&) { return true; }, what);
 }
 
 Metrics World::metrics(const std::string& bodies) const {
@@ -62,7 +63,8 @@ Metrics World::metrics(const Selection& selection, Measures what) const {
     TAUT_EXPECTS(isCurrent(selection));
     std::set<const Body*> bodies;
     for (const Selection::Part& part : selection.parts) bodies.insert(part.body);
-    return metricsOf(*impl_, [&](const Body& body) { return bodies.contains(&body); }, what);
+    return metricsOf(
+        *impl_, [&](const Body& body) { return bodies.contains(&body); }, what);
 }
 
 PointsNow World::points(const Selection& selection) const {

@@ -22,10 +22,10 @@ struct NameReference {
 };
 
 struct ReadScene {
-    world::SceneSpec spec;                // sections in the order of the file
-    std::vector<NameReference> references;    // in the order of the table
-    std::set<std::string> faulty;         // owners with an error inside, "cloth.flag", "at[0]" or "fit"
-    std::map<std::string, Place> owners;  // where "cloth.flag" or "joint[0]" begins
+    world::SceneSpec spec;                  // sections in the order of the file
+    std::vector<NameReference> references;  // in the order of the table
+    std::set<std::string> faulty;           // owners with an error inside, "cloth.flag", "at[0]" or "fit"
+    std::map<std::string, Place> owners;    // where "cloth.flag" or "joint[0]" begins
 };
 
 // world::Source names files and overrides as `problems` does.

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds taut and cuts a film of 20 s with titles from the shipped scenes: out/film/taut.mp4. `film.sh stills` makes the
-# four large pictures of the README and that of the fabrics in the manual instead. TAUT_SIZE=1280x720 makes film and
+# pictures of scenes in the README and that of the fabrics in the manual instead. TAUT_SIZE=1280x720 makes film and
 # pictures smaller.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -26,7 +26,21 @@ if [ "${1-film}" = stills ]; then
     "$taut" render "$root/assets/pictures/fabrics.toml" -o "$out/fabrics.png" --at 2.5 --size 1400x680 --samples 16 \
         -y --quiet
     ffmpeg -v error -y -i "$out/fabrics.png" -q:v 3 "$root/assets/pictures/fabrics.jpg"
-    echo "Stills: $root/assets/pictures/*-still.jpg, fabrics.jpg"
+    # Scene and moment, eight of them side by side; the last one as its springs.
+    inputs= n=0
+    for still in bridge:2 cradle:1 curtain:1.5 twist:3.8 jelly:1 poncho:1.2 drape:1.7 drape:1.7:--debug; do
+        scene=${still%%:*} rest=${still#*:}
+        moment=${rest%%:*} flag=${rest#"$moment"}
+        # shellcheck disable=SC2086  # a word or none
+        "$taut" render "$scene" -o "$out/tile-$n.png" --at "$moment" --size 480x270 --samples 16 -y --quiet ${flag#:}
+        inputs="$inputs -i $out/tile-$n.png"
+        n=$((n + 1))
+    done
+    # shellcheck disable=SC2086  # many words
+    ffmpeg -v error -y $inputs -filter_complex \
+        "xstack=inputs=8:layout=0_0|w0_0|w0+w0_0|w0+w0+w0_0|0_h0|w0_h0|w0+w0_h0|w0+w0+w0_h0" -q:v 3 \
+        "$root/assets/pictures/scenes.jpg"
+    echo "Stills: $root/assets/pictures/*-still.jpg, fabrics.jpg, scenes.jpg"
     exit 0
 fi
 

@@ -13,13 +13,13 @@
 #include "game/exit_code.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "taut/advice/private/start_doubts.h"
 #include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
 #include "taut/mechanics/sheet_moduli.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/private/body_size.h"
+#include "taut/advice/private/start_doubts.h"
 #include "taut/world/world.h"
 
 namespace taut::game {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+
 namespace taut::world {
 
 struct SceneSpec;

@@ -5,9 +5,9 @@
 #include <map>
 #include <numeric>
 
-#include "taut/bodies/private/skin_pieces.h"
 #include "taut/core/private/srgb.h"
 #include "taut/view/private/tube.h"
+#include "taut/bodies/private/skin_pieces.h"
 
 namespace taut::world {
 namespace {

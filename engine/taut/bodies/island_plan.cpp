@@ -6,12 +6,12 @@
 #include <numeric>
 #include <optional>
 
-#include "taut/bodies/joints/constraint.h"
-#include "taut/bodies/private/ties.h"
 #include "taut/core/error.h"
 #include "taut/mechanics/bending.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
+#include "taut/bodies/joints/constraint.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 namespace {
@@ -173,8 +173,9 @@ class Planner {
                                               " m apart, more than reach_m = " + std::to_string(joint.reach()) +
                                               "; move the bodies together, or use kind = \"spring\""
                                         : "both sides are the same point";
-            throw Error(ErrorKind::badContent, at(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" +
-                                                   joint.b.text() + "\" joins nothing: " + why);
+            throw Error(ErrorKind::badContent,
+                        at(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
+                            "\" joins nothing: " + why);
         }
         for (const auto& [numbers, points] : pairs)
             report.pairs.push_back({&body(numbers.first), &body(numbers.second), points});
@@ -186,7 +187,8 @@ class Planner {
         }
     }
 
-    IslandPlan plan(const std::vector<int>& members, const std::vector<JointPair>& joints, std::vector<int>& numberOf) {
+    IslandPlan plan(const std::vector<int>& members, const std::vector<JointPair>& joints,
+                    std::vector<int>& numberOf) {
         IslandPlan plan;
         for (int body : members) addBody(plan, body, numberOf);
         for (const bool isWeld : {true, false})  // welds first, as they move points
@@ -200,8 +202,10 @@ class Planner {
 
     void tie(IslandPlan& plan, const JointPair& joint) const {
         const int a = pointOf(joint.a), b = pointOf(joint.b);
-        addTie(plan, {.joint = joint.number, .a = a, .b = b, .breakForce = joint.spec->breakForce.value_or(HUGE_VAL)},
-               [&] { joint.spec->tie(plan, a, b, joint.distance); });
+        addTie(
+            plan,
+            {.joint = joint.number, .a = a, .b = b, .breakForce = joint.spec->breakForce.value_or(HUGE_VAL)},
+            [&] { joint.spec->tie(plan, a, b, joint.distance); });
     }
 
     std::size_t firstGlobalEnd() const {
@@ -369,17 +373,14 @@ bool isOf(const Grip& grip, const IslandPlan& plan, const JointTie& tie) {
 }  // namespace
 
 bool holds(const IslandPlan& plan, const JointTie& tie) {
-    return std::any_of(
-               tie.springs.begin(), tie.springs.end(),
-               [&](int s) { return !plan.broken[static_cast<std::size_t>(s)]; }) ||
-           std::any_of(
-               tie.parts.begin(), tie.parts.end(),
-               [&](const JointTie::Part& part) {
-                   return plan.constraints[static_cast<std::size_t>(part.constraint)]->holds(part.tie);
-               }) ||
-           (tie.isGrip &&
-            std::any_of(
-                plan.grips.begin(), plan.grips.end(), [&](const Grip& grip) { return isOf(grip, plan, tie); }));
+    return std::any_of(tie.springs.begin(), tie.springs.end(),
+                       [&](int s) { return !plan.broken[static_cast<std::size_t>(s)]; }) ||
+           std::any_of(tie.parts.begin(), tie.parts.end(),
+                       [&](const JointTie::Part& part) {
+                           return plan.constraints[static_cast<std::size_t>(part.constraint)]->holds(part.tie);
+                       }) ||
+           (tie.isGrip && std::any_of(plan.grips.begin(), plan.grips.end(),
+                                      [&](const Grip& grip) { return isOf(grip, plan, tie); }));
 }
 
 bool letGo(IslandPlan& plan, std::size_t number) {
@@ -506,9 +507,8 @@ std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
 }
 
 bool isPinned(const IslandPlan& plan, int point) {
-    return std::any_of(
-        plan.constraints.begin(), plan.constraints.end(),
-        [&](const auto& constraint) { return constraint->carries(point); });
+    return std::any_of(plan.constraints.begin(), plan.constraints.end(),
+                       [&](const auto& constraint) { return constraint->carries(point); });
 }
 
 std::vector<bool> heldPointsOf(const IslandPlan& plan) {

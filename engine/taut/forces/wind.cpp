@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "taut/forces/force.h"
 #include "taut/mechanics/private/wind.h"
 #include "taut/spec/common_rows.h"
+#include "taut/forces/force.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {
@@ -20,7 +20,9 @@ namespace {
 class WindForce final : public ForceOf<WindForce> {
   public:
     WindForce(const WindSpec& wind, double airDensity)
-        : ForceOf(wind.fullName()), velocity_{wind.velocity, wind.velocity}, targets_(wind.surroundedBodies()) {
+        : ForceOf(wind.fullName()),
+          velocity_{wind.velocity, wind.velocity},
+          targets_(wind.surroundedBodies()) {
         settings_.airDensity = airDensity;
         settings_.drag = wind.drag;
         settings_.lift = wind.lift;

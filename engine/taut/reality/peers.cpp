@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <sstream>
 #include <string_view>
 
 #include "taut/core/error.h"
+#include "taut/core/numbers.h"
 
 namespace taut::reality {
 namespace {
@@ -27,12 +26,11 @@ std::vector<PeerDroop> readPeers(const std::string& text, const std::string& fil
     std::istringstream lines(text);
     std::string line;
     int count = 0;
-    const auto number = [&](const std::string& word, double least, double most) {
-        double value = NAN;
-        const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (code != std::errc() || end != word.data() + word.size() || !(value >= least && value <= most))
-            fail(file, count, fmt::format("\"{}\" is no number from {:g} to {:g}", word, least, most));
-        return value;
+    const auto number = [&](std::string_view cell, double least, double most) {
+        const auto value = core::numberIn(cell);
+        if (!value || *value < least || *value > most)
+            fail(file, count, fmt::format("\"{}\" is no number from {:g} to {:g}", cell, least, most));
+        return *value;
     };
     while (std::getline(lines, line)) {
         ++count;
@@ -41,20 +39,18 @@ std::vector<PeerDroop> readPeers(const std::string& text, const std::string& fil
             if (line != header) fail(file, count, fmt::format("the first line is not \"{}\"", header));
             continue;
         }
-        std::vector<std::string> words;
-        std::istringstream rest(line);
-        for (std::string word; std::getline(rest, word, ',');) words.push_back(word);
-        if (words.size() != columnCount)
-            fail(file, count, fmt::format("{} columns instead of {}", words.size(), columnCount));
+        const std::vector<std::string_view> cells = core::cellsOf(line);
+        if (cells.size() != columnCount)
+            fail(file, count, fmt::format("{} columns instead of {}", cells.size(), columnCount));
         PeerDroop peer;
-        peer.peer = words[0];
-        peer.gamma = number(words[1], 1e-6, 1e6);
-        peer.cells = static_cast<int>(number(words[2], 1, 1e6));
-        peer.droop = number(words[3], -1e12, 1e12);
-        peer.isAtRest = number(words[4], 0, 1) != 0;
-        peer.simulated = number(words[5], 0, 1e12);
-        peer.processor = number(words[6], 0, 1e12);
-        peer.told = words[7];
+        peer.peer = cells[0];
+        peer.gamma = number(cells[1], 1e-6, 1e6);
+        peer.cells = static_cast<int>(number(cells[2], 1, 1e6));
+        peer.droop = number(cells[3], -1e12, 1e12);
+        peer.isAtRest = number(cells[4], 0, 1) != 0;
+        peer.simulated = number(cells[5], 0, 1e12);
+        peer.processor = number(cells[6], 0, 1e12);
+        peer.told = cells[7];
         peers.push_back(peer);
     }
     if (peers.empty()) fail(file, count, "there is no strip in it");

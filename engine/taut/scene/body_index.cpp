@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
+#include "taut/core/numbers.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/sections.h"
+#include "taut/spec/targets.h"
 
 namespace taut::scene {
 
@@ -31,53 +32,31 @@ bool fits(std::string_view pattern, const BodyEntry& body) {
     return false;
 }
 
-// A plain decimal number that fills the whole text, apart from blanks around it.
-std::optional<double> number(std::string_view text) {
-    while (text.starts_with(' ')) text.remove_prefix(1);
-    while (text.ends_with(' ')) text.remove_suffix(1);
-    double value = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-    if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
-bool isShare(std::string_view text, double whole) {
-    const std::optional<double> value = number(text);
-    return value && *value >= 0.0 && *value <= whole;
-}
-
 std::optional<TargetFault> indexFault(const BodyEntry& body, const std::string& selector) {
     const std::string_view digits = std::string_view(selector).substr(1);
     const bool isIndex = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
     if (!isIndex) return TargetFault{fmt::format("\"{}\" is not the number of a point", selector), "write #0, #1, …"};
-    if (body.isFaulty || (digits.size() < 15 && *number(digits) < body.outline.points)) return std::nullopt;
+    if (body.isFaulty || (digits.size() < 15 && *core::numberIn(digits) < body.outline.points)) return std::nullopt;
     return TargetFault{fmt::format("{} has no point {}", body.title(), selector),
                        fmt::format("its points are #0 … #{:.0f}", body.outline.points - 1)};
 }
 
 std::optional<TargetFault> uvFault(const BodyEntry& body, const std::string& selector) {
-    std::vector<std::optional<double>> numbers;
-    const std::string_view inside = std::string_view(selector).substr(1, selector.size() - 2);
-    for (std::size_t begin = 0, comma = 0; comma != std::string_view::npos; begin = comma + 1) {
-        comma = inside.find(',', begin);
-        numbers.push_back(number(inside.substr(begin, comma - begin)));
-    }
-    const auto isIn = [&](std::size_t i, double most) { return numbers[i] && *numbers[i] >= 0 && *numbers[i] <= most; };
-    const bool isPlace = selector.ends_with(')') && (numbers.size() == 2 || (numbers.size() == 3 && isIn(2, 1e6))) &&
-                         isIn(0, 1) && isIn(1, 1);
-    if (!isPlace)
+    const auto place = world::gridPlace(selector);
+    if (!place)
         return TargetFault{fmt::format("\"{}\" is not a place on a cloth", selector),
                            "write (u,v), each 0 … 1, or (u,v,r) with a radius r in metres"};
     if (body.isFaulty) return std::nullopt;
     if (!body.outline.isGrid) return TargetFault{fmt::format("{} is no grid: it has no (u,v)", body.title()), ""};
-    const double u = 2 * *numbers[0] - 1, v = 2 * *numbers[1] - 1;
+    const double u = 2 * place->u - 1, v = 2 * place->v - 1;
     if (!body.outline.isRound || u * u + v * v <= 1) return std::nullopt;
     return TargetFault{fmt::format("{} is round: there is nothing of it at {}", body.title(), selector),
                        "(0.5,0.5) is its middle"};
 }
 
 std::optional<TargetFault> percentFault(const BodyEntry& body, const std::string& selector) {
-    if (!isShare(std::string_view(selector).substr(0, selector.size() - 1), 100.0))
+    const auto percent = core::numberIn(std::string_view(selector).substr(0, selector.size() - 1));
+    if (!percent || *percent < 0 || *percent > 100)
         return TargetFault{fmt::format("\"{}\" is not a place along a rope", selector), "write 0% … 100%"};
     if (body.outline.isLine) return std::nullopt;
     return TargetFault{fmt::format("{} is no rope: it has no {}", body.title(), selector), ""};

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "taut/core/error.h"
+#include "taut/core/numbers.h"
 
 namespace taut::scene {
 
@@ -16,35 +17,25 @@ using Point = world::FitTarget::Point;
 
 constexpr std::uint64_t maxCurveSize = 4U << 20U;  // [bytes]
 
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\r");
-    return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-// The numbers between commas; nothing if one of them is none.
+// Nothing if one of the cells is no number.
 std::optional<std::vector<double>> numbersOf(std::string_view line) {
     std::vector<double> numbers;
-    for (bool isMore = true; isMore;) {
-        const std::size_t comma = line.find(',');
-        const std::string_view cell = trimmed(line.substr(0, comma));
-        double& number = numbers.emplace_back();
-        const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-        if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number)) return std::nullopt;
-        isMore = comma != std::string_view::npos;
-        if (isMore) line.remove_prefix(comma + 1);
+    for (const std::string_view cell : core::cellsOf(line)) {
+        const auto number = core::numberIn(cell);
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
     }
     return numbers;
 }
 
 // Throws core::Error(badContent) with the number of the line.
-std::vector<Point> pointsOf(std::string_view text, const std::string& file, std::optional<double> sigma) {
+std::vector<Point> pointsOf(const std::string& text, const std::string& file, std::optional<double> sigma) {
     std::vector<Point> points;
     bool mayBeHeadings = true;
-    for (int number = 1; !text.empty(); ++number) {
-        const std::size_t end = text.find('\n');
-        const std::string_view line = trimmed(text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (line.empty() || line.front() == '#') continue;
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        if (line.find_first_not_of(" \t\r") == std::string::npos || line.starts_with('#')) continue;
         const auto fail = [&](const std::string& why) {
             throw core::Error(core::ErrorKind::badContent, fmt::format("{}:{}: {}", file, number, why));
         };

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/spec/source.h"
 #include "taut/view/frame_view.h"
+#include "taut/spec/source.h"
 
 namespace taut::world {
 
@@ -35,8 +35,7 @@ struct LightSpec {
     double softness = 0.03;  // [rad]
     dvec3 sky{0.70, 0.74, 0.80};
     dvec3 ground{0.50, 0.48, 0.45};
-    double ambient =
-        1.1;  // factor on sky and ground: the shade is a quarter to a sixth as bright as the light, as by day
+    double ambient = 1.1;  // factor on sky and ground: shade is 4 to 6 times darker than light, as by day
 };
 
 struct EnvironmentSpec {

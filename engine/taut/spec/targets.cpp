@@ -1,46 +1,46 @@
 #include "taut/spec/targets.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "taut/core/numbers.h"
+
 namespace taut::world {
 namespace {
-
-std::optional<double> number(std::string_view text) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
 
 std::vector<int> onePoint(const mechanics::Model& model, double index) {
     if (!(index >= 0.0) || index >= model.pointCount()) return {};
     return {static_cast<int>(index)};
 }
 
-std::vector<int> gridPoints(const mechanics::Model& model, std::string_view inside) {
-    const std::size_t comma = inside.find(',');
-    if (comma == std::string_view::npos || model.grid[0] == 0) return {};
-    const std::size_t second = std::min(inside.find(',', comma + 1), inside.size());
-    const auto u = number(inside.substr(0, comma)), v = number(inside.substr(comma + 1, second - comma - 1)),
-               r = second < inside.size() ? number(inside.substr(second + 1)) : 0.0;
-    if (!u || !v || !r || !(*u >= 0 && *u <= 1 && *v >= 0 && *v <= 1)) return {};
-    const int column = static_cast<int>(std::floor(*u * model.grid[0] + 0.5));
-    const int row = static_cast<int>(std::floor(*v * model.grid[1] + 0.5));
+std::vector<int> gridPoints(const mechanics::Model& model, std::string_view selector) {
+    const std::optional<GridPlace> place = gridPlace(selector);
+    if (!place || model.grid[0] == 0) return {};
+    const auto& [u, v, radius] = *place;
+    const int column = static_cast<int>(std::floor(u * model.grid[0] + 0.5));
+    const int row = static_cast<int>(std::floor(v * model.grid[1] + 0.5));
     const int nearest = row * (model.grid[0] + 1) + column;
-    const glm::dvec2 middle = glm::dvec2(*u, *v) * model.uv.back();
+    const glm::dvec2 middle = glm::dvec2(u, v) * model.uv.back();
     std::vector<int> points;
     for (const int i : model.groups.at("all"))
-        if (i == nearest || glm::distance(model.uv[static_cast<std::size_t>(i)], middle) <= *r) points.push_back(i);
+        if (i == nearest || glm::distance(model.uv[static_cast<std::size_t>(i)], middle) <= radius) points.push_back(i);
     return points;
 }
 
 }  // namespace
+
+std::optional<GridPlace> gridPlace(std::string_view selector) {
+    if (!selector.starts_with('(') || !selector.ends_with(')')) return std::nullopt;
+    std::vector<double> numbers;
+    for (const std::string_view cell : core::cellsOf(selector.substr(1, selector.size() - 2)))
+        numbers.push_back(core::numberIn(cell).value_or(-1));
+    if (numbers.size() == 2) numbers.push_back(0);
+    if (numbers.size() != 3 || *std::min_element(numbers.begin(), numbers.end()) < 0 || numbers[0] > 1 || numbers[1] > 1)
+        return std::nullopt;
+    return GridPlace{numbers[0], numbers[1], numbers[2]};
+}
 
 Target parseTarget(std::string_view text) {
     const std::size_t dot = text.find('.'), at = text.find('@');
@@ -57,11 +57,10 @@ std::vector<int> selectPoints(const mechanics::Model& model, std::string_view se
     if (selector.empty()) selector = "all";
     if (const auto group = model.groups.find(std::string(selector)); group != model.groups.end()) return group->second;
     if (selector.front() == '#')
-        if (const auto index = number(selector.substr(1))) return onePoint(model, *index);
-    if (selector.front() == '(' && selector.back() == ')')
-        return gridPoints(model, selector.substr(1, selector.size() - 2));
+        if (const auto index = core::numberIn(selector.substr(1))) return onePoint(model, *index);
+    if (selector.front() == '(') return gridPoints(model, selector);
     if (selector.back() == '%')
-        if (const auto percent = number(selector.substr(0, selector.size() - 1)); percent && *percent <= 100)
+        if (const auto percent = core::numberIn(selector.substr(0, selector.size() - 1)); percent && *percent <= 100)
             return onePoint(model, std::floor(*percent / 100.0 * (model.pointCount() - 1) + 0.5));
     return {};
 }

@@ -1,6 +1,7 @@
 // What "cloth.flag@top-left" means: which bodies, and which of their points.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,14 @@ struct Target {
 Target parseTarget(std::string_view text);
 
 using core::matches;
+
+// A place on a cloth grid, as a selector says it: "(u,v)" or "(u,v,r)".
+struct GridPlace {
+    double u, v;        // 0 … 1, of width and height, from the top left
+    double radius = 0;  // [m]
+};
+// None if the selector is no such place.
+std::optional<GridPlace> gridPlace(std::string_view selector);
 
 // The points of a selector, ascending: a group of the model ("left", "corners", "all" …), "#12" (by index), "(u,v)"
 // (the grid point nearest to that fraction of width and height, from the top left), "(u,v,r)" (besides all within r [m]

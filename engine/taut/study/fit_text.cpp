@@ -22,6 +22,14 @@ std::string rounded(double value, int digits) {
     return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "-";
 }
 
+// "a, b and c".
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+    return text;
+}
+
 // How many letters all keys begin with, up to a dot.
 std::size_t sharedBeginning(const Fit& fit) {
     std::size_t length = fit.keys.size() > 1 ? fit.keys[0].key.rfind('.') + 1 : 0;
@@ -88,21 +96,17 @@ std::string unseenText(const Fit& fit, const std::vector<double>& direction) {
         seen = fmt::format("they see only {} {} {}{}", key(0), power > 0 ? "*" : "/", key(1),
                            isPlain ? "" : fmt::format("^{:.2g}", std::abs(power)));
     } else {
-        seen = "they stay as they are where";
+        std::vector<std::string> ways;
         for (std::size_t i = 0; i < parts.size(); ++i)
-            seen += fmt::format("{} {} {}",
-                                i == 0                  ? ""
-                                : i + 1 == parts.size() ? " and"
-                                                        : ",",
-                                key(i), direction[parts[i]] * direction[parts[0]] > 0 ? "grows" : "shrinks");
+            ways.push_back(key(i) + (direction[parts[i]] * direction[parts[0]] > 0 ? " grows" : " shrinks"));
+        seen = "they stay as they are where " + listed(ways);
     }
-    std::string names;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        names += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + key(i);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < parts.size(); ++i) names.push_back(key(i));
     return fmt::format(
         "The targets cannot tell {} apart: {}. Leave one of them out, or add a target that changes "
         "with one alone.",
-        names, seen);
+        listed(names), seen);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ struct WorldImpl;
 struct Options {
     int threads = 0;                                     // 0: as many as the machine has
     std::vector<std::shared_ptr<const Force>> forces{};  // beyond those of the scene; steps allow for them
-    bool keepsSteps = false;                             // the first tick's, to the end; else "auto" follows the state
+    bool keepsSteps = false;  // the first tick's, to the end; else "auto" follows the state
 };
 
 class World {

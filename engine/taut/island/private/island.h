@@ -18,11 +18,11 @@
 #include "taut/island/private/envelope.h"
 #include "taut/island/private/memory.h"
 #include "taut/island/private/precision_watch.h"
+#include "taut/island/report.h"
 #include "taut/island/private/step_choice.h"
 #include "taut/island/private/step_following.h"
 #include "taut/island/private/tie_load.h"
 #include "taut/island/private/yielding.h"
-#include "taut/island/report.h"
 
 namespace taut::world {
 

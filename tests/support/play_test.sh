@@ -46,7 +46,8 @@ env -u DISPLAY -u WAYLAND_DISPLAY -u SDL_VIDEODRIVER "$taut" play sheet.toml >he
 [ $code -eq 7 ] || fail "exit $code without a display"
 grep -q 'taut render sheet.toml -o' said || fail "it does not say how to do without a window"
 
-Xvfb -displayfd 1 -screen 0 640x480x24 -nolisten tcp >display 2>/dev/null &
+# Without -noreset the display forgets all when its last window closes, also a window that opens at that moment.
+Xvfb -displayfd 1 -screen 0 640x480x24 -nolisten tcp -noreset >display 2>/dev/null &
 started="$!"
 until_true test -s display
 DISPLAY=:$(cat display)

@@ -1,6 +1,7 @@
 // The air that a cloth takes along in a wind: inertia without weight.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -51,7 +52,7 @@ TEST(Air, GoesAlongInAWindAndWeighsNothing) {
 
 // A sheet at θ to level goes aside until the force on it is upright. Let its way be δ from the vertical, ψ = θ + δ:
 // (C_D - C_L cos ψ) sin δ = C_L sin θ, and ½ρu² cos ψ ((C_D - C_L cos ψ) cos δ + C_L cos θ) is its weight per area.
-// Every part of it feels the same pressure, so that it does not turn; real paper swings to and fro besides.
+// Every part of it feels the same pressure, so that it does not turn without `flutter`.
 TEST(Air, ASheetThatIsNotLevelGlidesOnAsItDoes) {
     const double theta = 0.25, drag = 1.0, lift = 0.6;
     double low = 0, high = 0.5 * std::numbers::pi - theta;
@@ -77,6 +78,60 @@ TEST(Air, ASheetThatIsNotLevelGlidesOnAsItDoes) {
     // [m/s] As stiff as it is the sheet still bends by some 1e-5. A force off by a thousandth would make it 1e-2.
     const dvec3 off = world.metrics().momentum / (0.15 * 0.12) - cloth.velocity;
     EXPECT_LT(glm::length(off), 1e-4);
+}
+
+// A stiff sheet without drag and lift is a rigid plate. Newton's and Euler's equations with Munk's moment -m_a u w about
+// the width, and the forces 2 m_a θ' u n - m_a θ' w t, by a method of Runge and Kutta. u and w are the velocity along
+// the sheet (t) and along its normal (n), θ its slant.
+TEST(Air, MakesAStiffSheetSwing) {
+    SceneSpec scene = falling(false);
+    WindSpec wind;
+    wind.name = "still";
+    wind.drag = 0.0;
+    wind.lift = 1e-12;
+    scene.forces.add(wind);
+    scene.materials["sheet"].rigidity.warp = 40.0;
+    scene.materials["sheet"].flutter = 1.0;
+    auto& cloth = static_cast<ClothSpec&>(*scene.bodies.begin());
+    cloth.across = {std::cos(0.4), std::sin(0.4), 0};
+    World world(scene);
+    const auto energy = [&] {
+        const Metrics metrics = world.metrics();
+        return metrics.kinetic + metrics.elastic + metrics.gravitational;
+    };
+    const double energyBefore = energy();
+    const int ticks = 30;
+    support::run(world, ticks);
+
+    const double area = 0.12, mass = 0.15 * area, air = 0.05 * area, weight = 0.1 * area * 9.81;
+    double squares = 0;  // Σ share · s² of columns 0.1 m apart, those at the edges half
+    for (const double s : {-0.1, 0.0, 0.1}) squares += s * s / 4.0;
+    squares += 2 * 0.04 / 8.0;
+    using State = std::array<double, 4>;  // vx, vy, θ, θ'
+    const auto slope = [&](const State& y) {
+        const auto [vx, vy, angle, rate] = y;
+        const double u = vx * std::cos(angle) + vy * std::sin(angle), w = vy * std::cos(angle) - vx * std::sin(angle);
+        const double alongT = -air * rate * w, alongN = 2 * air * rate * u;
+        return State{(alongT * std::cos(angle) - alongN * std::sin(angle)) / mass,
+                     (alongT * std::sin(angle) + alongN * std::cos(angle) - weight) / mass, rate,
+                     -air * u * w / (mass * squares)};
+    };
+    State y{0, 0, 0.4, 0};
+    const int steps = 3000;
+    const double h = ticks * world.tickSeconds() / steps;
+    for (int i = 0; i < steps; ++i) {
+        const auto ahead = [&](const State& k, double by) {
+            State moved = y;
+            for (std::size_t j = 0; j < 4; ++j) moved[j] += by * k[j];
+            return moved;
+        };
+        const State a = slope(y), b = slope(ahead(a, h / 2)), c = slope(ahead(b, h / 2)), d = slope(ahead(c, h));
+        for (std::size_t j = 0; j < 4; ++j) y[j] += h / 6 * (a[j] + 2 * b[j] + 2 * c[j] + d[j]);
+    }
+    EXPECT_LT(y[2], -0.1);  // it has swung through
+    EXPECT_NEAR(world.metrics().momentum.x / mass, y[0], 1e-5);
+    EXPECT_NEAR(world.metrics().momentum.y / mass, y[1], 1e-5);
+    EXPECT_NEAR(energy(), energyBefore, 1e-6);  // the air's forces do no work
 }
 
 }  // namespace

@@ -126,6 +126,7 @@ mechanics::Model ClothSpec::build(const SceneSpec& scene) const {
     const auto found = scene.materials.find(material);
     if (found == scene.materials.end() || found->second.air == 0) return model;
     for (const double mass : model.masses) model.airMasses.push_back(mass * found->second.air / found->second.density);
+    model.plateAir = found->second.flutter * found->second.air;
     return model;
 }
 

@@ -32,16 +32,25 @@ class WindForce final : public ForceOf<WindForce> {
     template <class Real>
     std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan& plan) const {
         std::vector<std::array<int, 3>> triangles;
+        std::vector<double> plateAir;  // [kg]
+        bool doesFlutter = false;
         for (const Body* body : plan.bodies) {
             if (!actsOn(*body)) continue;
+            doesFlutter = doesFlutter || body->model.plateAir > 0;
             for (std::size_t t = 0; t < body->model.triangles.size(); ++t) {
                 if (body->damage.isTriangleGone(t)) continue;
                 triangles.push_back(body->model.triangles[t]);
+                const auto at = [&](std::size_t k) {
+                    return body->model.positions[static_cast<std::size_t>(triangles.back()[k])];
+                };
+                const double area = 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+                plateAir.push_back(body->model.plateAir * area);
                 for (int& i : triangles.back()) i = body->pointOf[static_cast<std::size_t>(i)];
             }
         }
         if (triangles.empty()) return nullptr;
-        return std::make_unique<mechanics::Wind<Real>>(triangles, velocity_, settings_);
+        if (!doesFlutter) plateAir.clear();
+        return std::make_unique<mechanics::Wind<Real>>(triangles, velocity_, settings_, plateAir);
     }
     void changeEvenly(const WindForce& from, const WindForce& to, double t0, double t1) {
         velocity_ = mechanics::LinearPath::between(from.velocity_.to, to.velocity_.to, t0, t1);

@@ -118,6 +118,7 @@ struct Model {
     std::vector<glm::dvec3> velocities;  // [m/s]
     std::vector<double> masses;          // [kg] > 0, also of held points
     std::vector<double> airMasses;       // [kg] the part of them that is air, without weight; empty: none
+    double plateAir = 0;                 // [kg/m²] of air at a surface that makes it flutter in a wind
     std::vector<double> dragRates;       // γ/m [1/s] >= 0
     std::vector<bool> held;              // inverse mass 0
     std::vector<glm::dvec2> uv;          // [m] along the material; (0, 0) where it has none

@@ -19,6 +19,24 @@ auto windKernel() -> void (*)(const WindBatch<Real>&) {
     return sse2::addWind;
 }
 
+// Of a triangle: the unit normal and the gradients of its corners' coordinates. 0 where it has no area.
+template <class Real>
+struct Facet {
+    using Vec = glm::vec<3, Real>;
+    Vec normal{Real(0)};
+    Vec gradients[3]{Vec(Real(0)), Vec(Real(0)), Vec(Real(0))};  // [1/m]
+
+    Facet(const Vec& a, const Vec& b, const Vec& c) {
+        const Vec cross = glm::cross(b - a, c - a);
+        const Real size = std::sqrt(glm::dot(cross, cross));
+        if (!(size > 0)) return;
+        normal = cross / size;
+        gradients[1] = glm::cross(c - a, normal) / size;
+        gradients[2] = glm::cross(normal, b - a) / size;
+        gradients[0] = -gradients[1] - gradients[2];
+    }
+};
+
 }  // namespace
 
 template <class Real>
@@ -26,8 +44,10 @@ Wind<Real>::Wind(std::span<const Triangle> triangles, const glm::dvec3& velocity
     : Wind(triangles, LinearPath{velocity, velocity}, settings) {}
 
 template <class Real>
-Wind<Real>::Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings)
+Wind<Real>::Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings,
+                 std::span<const double> plateAir)
     : triangles_(triangles.begin(), triangles.end()),
+      plateAir_(plateAir.begin(), plateAir.end()),
       runs_(triangles),
       weight_(runs_.sources().size()),
       velocity_(velocity),
@@ -92,6 +112,38 @@ void Wind<Real>::addForces(const Motion<Real>& motion, int first, int last, Real
         batch.gust = &gust;
     }
     addBatch_(batch);
+    if (!plateAir_.empty()) addFlutter(motion, f);
+}
+
+// Scalar: few bodies ask for it.
+template <class Real>
+void Wind<Real>::addFlutter(const Motion<Real>& motion, Real* f) const {
+    using Vec = glm::vec<3, Real>;
+    const auto at = [](const Real* planes, std::ptrdiff_t stride, int i) {
+        return Vec(planes[i], planes[i + stride], planes[i + 2 * stride]);
+    };
+    const bool hasGust = settings_.gust.amplitude > 0.0;  // the kernel has left slip_ then
+    const Real* moving = hasGust ? slip_.data() - firstPoint_ : motion.v;
+    const std::ptrdiff_t pitch = hasGust ? pointCount_ : motion.stride;
+    const Vec flow(velocity_.at(motion.t));
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        const Triangle& corners = triangles_[t];
+        const Facet<Real> facet(at(motion.x, motion.stride, corners[0]), at(motion.x, motion.stride, corners[1]),
+                                at(motion.x, motion.stride, corners[2]));
+        const Vec& n = facet.normal;
+        Vec mean(Real(0)), turn(Real(0));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec v = at(moving, pitch, corners[k]) - flow;
+            mean += v / Real(3);
+            turn -= facet.gradients[k] * glm::dot(n, v);
+        }
+        const Real w = glm::dot(mean, n), air = plateAir_[t];
+        const Vec shared = air / Real(3) * (w * turn - Real(2) * glm::dot(mean, turn) * n);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec force = shared - air * w * glm::dot(mean, facet.gradients[k]) * n;
+            for (int axis = 0; axis < 3; ++axis) f[axis * motion.stride + corners[k]] += force[axis];
+        }
+    }
 }
 
 template <class Real>
@@ -150,11 +202,23 @@ void Wind<Real>::addStability(const Motion<Real>& motion, StabilityShare& share)
         const std::ptrdiff_t stride = motion.stride;
         return glm::dvec3(motion.x[i], motion.x[i + stride], motion.x[i + 2 * stride]);
     };
-    for (const auto& [a, b, c] : triangles_) {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        const auto& [a, b, c] = triangles_[t];
         const double area = 0.5 * glm::length(glm::cross(at(b) - at(a), at(c) - at(a)));
         const double damping = 0.5 * settings_.airDensity * area * speed * slope / 3.0;  // [kg/s] of each corner
         for (int i : {a, b, c})
             share.dampingRate[static_cast<std::size_t>(i)] += damping * static_cast<double>(motion.inverseMass[i]);
+        if (plateAir_.empty()) continue;
+        const Facet<double> facet(at(a), at(b), at(c));
+        double steepness[3];
+        for (std::size_t k = 0; k < 3; ++k) steepness[k] = glm::length(facet.gradients[k]);
+        const double all = steepness[0] + steepness[1] + steepness[2];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto own = static_cast<std::size_t>(triangles_[t][k]);
+            const double rate = static_cast<double>(plateAir_[t]) * speed * (2.0 * steepness[k] + 5.0 / 3.0 * all);
+            share.dampingRate[own] += rate * static_cast<double>(motion.inverseMass[own]);
+            share.stiffness[own] += rate * speed * all;
+        }
     }
 }
 

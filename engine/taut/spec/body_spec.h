@@ -55,6 +55,7 @@ struct MaterialSpec {             // of cloth, per metre of material
     BendingFrictionSpec friction{};
     std::optional<double> weftStretch{};  // [N/m]; none: as the warp
     double air = 0.0;                     // [kg/m²] of air that goes along in a wind
+    double flutter = 0.0;                 // the share of it that acts as on a stiff plate that turns [-]
 
     // Half the stretch, an isotropic sheet, if one number says the stretch; a twentieth of the softer one, as woven
     // cloth has it, if there are two.

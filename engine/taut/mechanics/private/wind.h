@@ -8,6 +8,19 @@
 // ∝ A sin α, the area that the flow sees. Lift is at a right angle to u towards n, and is ½ρ A C_L u² sin α cos α.
 // Both vanish edge-on. Cloth is edge-on much of the time, and a lift C_L |u|² n would jump there with the sign of n.
 //
+// Flutter. The air that a stiff plate pushes before it has momentum along the normal only, so a plate that slides at a
+// slant is turned broadside (Munk's moment, -m_a w u × n with w along the normal and u along the plate). A plate that
+// turns has besides the lift m_a ω × v of thin airfoils (Γ = π/4 c² ω, and m_a = π/4 ρ c of each area). A sheet without
+// both glides on as it slants; with them paper swings to and fro as it falls (Andersen, Pesavento and Wang 2005). Let m
+// be the air of a triangle, v its velocity less the air's, w = v·n, g_k the gradient of corner k's coordinate, and
+// ṅ = -Σ g_k (n·v_k) how the normal turns. Corner k gets
+//
+//   F_k = -m w (v·g_k) n + ⅓ m (w ṅ - 2 (v·ṅ) n),
+//
+// which does no work. On a wave of the sheet it acts as an axial load m U²/A would: what is limper than that folds as
+// finely as its cells, if nothing draws it taut, for short folds take less air along than m says. So only stiff sheets
+// ask for it.
+//
 // Smoothness. Edge-on, at u·n = 0, the drag's |u·n| has a kink: F is continuous, and its slope jumps by ρA C_D |u|. A
 // step across the kink is off by O(h²) in v for any method. So methods of order 4 fall to order 2 once triangles turn
 // through the flow or are carried along by it. Methods of order 1 and 2 keep their order. The lift is smooth where u is
@@ -46,7 +59,9 @@ class Wind final : public ForceGenerator<Real> {
 
     // Uses the kernel of the current instruction set.
     Wind(std::span<const Triangle> triangles, const glm::dvec3& velocity, const WindSettings& settings);
-    Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings);
+    // plateAir (triangles) [kg] makes them flutter; empty: none.
+    Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings,
+         std::span<const double> plateAir = {});
 
     // The steady flow [m/s]: constant, or changing evenly from `from` to `to` between t0 and t1 [s].
     void setVelocity(const glm::dvec3& velocity) { velocity_ = {velocity, velocity, 0.0, 0.0}; }
@@ -72,11 +87,14 @@ class Wind final : public ForceGenerator<Real> {
     // Adds dampingRate at the working speed U, for the areas at the motion's positions.
     // |∂F/∂u| <= ½ρA U (2 C_D + 3/2 C_L): drag has at most 2 (broadside). Lift, in polar terms of u, has
     // √(sin² 2α + cos² 2α) in the plane of u and n, and sin² α across it. Each corner has a third of the force and of
-    // the mean velocity, so its row sums to 1/3 of that.
+    // the mean velocity, so its row sums to 1/3 of that. Flutter adds m U (2 |g_k| + 5/3 Σ|g|) to corner k.
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
   private:
+    void addFlutter(const Motion<Real>& motion, Real* f) const;
+
     std::vector<Triangle> triangles_;
+    std::vector<Real> plateAir_;  // (triangles) [kg]; empty: none
     IndexRuns<3> runs_;
     core::AlignedArray<Real> weight_;  // (lanes) 1, or 0 for a lane without a triangle
     int firstPoint_ = 0, pointCount_ = 0;

@@ -47,9 +47,11 @@ void ContactGroup::drop() {
 
 void ContactGroup::rewind(std::span<const dvec3> from, std::span<const dvec3> to) {
     broadPhase_.advance(from, to);
+    solver_.forget();
 }
 
 void ContactGroup::begin(std::span<const dvec3> x) {
+    solver_.forget();
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) marks_[static_cast<std::size_t>(i)] = unmarked;
     crossings_ = crossingsAt(x);

@@ -1,55 +1,60 @@
-// Projected Gauss-Seidel for one velocity field: sweeps over the pairs in their order, one impulse after the other,
-// each clamped to what its pair may do. The problem and its energy stand in solver.h.
+// Projected Gauss-Seidel for one velocity field: sweeps over rows in their order, one impulse after the other, each
+// clamped to what its row may do. The problem and its energy stand in solver.h.
 //
 // A sweep passes an impulse on by one layer of a pile, so sweeps alone are slow for high piles. Between two sweeps the
 // impulses are extrapolated along the sum of the last changes, as in nonlinear conjugate gradients: Silcowitz-Abel,
 // Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems".
+//
+// The start. Impulses that the rows have already are a guess, for instance those of the instant before. They are scaled
+// by the factor for which the energy is least, 0 or more: so the start is no worse than without them.
+//
+// Plain data, for there is one copy of the kernel for each instruction set. Rows next to each other that share a
+// velocity wait for one another in the processor; where they share none it works at several at once.
 #pragma once
 
 #include <span>
-#include <vector>
-
-#include "taut/contact/contact_constraint.h"
 
 namespace taut::contact {
 
-// A point in contact with a collider. It does not go into the collider, and the impulses of pairs that press it there
-// raise the limit of its friction.
-struct KinematicContact {
-    int point;
-    dvec3 normal;           // unit, out of the collider
-    double speed;           // [m/s] of the collider's surface along the normal
-    dvec3 carried{0.0};     // [m/s] velocity of the collider's surface
-    double friction = 0.0;  // Coulomb's μ of point and surface [-]
+struct alignas(32) Four {
+    double of[4];
 };
 
-struct Impulse {
-    double normal = 0;    // [N s]
-    dvec3 friction{0.0};  // [N s] tangential
-};
-
-// A pair in the solver.
+// A direction along which the weighted sum of up to four velocities may not close.
 struct Row {
-    int pair;
-    std::array<double, 4> gains{};  // [1/kg] velocity of its points for an impulse of 1: weight × inverse mass
-    double largestGain = 0;         // [1/kg]
-    double mass = 0;                // [kg] effective mass along the normal
-    double gapSpeed = 0;            // [m/s] at which the pair may close in this instant
-    double rebound = 0;             // [m/s] at which it has to part
-    Impulse impulse{};
+    Four normal{};         // unit; last 0
+    Four impulse{};        // [N s] friction along x, y, z; then along the normal
+    double weights[4]{};   // of the velocities
+    double gains[4]{};     // [1/kg] how much an impulse of 1 changes each velocity
+    double mass = 0;       // [kg] effective, along the normal
+    double closing = 0;    // [m/s] at which it may close in this instant; below 0: at which it has to part
+    double friction = 0;   // Coulomb's μ [-]
+    double largestGain = 0;  // [1/kg]
+    int slots[4]{};        // of the velocities
+    int source = 0;        // for its owner
 };
 
-// A contact of a point with a collider in the solver. Its impulse is what the pairs cause, beyond what the point's
-// island has already given it.
-struct KinematicRow {
-    KinematicContact contact;
-    double mass = 0;  // [kg] of the point
-    Impulse impulse{};
-};
+// Changes the velocities (slots) [m/s], last 0, by the impulses. It ends after `sweeps`, or when a sweep changes no
+// velocity by `tolerance` [m/s]. Returns the number of sweeps.
+int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities);
 
-// Changes u (points) [m/s] by the impulses. Impulses that the rows already have are applied first. It ends after
-// `sweeps`, or when a sweep changes no velocity by `tolerance` [m/s]. Returns the number of sweeps.
-int projectedGaussSeidel(std::span<const ContactConstraint> pairs, std::span<Row> rows,
-                         std::span<KinematicRow> kinematicRows, int sweeps, double tolerance, std::span<dvec3> u);
+// What the kernel gets.
+struct Sweeps {
+    Row* rows;
+    int count;
+    Four* velocities;
+    Four *changes, *direction;  // (count) scratch
+    int most;
+    double tolerance;  // [m/s]
+};
+namespace sse2 {
+int sweep(const Sweeps& sweeps);
+}
+namespace avx2 {
+int sweep(const Sweeps& sweeps);
+}
+namespace avx512 {
+int sweep(const Sweeps& sweeps);
+}
 
 }  // namespace taut::contact

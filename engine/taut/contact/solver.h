@@ -22,12 +22,24 @@
 // places. The shift is no velocity, so it adds no energy of motion (split impulses, as in Bullet).
 //
 // Clusters are sets of pairs that share movable points. They are solved in parallel, each in the order of its pairs:
-// the bits do not depend on threads.
+// the bits do not depend on threads. Large clusters are coloured: rows of one colour share no velocity (gauss_seidel.h).
+//
+// A collider that holds a point is one more row, between the point and a velocity that nothing changes. So is each
+// fixed point of a pair: it has a slot of its own, and passes nothing on.
+//
+// The impulses of the last instant are where the next one starts, as most contacts last longer than an instant. They
+// are forgotten as a tick begins, so that what outlives a tick is the state of the islands alone.
 #pragma once
 
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "taut/contact/contact_constraint.h"
 #include "taut/contact/gauss_seidel.h"
 
 namespace taut::contact {
@@ -39,6 +51,16 @@ struct SolverOptions {
     double restSpeed = 0.0;    // [m/s]
 };
 
+// A point in contact with a collider. It does not go into the collider, and the impulses of pairs that press it there
+// raise the limit of its friction.
+struct KinematicContact {
+    int point;
+    dvec3 normal;           // unit, out of the collider
+    double speed;           // [m/s] of the collider's surface along the normal
+    dvec3 carried{0.0};     // [m/s] velocity of the collider's surface
+    double friction = 0.0;  // Coulomb's μ of point and surface [-]
+};
+
 class ContactSolver {
   public:
     // Changes u and v (points) [m/s] by the impulses. shift (points) [m] gets the position correction; expects 0. h
@@ -46,46 +68,57 @@ class ContactSolver {
     void solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
                std::span<const double> inverseMass, double h, const SolverOptions& options, std::span<dvec3> u,
                std::span<dvec3> v, std::span<dvec3> shift);
+    // The next instant does not follow on the last.
+    void forget() { last_.clear(); }
 
     // After solve().
     std::span<const int> points() const { return touched_; }        // of the pairs, ascending
     std::span<const double> impulses() const { return impulses_; }  // (pairs) [N s] along the normal
     int sweeps() const { return mostSweeps_; }                      // of the cluster that took most
-    int clusters() const { return static_cast<int>(clusterStart_.size()) - 1; }
+    int clusters() const { return static_cast<int>(clusters_.size()); }
 
   private:
-    // A pair in the position correction.
-    struct PositionRow {
-        int pair;
-        std::array<double, 4> gains;  // [1/kg] as of a row
-        double mass;                  // [kg] likewise
-        double target;                // [m] to be moved apart by at least
-        double multiplier = 0;        // [kg m]
+    struct Problem {
+        std::span<const ContactConstraint> pairs;
+        std::span<const KinematicContact> kinematic;
+        std::span<const double> inverseMass;
+        double h;
+        const SolverOptions& options;
+        std::span<dvec3> u, v, shift;
+
+        bool isFixed(int point) const { return !(inverseMass[static_cast<std::size_t>(point)] > 0); }
     };
     struct Cluster {
-        std::span<Row> rows;
-        std::span<KinematicRow> kinematicRows;
-        double tolerance;  // [m/s] smaller changes end the sweeps
+        std::size_t first, last;  // of rows_
+        double tolerance;         // [m/s] smaller changes end the sweeps
     };
-    void findClusters(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
-                      std::size_t pointCount, std::span<const double> inverseMass);
-    void joinPoints(std::span<const ContactConstraint> pairs, std::size_t pointCount,
-                    std::span<const double> inverseMass);
-    void prepareRows(std::span<const ContactConstraint> pairs, std::span<const double> inverseMass, double h,
-                     const SolverOptions& options, std::span<const dvec3> u);
-    Cluster clusterAt(std::size_t number, std::span<const ContactConstraint> pairs, double h);
-    int solveCluster(const Cluster& cluster, std::span<const ContactConstraint> pairs, double h,
-                     const SolverOptions& options, std::span<dvec3> u, std::span<dvec3> v, std::span<dvec3> shift);
-    void correctPositions(const Cluster& cluster, std::span<const ContactConstraint> pairs, double h,
-                          const SolverOptions& options, std::span<dvec3> shift) const;
+    struct LastImpulse {
+        std::uint64_t key;
+        Four impulse;
+    };
+    void joinPoints(const Problem& problem);
+    void findClusters(const Problem& problem);
+    void colour(std::span<int> sources, const Problem& problem);
+    void addRow(int source, const Problem& problem);
+    int slotOf(int point, const Problem& problem);
+    int addConstant(const dvec3& u, const dvec3& v);
+    int solveCluster(const Cluster& cluster, const Problem& problem);
+    void solveStored(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
+    void correctPositions(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
+    void remember(std::size_t pairCount);
     int root(int point);
 
-    std::vector<Row> rows_;                    // cluster by cluster, in the order of the pairs
-    std::vector<std::size_t> clusterStart_;    // (clusters + 1) of rows_
-    std::vector<KinematicRow> kinematicRows_;  // cluster by cluster
-    std::vector<std::size_t> kinematicStart_;  // (clusters + 1)
+    // A source is a pair, or after all pairs a contact with a collider.
+    std::vector<Row> rows_;                    // cluster by cluster, contacts with colliders after the pairs
+    std::vector<std::uint64_t> keys_;          // (rows) the same for the same contact in every instant
+    std::vector<Cluster> clusters_;
     std::vector<int> parent_;                  // (points) union-find; -1: in no pair
     std::vector<int> touched_;                 // points of pairs, ascending
+    std::vector<int> slots_;                   // (points) of those touched that move
+    std::vector<Four> u_, v_, shift_;          // (slots)
+    std::vector<std::pair<int, int>> order_;   // cluster, source
+    std::vector<std::uint64_t> taken_;         // (slots) scratch: colours
+    std::vector<LastImpulse> last_;            // ascending by key
     std::vector<double> impulses_;             // (pairs)
     int mostSweeps_ = 0;
 };

@@ -10,11 +10,10 @@
 namespace taut::contact {
 namespace {
 
-constexpr double fastestOut = 1.0;        // [m/s] limit of the position correction
-constexpr std::size_t parallelRows = 64;  // fewer rows are solved on one thread, which is faster
+constexpr double fastestOut = 1.0;         // [m/s] limit of the position correction
+constexpr std::size_t parallelRows = 64;   // fewer rows are solved on one thread, which is faster
 constexpr std::size_t colouredPairs = 64;  // clusters with fewer keep the order of their pairs
 constexpr int mostColours = 64;
-constexpr double settled = 1e-4;          // sweeps end when changes are below this share of the thickness per instant
 
 Four four(const dvec3& v) {
     return {{v.x, v.y, v.z, 0}};
@@ -123,7 +122,7 @@ void ContactSolver::findClusters(const Problem& problem) {
                 cluster.tolerance =
                     std::min(cluster.tolerance, problem.pairs[static_cast<std::size_t>(source)].thickness);
         }
-        cluster.tolerance *= settled / problem.h;
+        cluster.tolerance *= problem.options.settled / problem.h;
         colour(sources, problem);
         for (int source : sources) addRow(source, problem);
         cluster.last = rows_.size();

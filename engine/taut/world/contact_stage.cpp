@@ -172,10 +172,12 @@ int ContactStage::mostInstants() const {
     return most;
 }
 
-// Makes the islands' substeps a multiple of the pace. Returns the number of instants: `needed`, or a few more so that
-// it divides all substeps.
-int ContactStage::takeInstants(const TickTime& time, int needed) {
-    if (pace_.isExceededBy(needed)) pace_.shorten(needed);
+// Makes the islands' substeps a multiple of the pace, which has room for all instants that these surfaces may need. So
+// steps do not change while they press. Returns the number of instants: `needed`, or a few more so that it divides all
+// substeps.
+int ContactStage::takeInstants(const TickTime& time, int needed, std::span<const int> pressed) {
+    room_ = spec_.instants ? needed : std::max(needed, instantsFor(pressed));
+    if (pace_.isExceededBy(room_)) pace_.shorten(room_);
     for (Island* island : islands_) island->takeParts(time, pace_.substeps());
     const int common = commonSubsteps();
     int instants = std::min(needed, common);
@@ -197,8 +199,8 @@ int ContactStage::chooseInstants(const TickTime& time) {
         const int common = commonSubsteps();
         return -takeInstants(time, std::min(common, enough(1, forecast.deformationRate, mostDeformation)));
     }
-    return takeInstants(time, enough(std::max(fewest_, instantsFor(forecast.surfaces)), forecast.closing,
-                                     mostClosing * forecast.leastThickness));
+    return takeInstants(time, enough(fewest_, forecast.closing, mostClosing * forecast.leastThickness),
+                        forecast.surfaces);
 }
 
 // Updates damage, masses, colliders and places.
@@ -271,14 +273,14 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         readAll();
         colliders_.place(0.0, x1_);
         group_->rewind(x0_, x1_);
-        instants = isCoarse ? takeInstants(time, std::max({fewest_, 2 * instants_, instantsFor(result_.surfaces)}))
+        instants = isCoarse ? takeInstants(time, std::max({fewest_, 2 * instants_, instantsToFollow()}), result_.surfaces)
                             : chooseInstants(time);
     }
 
     // Ends the tick.
     for (Island* island : islands_) island->endTick(time);
     reportAccelerations();
-    pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : instants_);
+    pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : room_);
     total_.instants += instants_;
     ++total_.ticks;
     return std::nullopt;
@@ -289,11 +291,18 @@ bool ContactStage::movesAny() const {
         islands_.begin(), islands_.end(), [](const Island* island) { return !island->frozen(); });
 }
 
-// Whether an instant was too long for its result: in a trial any impulse, else a pair that went too deep or had to be
-// slid apart. If no island moves, shorter instants would find the same.
+// How many instants would follow what contact moved in the last one, see turnOf().
+int ContactStage::instantsToFollow() const {
+    const double wanted = std::ceil(instants_ * turn_ / longestTurn);
+    const int most = instantsFor(result_.surfaces);
+    return wanted < most ? static_cast<int>(wanted) : most;
+}
+
+// Whether an instant was too long for its result: in a trial any impulse, else a shift that works against stiff springs,
+// or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
-    if (instants_ < instantsFor(result_.surfaces) || (isTrial && result_.impulses > 0)) return true;
+    if ((isTrial && result_.impulses > 0) || instants_ < instantsToFollow()) return true;
     return instants_ < mostInstantsForSpeed && (result_.deepest > mostClosing || result_.slides > 0);
 }
 
@@ -323,6 +332,27 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
         if (isTooCoarse(isTrial)) return true;
     }
     return false;
+}
+
+// ω H of the shift by which contact moved the points of an island in the last instant [rad]: ω² is its Rayleigh
+// quotient. The springs gain ½ shift·K shift by it, where contact took ½ m (shift/h)² from the motion.
+double ContactStage::turnOf(const Part& part, double h) const {
+    if (part.island->frozen() != nullptr) return 0;
+    const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.last) - first;
+    std::vector<dvec3> shift(count, dvec3(0.0)), force(count, dvec3(0.0));
+    double inertia = 0;
+    for (int i : result_.moved) {
+        if (i < part.first || i >= part.last) continue;
+        const auto k = static_cast<std::size_t>(i);
+        const dvec3 way = x1_[k] - xBefore_[k];
+        shift[k - first] = way;
+        inertia += glm::dot(way, way) / inverseMass_[k];
+    }
+    if (!(inertia > 0)) return 0;
+    part.island->stiffnessAt(std::span(x1_).subspan(first, count))(shift, force);
+    double stiffness = 0;
+    for (std::size_t k = 0; k < count; ++k) stiffness += glm::dot(shift[k], force[k]);
+    return h * std::sqrt(std::max(stiffness, 0.0) / inertia);
 }
 
 // Resolves one instant of contact, h [s] after the last.
@@ -363,12 +393,16 @@ void ContactStage::resolveInstant(double h) {
         }
     };
 
+    xBefore_ = x1_;
     vBefore_ = v_;
     const auto start = Clock::now();
     result_ = group_->resolve(instant);
     total_.seconds += secondsSince(start);
     total_.testedPairs += static_cast<std::int64_t>(group_->testedCount());
     hadImpulse_ = hadImpulse_ || result_.impulses > 0;
+    turn_ = 0;
+    if (result_.impulses > 0)
+        for (const Part& part : parts_) turn_ = std::max(turn_, turnOf(part, h));
     total_.slides += result_.slides;
     total_.zones += result_.zones;
     total_.uncertified += result_.uncertified;

@@ -54,7 +54,7 @@ struct ColliderMotion {
 // What becomes of one try of a tick.
 enum class TickVerdict { stands, again, fails };
 
-// [rad] Largest ω H of the fastest motion of pressed bodies. H is the time from one instant of contact to the next.
+// [rad] Largest ω H of the motion that contact causes. H is the time from one instant of contact to the next.
 // With an instant each step (2 is the limit of leap-frog) an impulse is one more force of the step's kick, and contact
 // without restitution takes energy: ΔE = ½ λ (u' + u), never above 0, with u' the approach after it and u that in the
 // step before. Moving points back over several steps works against their springs: at ω H = 3 these gain several times ½
@@ -90,8 +90,8 @@ class Island {
     void endTick(const TickTime& time);
     int substeps() const { return now_.substeps; }
     bool keepsStep() const { return keepsStep_; }
-    // Instants of contact in a tick that presses the island: one each step, or fewer where steps are very short. The
-    // fastest motion turns by at most longestTurn between two.
+    // Instants of contact in a tick that are enough however the island is pressed: one each step, or fewer where steps
+    // are very short. The fastest motion turns by at most longestTurn between two.
     int instantsToPress() const;
     // Makes all substeps of a tick divisible by so many parts from now on. To be called between two tries.
     void takeParts(const TickTime& time, int parts);

@@ -7,10 +7,12 @@
 //
 // How many instants. As few as possible, because each instant costs a detection:
 // - No touch is forecast: a trial with few, often one. It stands only if no pair got an impulse.
-// - A touch is forecast: at least one per 1.1 ms; so many that contact follows the islands' own motion
-//   (instantsToPress); and so many that two sides close by no more than 0.35 of their thickness in one.
+// - A touch is forecast: at least one per 1.1 ms, and so many that two sides close by no more than 0.35 of their
+//   thickness in one.
 // - An instant was too coarse: a trial found contact, a pair went too deep, or pairs had to be slid apart. The whole
 //   tick is then undone and repeated with at least twice as many, up to 64.
+// - Contact moved points against springs that are too stiff for the instant (turnOf). Cloth that lies on cloth is moved
+//   across its stiff threads, and needs few instants; blocks need as many as their fastest motion (instantsToPress).
 // A tick is also repeated if an island asks for it (its step was too long), and if one diverged and is frozen. The
 // other islands then go on, and the frozen one stands still. Islands keep the state to go back to in beginTry().
 //
@@ -99,8 +101,10 @@ class ContactStage {
     bool movesAny() const;
     int instantsFor(std::span<const int> surfaces) const;
     int chooseInstants(const TickTime& time);
-    int takeInstants(const TickTime& time, int needed);
+    int takeInstants(const TickTime& time, int needed, std::span<const int> pressed = {});
+    int instantsToFollow() const;
     void resolveInstant(double h);
+    double turnOf(const Part& part, double h) const;
     void settle();
     bool findFaults(double t, std::vector<std::optional<Fault>>& faults) const;
     void reportAccelerations();
@@ -123,10 +127,12 @@ class ContactStage {
     bool areCrossingsKnown_ = false;
     std::vector<contact::Crossing> crossings_;
     std::vector<dvec3> x0_, x1_, v_;   // (points)
-    std::vector<dvec3> vBefore_;       // (points) before the last instant
+    std::vector<dvec3> xBefore_, vBefore_;  // (points) before the last instant of contact
+    double turn_ = 0;                       // [rad] largest turnOf() in the last instant
     std::vector<double> inverseMass_;  // (points)
     std::vector<contact::KinematicContact> kinematic_;
     int instants_ = 0;
+    int room_ = 1;  // instants for which the substeps of this tick have room
     contact::InstantResult result_;
     ContactInfo total_;  // sum over the ticks since it was made
 };

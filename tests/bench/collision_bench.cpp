@@ -51,7 +51,7 @@ struct Subject {
     int level;
     double rough;
 };
-constexpr Subject subjects[] = {{"sphere", 0, 0.0}, {"mesh", 4, 0.0},  {"mesh", 4, 0.05},
+constexpr Subject subjects[] = {{"sphere", 0, 0.0}, {"mesh", 3, 0.0},  {"mesh", 4, 0.0},  {"mesh", 4, 0.05},
                                 {"mesh", 6, 0.0},   {"mesh", 6, 0.05}, {"hull", 4, 0.0},
                                 {"hull", 4, 0.05},  {"hull", 6, 0.0},  {"hull", 6, 0.05}};
 
@@ -79,6 +79,8 @@ struct Cloth {
     static constexpr int side = 71;
     static constexpr int count = side * side;
     std::vector<Real> before, x, v, inverseMass;
+    Candidates candidates;
+    std::vector<int> touched;
     std::vector<Contact> contacts;
 
     Cloth() : before(3 * count), x(3 * count), v(3 * count), inverseMass(count, Real(1)) {}
@@ -109,6 +111,7 @@ struct Cloth {
         }
     }
     void resolve(const Colliders& colliders) {
+        touched.clear();
         contacts.clear();
         MovingPoints<Real> points;
         points.last = count;
@@ -118,7 +121,7 @@ struct Cloth {
         points.v = v.data();
         points.inverseMass = inverseMass.data();
         points.thickness = 5e-3;
-        colliders.resolve(points, 1e-3, contacts);
+        colliders.resolve(std::span<const MovingPoints<Real>>(&points, 1), 1e-3, candidates, touched, &contacts);
     }
     static std::size_t at(int i, int k) { return static_cast<std::size_t>(k * count + i); }
 };

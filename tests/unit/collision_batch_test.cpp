@@ -30,6 +30,37 @@ std::vector<SizedShape> shapes() {
             roundShape("capsule", 0.2, 0.7), roundShape("cylinder", 0.4, 0.5), roundShape("cone", 0.4, 0.9)};
 }
 
+// A ball of 0.4 m whose surface is pushed in and out by up to `rough` [-] of that.
+SizedShape ballMesh(std::uint32_t rings, double rough) {
+    SizedShape ball;
+    ball.kind = "mesh";
+    const std::uint32_t around = 2 * rings;
+    const auto add = [&](double down, double along) {
+        const double wide = core::sine(down);
+        const glm::dvec3 d(wide * core::cosine(along), core::cosine(down), wide * core::sine(along));
+        const double out = core::sine(9.0 * d.x) * core::sine(8.0 * d.y + 1.0) * core::sine(7.0 * d.z + 2.0);
+        ball.vertices.push_back(0.4 * (1.0 + rough * out) * d);
+    };
+    const auto at = [&](std::uint32_t ring, std::uint32_t k) { return (ring - 1) * around + k % around; };
+    for (std::uint32_t ring = 1; ring < rings; ++ring)
+        for (std::uint32_t k = 0; k < around; ++k) add(core::pi * ring / rings, 2.0 * core::pi * k / around);
+    const auto top = static_cast<std::uint32_t>(ball.vertices.size()), bottom = top + 1;
+    add(0.0, 0.0);
+    add(core::pi, 0.0);
+    for (std::uint32_t k = 0; k < around; ++k) {
+        ball.triangles.insert(ball.triangles.end(), {top, at(1, k + 1), at(1, k)});
+        ball.triangles.insert(ball.triangles.end(), {bottom, at(rings - 1, k), at(rings - 1, k + 1)});
+        for (std::uint32_t ring = 1; ring + 1 < rings; ++ring)
+            ball.triangles.insert(ball.triangles.end(), {at(ring, k), at(ring, k + 1), at(ring + 1, k), at(ring, k + 1),
+                                                         at(ring + 1, k + 1), at(ring + 1, k)});
+    }
+    return ball;
+}
+
+std::vector<SizedShape> meshes() {
+    return {boxMesh({0.5, 0.2, 0.3}), sheetMesh(0.5, 20), ballMesh(10, 0.0), ballMesh(16, 0.2)};
+}
+
 template <class Real>
 struct Points {
     int count;
@@ -97,7 +128,9 @@ TYPED_TEST(CollisionBatch, KernelsGiveTheBitsOfPointsTakenOneByOne) {
     const Pose end{{0.105, -0.19, 0.05}, turned({1.0, 0.35, -0.6}, 0.91)};
     const Pose level{{0.1, -0.2, 0.05}, {1.0, 0.0, 0.0, 0.0}};
     const core::InstructionSet set = core::instructionSet();
-    for (const SizedShape& shape : shapes())
+    std::vector<SizedShape> all = shapes();
+    for (const SizedShape& mesh : meshes()) all.push_back(mesh);
+    for (const SizedShape& shape : all)
         for (const auto& [from, to] : {std::pair{level, level}, {start, start}, {start, end}})
             for (const Material& material : {Material{0.0, 0.0}, Material{0.4, 0.0}, Material{0.4, 0.5}}) {
                 SCOPED_TRACE(shape.kind);
@@ -112,7 +145,7 @@ TYPED_TEST(CollisionBatch, KernelsGiveTheBitsOfPointsTakenOneByOne) {
                 Points<TypeParam> alone = first;
                 Candidates any;
                 alone.resolve(plain, any);
-                EXPECT_GT(alone.touched.size(), 500U);
+                EXPECT_GT(alone.touched.size(), 200U);
                 for (const auto isa :
                      {core::InstructionSet::sse2, core::InstructionSet::avx2, core::InstructionSet::avx512}) {
                     if (!core::isSupported(isa)) continue;
@@ -158,6 +191,40 @@ TYPED_TEST(CollisionBatch, CandidatesThatLastGiveTheBitsOfCandidatesFoundAnew) {
         touched += kept.touched.size();
     }
     EXPECT_GT(touched, 2000U);
+}
+
+TYPED_TEST(CollisionBatch, KnownFeetGiveTheBitsOfPointsTakenOneByOne) {
+    // A swarm falls on a mesh that rocks to and fro, rests on it and slides over it.
+    for (const SizedShape& shape : meshes()) {
+        Colliders colliders, plain;
+        colliders.add(shape, {0.2, 0.0}, {});
+        plain.add({std::make_shared<Plain>(Shape(shape).form), {}}, {0.2, 0.0}, {});
+        Numbers numbers;
+        Points<TypeParam> kept(500, numbers);
+        kept.thickness = 0.02;
+        for (TypeParam& v : kept.v) v = 0;
+        Candidates candidates, any;
+        Pose pose;
+        std::size_t touched = 0;
+        for (int step = 0; step < 400; ++step) {
+            const double angle = step % 150 < 100 ? 0.3 * core::sine(0.05 * step) : 0.0;
+            const Pose next{{0.0, 0.1 * angle, 0.0}, turned({1.0, 0.0, 0.5}, angle)};
+            colliders.move(0, pose, next);
+            plain.move(0, pose, next);
+            pose = next;
+            for (std::size_t i = 0; i < kept.x.size(); ++i) {
+                kept.before[i] = kept.x[i];
+                kept.v[i] -= kept.x[i] * TypeParam(0.2);
+                kept.x[i] += TypeParam(0.01) * kept.v[i];
+            }
+            Points<TypeParam> alone = kept;
+            alone.resolve(plain, any);
+            kept.resolve(colliders, candidates);
+            ASSERT_NO_FATAL_FAILURE(expectSame(kept, alone)) << step;
+            touched += kept.touched.size();
+        }
+        EXPECT_GT(touched, 20000U);
+    }
 }
 
 }  // namespace

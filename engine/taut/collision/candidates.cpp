@@ -67,7 +67,7 @@ void CandidateRooms::note(std::size_t block, std::size_t solid, bool near) {
 void CandidateRooms::follow(std::span<const Solid> solids) {
     if (solids_.size() != solids.size()) {
         solids_.assign(solids.size(), {});
-        blocks_.clear();
+        drop();
         bits_.clear();
         words_ = (solids.size() + 63) / 64;
     }

@@ -2,14 +2,18 @@
 //
 // The kernel does what resolve.cpp and response.h do to one point, with the same order of operations, in loops over a
 // batch: where the path ends, its distance there, then the response. It finds out whether a path may have come through
-// the solid, but not where. It leaves such points to resolve.cpp.
+// the solid, but not where. It leaves such points to resolve.cpp. For meshes see contact_feet.h.
 #include "taut/collision/private/contact_kernel.h"
 
+#include "taut/collision/private/contact_feet.h"
 #include "taut/collision/private/contact_response.h"
 #include "taut/core/private/vectorise.h"
 
 namespace taut::collision::TAUT_ISA {
 namespace {
+
+constexpr int wholeLanes = 8;  // of the widest vector
+static_assert(contactBatch + wholeLanes <= contactRow);
 
 template <class Real, bool masked>
 inline void load(const ContactArgs<Real>& s, ContactLanes& lanes) {
@@ -153,6 +157,17 @@ inline void compareSides(ContactLanes& lanes, int n) {
     }
 }
 
+// Turns the half-space in which each path has to end, `normal` and `distance` (its offset), into the world.
+inline void placeOffset(const KernelFrame& to, ContactLanes& lanes, int n) {
+    if (to.turned) turn(to, lanes.normal, lanes.normal, n);
+    const double px = to.position[0], py = to.position[1], pz = to.position[2];
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
+        lanes.distance[i] += nx * px + ny * py + nz * pz;
+    }
+}
+
 // Finds the half-space in which paths have to end -> `normal` (in the world) and `distance` (its offset).
 inline void placeTouch(double thickness, const KernelFrame& to, ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
@@ -161,13 +176,7 @@ inline void placeTouch(double thickness, const KernelFrame& to, ContactLanes& la
                               lanes.normal[2][i] * lanes.localEnd[2][i];
         lanes.distance[i] = height - lanes.distance[i] + thickness;
     }
-    if (to.turned) turn(to, lanes.normal, lanes.normal, n);
-    const double px = to.position[0], py = to.position[1], pz = to.position[2];
-    TAUT_INDEPENDENT
-    for (int i = 0; i < n; ++i) {
-        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
-        lanes.distance[i] += nx * px + ny * py + nz * pz;
-    }
+    placeOffset(to, lanes, n);
 }
 
 // Does all of this in two loops for a solid that is not turned: its frame differs from the world only by a shift.
@@ -282,8 +291,104 @@ inline void store(const ContactArgs<Real>& s, const ContactLanes& lanes) {
     }
 }
 
+// Stores the points that were touched, of those that were tried several times.
+template <class Real>
+inline void storeTouched(const ContactArgs<Real>& s, const ContactLanes& lanes, const long* result, int n) {
+    for (int k = 0; k < 3; ++k) {
+        Real *const x = s.x[k], *const v = s.v[k];
+        TAUT_INDEPENDENT
+        for (int i = 0; i < n; ++i) {
+            const bool touched = result[i] == anyTouched;
+            const double oldX = static_cast<double>(x[i]), oldV = static_cast<double>(v[i]);
+            x[i] = static_cast<Real>(touched ? lanes.end[k][i] : oldX);
+            v[i] = static_cast<Real>(touched ? lanes.v[k][i] : oldV);
+        }
+    }
+}
+
+// A piece of a batch near a mesh. Its outcomes and records go to the rows of the batch, from `at` on. A point that was
+// moved off one triangle may stand near another, so there are a few passes.
+template <class Real>
+inline long contactPiece(ContactArgs<Real>& s, int at, ContactLanes& lanes) {
+    if (s.mask != nullptr)
+        load<Real, true>(s, lanes);
+    else
+        load<Real, false>(s, lanes);
+    const int count = s.n;
+    const int n = s.n = (count + wholeLanes - 1) / wholeLanes * wholeLanes;  // whole vectors are faster than parts
+    for (int i = 0; i < count; ++i) lanes.outcome[i] &= -lanes.near[at + i];
+    for (int i = count; i < n; ++i) lanes.outcome[i] = 0;
+    for (int i = 0; i < n; ++i) lanes.read[i] = -1;
+
+    toLocal(s.from, lanes.start, lanes.localStart, n);
+    Rows& carriedStart = lanes.startNormal;
+    if (!s.still) {
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < n; ++i) carriedStart[k][i] = lanes.localStart[k][i];
+        toWorld(s.to, carriedStart, n);
+    }
+    long any = 0;
+    for (int pass = 0; pass < mostPasses; ++pass) {
+        toLocal(s.to, lanes.end, lanes.localEnd, n);
+        recallFeet(s.feet, s.thickness, lanes, count);
+        if ((anyOf(lanes.outcome, n) & isLost) != 0) s.feet.find(s.feet, s.thickness, count, lanes);
+        readFacets(s.feet.facets, lanes, count);
+        touchFeet(s.feet, s.thickness, lanes, n);
+        if ((anyOf(lanes.outcome, n) & isNear) != 0) {
+            placeOffset(s.to, lanes, n);
+            if (!s.still || s.records) findPlaces(s.thickness, lanes, n);
+            if (s.still) {
+                respond<Real, true>(s, lanes, lanes.start, lanes.carried, pass > 0);
+            } else {
+                findSpeeds(s, lanes, lanes.carried);
+                respond<Real, false>(s, lanes, carriedStart, lanes.carried, pass > 0);
+            }
+        }
+        const long found = anyOf(lanes.outcome, n);
+        if (found == 0) break;
+        any |= found;
+        if (s.records && (found & anyTouched) != 0) recordTouches(lanes, at, count);
+        if (!addResults(lanes, at, count)) break;
+    }
+    if ((any & anyTouched) != 0) storeTouched(s, lanes, lanes.result + at, count);
+    return any;
+}
+
+// Of a mesh. Neighbours in a batch are near each other, mostly: only runs of points near the surface are tried.
+template <class Real>
+long contactMesh(const ContactArgs<Real>& s, ContactLanes& lanes) {
+    const int n = s.n;
+    findNear(s, lanes);
+    for (int i = 0; i < n; ++i) lanes.result[i] = 0;
+    if (s.records)
+        for (int i = 0; i < n; ++i) lanes.sum[i] = 0.0;
+    long any = 0;
+    for (int first = 0; first < n; ++first) {
+        if (lanes.near[first] == 0) continue;
+        int last = first + 1;  // a gap within the run is shorter than a vector
+        for (int i = last; i < n && i <= last + wholeLanes; ++i)
+            if (lanes.near[i] != 0) last = i + 1;
+        ContactArgs<Real> piece = s;
+        piece.n = last - first;
+        for (int k = 0; k < 3; ++k) {
+            piece.before[k] += first;
+            piece.x[k] += first;
+            piece.v[k] += first;
+        }
+        piece.inverseMass += first;
+        if (s.mask != nullptr) piece.mask += first;
+        piece.feet.first += first;
+        any |= contactPiece(piece, first, lanes);
+        first = last;
+    }
+    for (int i = 0; i < n; ++i) lanes.outcome[i] = lanes.result[i];
+    if (s.records && (any & anyTouched) != 0) showRecords(lanes, n);
+    return any;
+}
+
 template <class Real>
 long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
+    if (s.feet.finder != nullptr) return contactMesh(s, lanes);
     const int n = s.n;
     if (s.mask != nullptr)
         load<Real, true>(s, lanes);

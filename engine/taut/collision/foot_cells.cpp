@@ -16,9 +16,6 @@ constexpr std::size_t fewTriangles = 12;  // a list that is no longer is not div
 float roundedDown(double a) {
     return static_cast<float>(a * (1.0 - 1e-6));
 }
-float roundedUp(double a) {
-    return static_cast<float>(a * (1.0 + 1e-6));
-}
 
 }  // namespace
 
@@ -172,9 +169,8 @@ void FootFinder::measureSlab(int z, Slab& slab) const {
                 least = std::sqrt(foot.square);
                 inside = isInside(middle, foot);
             }
-            const float most = roundedUp(std::sqrt(foot.square));
             cell.least = roundedDown(least);
-            cell.most = inside ? -most : most;
+            cell.isInside = inside;
             const Known here{middle, foot.triangle, inside};
             if (y == 0)
                 known.push_back(here);
@@ -201,7 +197,7 @@ void FootFinder::fillCell(std::size_t index, const dvec3& middle, double half, i
     const double distance = std::sqrt(foot.square);
     Cell cell;
     cell.least = roundedDown(distance);
-    cell.most = isInside(middle, foot) ? -roundedUp(distance) : roundedUp(distance);
+    cell.isInside = isInside(middle, foot);
 
     // From the middle to any other place of the cell, the distance to a triangle changes by half the diagonal at most.
     // This holds for the nearest triangle and for all others.

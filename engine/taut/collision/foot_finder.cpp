@@ -1,11 +1,14 @@
 #include "taut/collision/private/foot_finder.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
 namespace taut::collision {
 
 namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
 
 // The nearest point of a triangle. The signs of the barycentric coordinates tell apart the regions of its corners and
 // edges (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
@@ -94,19 +97,108 @@ Foot FootFinder::footAmong(const dvec3& p, std::span<const int> list, float* low
     return foot;
 }
 
+Foot FootFinder::footAmong(const dvec3& p, std::span<const int> list) const {
+    std::array<float, longestList> lowest;
+    return footAmong(p, list, lowest.data());
+}
+
 void FootFinder::footInTree(const dvec3& p, double shrink, Foot& foot) const {
     tree_.closest(
         p, shrink, foot.square, [&](int triangle) { update(p, triangle, foot); });
 }
 
 Foot FootFinder::foot(const dvec3& p, const Place& place) const {
-    if (!place.list.empty()) {
-        std::array<float, longestList> lowest;
-        return footAmong(p, place.list, lowest.data());
-    }
+    if (!place.list.empty()) return footAmong(p, place.list);
     Foot foot;
     footInTree(p, 1.0, foot);
     return foot;
+}
+
+// Let p have its foot inside of triangle T, at height h, and p' be another place, less far from p than h and than p's
+// foot is from T's edges. p' has its foot inside of T as well, unless another triangle is nearer.
+//
+//      p .  p'     - One at distance d > h from p is not, if p' is nearer to p than (d - h) / 2.
+//        |         - Nor is one beyond an edge of T, or beyond a corner (across its bisector), and behind T's plane, by
+//   _____|__       how much ever. If it rises e above the plane, the foot of p' has to stay √(2 h' e) away from the
+//      T    \      edges; h' < 2 h.
+//            \     The radius is the least of these bounds. Triangles that p's cell does not list are farther than
+//                  those that it lists, in all of the cell.
+double FootFinder::radiusOfFace(const dvec3& p, const Place& place, const Foot& foot, const float* lowest) const {
+    const dvec3 centre = bounds_.centre();
+    const Facet& face = triangle(foot.triangle);
+    const Prism& prism = prisms_[static_cast<std::size_t>(foot.triangle)];
+    const auto heights = [&](const dvec3& at) {
+        const dvec3 from = at - centre;
+        return prism.x * static_cast<float>(from.x) + prism.y * static_cast<float>(from.y) +
+               prism.z * static_cast<float>(from.z) - prism.offset;
+    };
+    const Four at = heights(p);
+    const double height = std::abs(static_cast<double>(at[0]));
+    const double within = -static_cast<double>(std::max({at[1], at[2], at[3]})) - 1e-4 * height - 5.0 * rounding_;
+    double radius = std::min({place.room, height - 5.0 * rounding_, within});
+    const dvec3 up = at[0] < 0.0F ? -face.normal : face.normal;
+    for (std::size_t i = 0; i < place.list.size() && radius > 0.0; ++i) {
+        if (place.list[i] == foot.triangle) continue;
+        const double apart = std::sqrt(static_cast<double>(lowest[i])) - height - 4.0 * rounding_;
+        double bound = 0.499 * apart;
+        if (bound >= radius) continue;
+        const Facet& t = triangle(place.list[i]);
+        const std::array<dvec3, 3> corners{t.corner, t.corner + t.ab, t.corner + t.ac};
+        double rise = 1e-9 * rounding_;
+        Four beyond = {infinite, infinite, infinite, infinite};  // edges
+        Four across = beyond;                                    // corners; a sum of two
+        for (const dvec3& corner : corners) {
+            rise = std::max(rise, glm::dot(corner - face.corner, up));
+            const Four over = heights(corner);
+            const Four both = over + __builtin_shufflevector(over, over, 0, 2, 3, 1);
+            beyond = over < beyond ? over : beyond;
+            across = both < across ? both : across;
+        }
+        const float most = std::max({beyond[1], beyond[2], beyond[3], across[1], across[2], across[3]});
+        if (most >= -static_cast<float>(rounding_))
+            bound = std::max(bound, within - 2.05 * std::sqrt(height * rise));
+        radius = std::min(radius, bound);
+    }
+    return radius * (1.0 - 1e-6);
+}
+
+// The few are the triangles of the least lower bounds. A place that is m away from p has its foot at no more than
+// d + m, and is no nearer to the others than their bounds less m. So footAmong() would not look at them.
+void FootFinder::findFew(const Place& place, const float* lowest, Around& around) const {
+    const std::size_t size = place.list.size();
+    around.fewRadius = place.room - rounding_;
+    float limit = infinite;
+    if (size > around.few.size()) {
+        std::array<float, longestList> sorted{};
+        std::copy_n(lowest, size, sorted.begin());
+        float* const next = sorted.data() + around.few.size();
+        std::nth_element(sorted.data(), next, sorted.data() + size);
+        limit = *next;
+        const double others = std::sqrt(static_cast<double>(limit)) - 40.0 * rounding_;
+        around.fewRadius = std::min(around.fewRadius, 0.499 * (others - 1.001 * std::sqrt(around.foot.square)));
+    }
+    for (std::size_t i = 0; i < size; ++i)
+        if (lowest[i] < limit) around.few[around.fewCount++] = place.list[i];
+}
+
+FootFinder::Around FootFinder::know(const dvec3& p, double far) const {
+    Around known;
+    const Place near = place(p);
+    if (near.least > 0.0 && near.inside && isClosed()) return known;
+    known.clear = near.least * (1.0 - 1e-6);
+    if (known.clear > far) return known;
+    if (near.list.empty()) {
+        footInTree(p, 1.0, known.foot);
+    } else {
+        std::array<float, longestList> lowest;
+        known.foot = footAmong(p, near.list, lowest.data());
+        known.radius = radiusOfFace(p, near, known.foot, lowest.data());
+        if (!(known.radius > 0.0)) findFew(near, lowest.data(), known);
+    }
+    const bool inside = isInside(p, known.foot);
+    known.clear = inside ? -1.0 : std::sqrt(known.foot.square) * (1.0 - 1e-6);
+    if (inside) known.radius = -1.0;
+    return known;
 }
 
 bool FootFinder::isInside(const dvec3& p, const Foot& foot) const {
@@ -147,7 +239,8 @@ FootFinder::Place FootFinder::place(const dvec3& p) const {
     // A distance changes by no more than the way from the middle to p.
     const dvec3 off = p - middle;
     const double away = std::sqrt(glm::dot(off, off));
-    Place place{cell->least - away, std::abs(cell->most) + away, cell->most < 0.0F, {}};
+    const double room = isWithin ? half - std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)}) : -1.0;
+    Place place{cell->least - away, room, cell->isInside, {}};
     if (isWithin) place.list = {lists_.data() + cell->first, static_cast<std::size_t>(cell->count)};
     return place;
 }

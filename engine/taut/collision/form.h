@@ -11,6 +11,8 @@
 
 namespace taut::collision {
 
+class FootFinder;
+
 // Never changes once built: colliders, and copies of them, share it, also from several threads.
 class Form {
   public:
@@ -37,6 +39,9 @@ class Form {
 
     // The closed form that loops over arrays of points may use for a convex form; none: points are tested one by one.
     virtual ClosedShape closed() const { return {}; }
+
+    // What finds the nearest places of a mesh, for loops over many points; nullptr: points are tested one by one.
+    virtual const FootFinder* feet() const { return nullptr; }
 
     // Its corners and sharp edges; none: the points of the bodies that touch it suffice.
     virtual Outline outline() const { return {}; }

@@ -4,6 +4,7 @@
 #include "taut/collision/private/candidates.h"
 #include "taut/collision/private/contact_kernel.h"
 #include "taut/collision/private/cull.h"
+#include "taut/collision/private/foot_finder.h"
 #include "taut/collision/private/impl.h"
 #include "taut/collision/private/response.h"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int mostAtOnce = 32;  // solids that a block of points is tried against: the bits of a mask
 constexpr int smallBlock = 16;  // points; a block that is near to several solids is not halved below this size
-constexpr int mostPasses = 4;   // over the solids that one point touches
 
 template <class Real>
 class Resolver {
@@ -33,6 +33,7 @@ class Resolver {
     void resolveBody() {
         for (int first = points_.first; first < points_.last; first += candidateBlock, ++block_) {
             const int last = std::min(first + candidateBlock, points_.last);
+            blockFirst_ = first;
             core::Aabb box;
             candidates_.look<Real>(solids_, block_, rowsOf(first, last), points_.thickness, box);
             if (!candidates_.near().empty()) resolveBlock(first, last, box);
@@ -108,7 +109,7 @@ class Resolver {
     bool hasJumped(const Solid& solid) const { return solid.travel > fastestSurface * h_; }
 
     bool isForKernel(const Solid& solid) const {
-        return solid.convex && solid.closed.kind != ClosedKind::none &&
+        return (solid.closed.kind != ClosedKind::none || solid.feet != nullptr) &&
                (!solid.bounded || hasJumped(solid) || solid.turn.empty());
     }
 
@@ -216,6 +217,13 @@ class Resolver {
         args.bits = 0;
         args.records = records_;
         args.shape = solid.closed;
+        if (solid.feet != nullptr)
+            args.feet = {.finder = solid.feet,
+                         .facets = solid.feet->facetNumbers(),
+                         .isClosed = solid.feet->isClosed(),
+                         .rows = &candidates_.feet(block_),
+                         .first = first - blockFirst_,
+                         .find = findFeet};
         args.offset = solid.above.offset;
         args.to = frameFor(solid.to);
         args.still = solid.still || hasJumped(solid);
@@ -339,6 +347,7 @@ class Resolver {
     const double restSpeed_;
     CandidateRooms& candidates_;
     std::size_t& block_;
+    int blockFirst_ = 0;  // its first point
     std::vector<int>& touched_;
     std::vector<Contact>& contacts_;
     const bool records_;  // whether the caller wants contacts

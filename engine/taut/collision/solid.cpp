@@ -42,6 +42,7 @@ void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid
         solid.inCollider = inCollider;
         solid.convex = shape.form->isConvex();
         solid.closed = shape.form->closed();
+        solid.feet = shape.form->feet();
         solid.bounded = bounds.has_value();
         if (bounds) solid.localBounds = *bounds;
         return;

@@ -78,7 +78,7 @@ bool TriangleMesh::sweep(const Path& path, HalfSpace& touch, bool& crossed) cons
     const Foot end = finder_.foot(path.to, near);
     if (end.triangle < 0) return false;
     // A path shorter than the way to the surface crosses nothing, and starts on the side where it ends.
-    const double clear = length + path.skin + 1e-8 * (length + std::abs(near.most));
+    const double clear = 1.0000001 * (length + path.skin);
     if (end.square > clear * clear)
         return finder_.isInside(path.to, end) ? findWayOut(path, end, touch) : touchNear(path, end, touch);
 

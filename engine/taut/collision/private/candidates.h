@@ -9,6 +9,7 @@
 #include "taut/collision/colliders.h"
 #include "taut/collision/private/contact_kernel.h"
 #include "taut/collision/private/cull.h"
+#include "taut/collision/private/foot_rows.h"
 #include "taut/collision/private/solid.h"
 
 namespace taut::collision {
@@ -32,7 +33,15 @@ class CandidateRooms {
               core::Aabb& box);
 
     const std::vector<const Solid*>& near() const { return near_; }
-    void drop() { blocks_.clear(); }
+    // What is known of the feet of a block's points.
+    FootRows& feet(std::size_t block) {
+        if (block >= feet_.size()) feet_.resize(block + 1);
+        return feet_[block];
+    }
+    void drop() {
+        blocks_.clear();
+        feet_.clear();
+    }
 
     std::vector<Contact> scratch;
 
@@ -55,6 +64,7 @@ class CandidateRooms {
 
     std::vector<SolidRoom> solids_;
     std::vector<BlockRoom> blocks_;
+    std::vector<FootRows> feet_;       // (blocks) as far as they came near a mesh
     std::vector<std::uint64_t> bits_;  // (blocks × words_) solids whose room the block's room meets
     std::size_t words_ = 0;
     std::vector<const Solid*> near_;

@@ -1,5 +1,5 @@
-// Contact of a batch of points with one convex solid. There is one copy for each instruction set. Every copy gives the
-// same bits as resolving the points one by one (resolve.cpp). Plain data only.
+// Contact of a batch of points with one convex solid or one mesh. There is one copy for each instruction set. Every
+// copy gives the same bits as resolving the points one by one (resolve.cpp). Plain data only.
 #pragma once
 
 #include "taut/collision/closed_shape.h"
@@ -10,6 +10,24 @@ inline constexpr int contactBatch = 64;  // points at most, so that their data s
 
 // Length of a row: a batch and one cache line more. Rows that are a page apart would slow each other down.
 inline constexpr int contactRow = contactBatch + 8;
+
+// How often a point is tried against all that it may touch: what was moved out of one may stand in another.
+inline constexpr int mostPasses = 4;
+
+class FootFinder;
+struct FootRows;
+struct ContactLanes;
+
+// The triangles of a mesh.
+struct FeetArgs {
+    const FootFinder* finder = nullptr;  // nullptr: it is no mesh
+    const double* facets = nullptr;      // (12 · triangles) each a Facet (facets.h)
+    bool isClosed = false;
+    FootRows* rows = nullptr;  // what is known of the points: those from `first` on
+    int first = 0;
+    // Finds the feet of the points that are lost. It is called once for a pass over the batch.
+    void (*find)(const FeetArgs& args, double thickness, int n, ContactLanes& lanes) = nullptr;
+};
 
 struct KernelFrame {
     double rotation[3][3];  // columns
@@ -29,6 +47,7 @@ struct ContactArgs {
     bool records;  // whether the caller wants the positions of touched points
 
     ClosedShape shape;
+    FeetArgs feet;
     double normal[3];      // of a half-space, in the world
     double offset;         // [m] of a half-space, in the world
     KernelFrame from, to;  // of the solid, at the start and the end of the step
@@ -78,11 +97,30 @@ struct ContactLanes {
     alignas(64) double along[3][contactRow];  // later the end after the touch
     alignas(64) double back[contactRow];
     alignas(64) long creeps[contactRow];
+
+    // Of a mesh.
+    alignas(64) double way[contactRow];        // [m²] square of the path's length
+    alignas(64) double foot[3][contactRow];    // where the surface is nearest
+    alignas(64) long triangle[contactRow];     // of the foot
+    alignas(64) long read[contactRow];         // whose numbers `facet` has; -1: none
+    alignas(64) double facet[12][contactRow];  //
+    alignas(64) long bent[contactRow];         // not 0: not over the middle of a triangle
+    // Of a mesh, of all of the batch.
+    alignas(64) long near[contactRow];       // 0: the point is far from it
+    alignas(64) long result[contactRow];     // the outcome of all passes
+    alignas(64) double sum[contactRow];      // of the impulses
+    alignas(64) double last[9][contactRow];  // position, normal and carried of the last touch
 };
 
 // Bits of a call's return value: whether any point was touched, or left.
 inline constexpr long anyTouched = 1;
 inline constexpr long anyLeft = 2;
+
+// Bits of `outcome` while a kernel works: what it has found out about a point so far.
+inline constexpr long isLive = 4, isNear = 8, needsStart = 16;
+inline constexpr long isLost = 32;      // its foot on a mesh is not known
+inline constexpr long isOverFace = 64;  // the foot is inside of `triangle`
+inline constexpr long hasFoot = 128;    // `foot` is known
 
 template <class Real>
 using ContactKernel = long (*)(const ContactArgs<Real>& args, ContactLanes& lanes);

@@ -11,9 +11,6 @@ namespace {
 using Row = double[contactRow];
 using Rows = Row[3];
 
-// Bits of `outcome` while the kernel works: what it has found out about a point so far.
-constexpr long isLive = 4, isNear = 8, needsStart = 16;
-
 // a if all bits of `mask` are set, b if none are. It always reads both. Compilers turn a selection into masked reads
 // and writes, which are slow on some processors.
 inline double choose(long mask, double a, double b) {
@@ -161,6 +158,9 @@ inline void lift(ContactLanes& lanes, int n) {
     }
 }
 
+// Takes what the touch makes of each point. A point that was touched before takes it even if there is nothing to
+// report.
+template <bool again>
 inline void take(ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -173,20 +173,22 @@ inline void take(ContactLanes& lanes, int n) {
         const double arrival = depth > 0.0 ? -depth : approach;
         const double rise = depth > skin ? depth : impulse;
         const long found = lanes.outcome[i];
-        const bool touched = ((found & isNear) != 0) & (depth > -skin) & (arrival < 0.0) & (rise > 0.0);
-        const long mask = touched ? -1L : 0L;
+        const bool arrives = ((found & isNear) != 0) & (depth > -skin) & (arrival < 0.0);
+        const bool touched = arrives & (rise > 0.0);
+        const long mask = (again ? arrives : touched) ? -1L : 0L;
         lanes.end[0][i] = choose(mask, newX, x);
         lanes.end[1][i] = choose(mask, newY, y);
         lanes.end[2][i] = choose(mask, newZ, z);
         lanes.v[0][i] = choose(mask, newVx, vx);
         lanes.v[1][i] = choose(mask, newVy, vy);
         lanes.v[2][i] = choose(mask, newVz, vz);
-        lanes.outcome[i] = (mask & anyTouched) | (~mask & found & anyLeft);
+        lanes.outcome[i] = touched ? anyTouched : found & anyLeft;
     }
 }
 
 template <class Real, bool still>
-inline void respond(const ContactArgs<Real>& s, ContactLanes& lanes, const Rows& path, const Rows& velocity) {
+inline void respond(const ContactArgs<Real>& s, ContactLanes& lanes, const Rows& path, const Rows& velocity,
+                    bool again = false) {
     press<still>(s.friction, s.restitution, s.restSpeed, path, velocity, lanes, s.n);
     const bool slips = anyOf(lanes.slips, s.n) != 0, creeps = anyOf(lanes.creeps, s.n) != 0;
     if (slips) {
@@ -203,7 +205,10 @@ inline void respond(const ContactArgs<Real>& s, ContactLanes& lanes, const Rows&
     } else {
         lift<still, true, false>(lanes, s.n);
     }
-    take(lanes, s.n);
+    if (again)
+        take<true>(lanes, s.n);
+    else
+        take<false>(lanes, s.n);
 }
 
 }  // namespace

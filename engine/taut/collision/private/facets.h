@@ -14,6 +14,7 @@ struct Facet {
     dvec3 corner, ab, ac;  // [m]
     dvec3 normal;          // unit, along ab × ac
 };
+static_assert(sizeof(Facet) == 12 * sizeof(double));  // the kernels take it for an array
 
 struct Facets {
     std::vector<Facet> triangles;        // none without area

@@ -31,7 +31,7 @@ class FootFinder {
     // What the cells know about a place, without a look at triangles.
     struct Place {
         double least;               // [m] the surface is at least this far
-        double most;                // [m] the surface is at most this far
+        double room;                // [m] from the place to the border of its cell; below 0 outside of all cells
         bool inside;                // the place is inside; valid if least > 0
         std::span<const int> list;  // triangles that include the nearest; empty: not known
     };
@@ -40,6 +40,21 @@ class FootFinder {
     // The nearest place to p. `place` is place(p). Of triangles that are equally near (at an edge or a corner) it takes
     // the one that faces p most.
     Foot foot(const dvec3& p, const Place& place) const;
+
+    // What is known about the places near p. If the surface is farther than `far` [m], that is all.
+    struct Around {
+        double clear = -1.0;       // [m] the surface is at least this far from p; below 0: p is inside
+        double radius = -1.0;      // [m] places as near to p have their foot on p's triangle, if it is inside of that
+        double fewRadius = -1.0;   // [m] places as near to p have their foot on one of `few`
+        std::array<int, 4> few{};  // triangles, in the order of their list
+        std::size_t fewCount = 0;
+        Foot foot;  // of p; no triangle: p is far, or inside
+    };
+    Around know(const dvec3& p, double far) const;
+
+    // The nearest place to p on the triangles of a list, which gives the same bits as foot() if all that can be nearest
+    // are in it.
+    Foot footAmong(const dvec3& p, std::span<const int> list) const;
 
     // Whether p is inside a closed surface; `foot` is the foot of p. The triangle that faces p most decides this
     // correctly for every closed surface.
@@ -54,6 +69,7 @@ class FootFinder {
     const core::Aabb& bounds() const { return bounds_; }
     bool isClosed() const { return facets_.isClosed; }
     const Facets& facets() const { return facets_; }
+    const double* facetNumbers() const { return &facets_.triangles.front().corner.x; }  // (12 · triangles)
 
   private:
     // A triangle in single precision, relative to the middle of all triangles. It gives a place's heights over the
@@ -62,10 +78,10 @@ class FootFinder {
     struct Prism {
         Four x, y, z, offset;
     };
-    // A cube of space. The surface is from `least` to |most| metres away from its middle.
+    // A cube of space. The surface is at least `least` metres away from its middle.
     struct Cell {
         float least = 0.0F;
-        float most = 0.0F;        // below zero: the middle is inside
+        bool isInside = false;    // the middle
         std::uint32_t first = 0;  // start of its list, or of its eight parts
         std::int32_t count = 0;   // length of its list; 0: it has none; below 0: it has parts
     };
@@ -76,6 +92,9 @@ class FootFinder {
     Foot footAmong(const dvec3& p, std::span<const int> list, float* lowest) const;
     void footInTree(const dvec3& p, double shrink, Foot& foot) const;
     void lowestSquares(const dvec3& fromCentre, std::span<const int> list, float* lowest) const;  // [m²]
+
+    void findFew(const Place& place, const float* lowest, Around& around) const;
+    double radiusOfFace(const dvec3& p, const Place& place, const Foot& foot, const float* lowest) const;
 
     void makePrisms();
     void widenPrisms();

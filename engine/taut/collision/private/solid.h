@@ -24,6 +24,7 @@ struct Solid {
     double travel = 0.0;  // [m] how far the collider's fastest corner goes during the step
     bool convex = true;
     ClosedShape closed;
+    const FootFinder* feet = nullptr;  // of a mesh
     bool bounded = true;  // false: a plane
     HalfSpace above{};    // a plane's half-space in the world at the end of the step
     core::Aabb localBounds;  // [m] unless it is a plane

@@ -27,6 +27,8 @@ class TriangleMesh final : public Form {
 
     std::optional<core::Aabb> bounds() const override { return finder_.bounds(); }
 
+    const FootFinder* feet() const override { return &finder_; }
+
     Outline outline() const override { return outlineOf(finder_.facets()); }
 
   private:

@@ -1,0 +1,26 @@
+// What is known about where the points of a block have their feet on triangles (foot_finder.h): for each of them a
+// place where it once was, and how far around that place an answer holds. It saves searches and changes no result: an
+// answer that holds is the one that a search would find. Plain data, because the kernels read it.
+#pragma once
+
+#include <cstddef>
+
+#include "taut/collision/private/contact_kernel.h"
+
+namespace taut::collision {
+
+struct FootRows {
+    alignas(64) double anchor[3][contactBatch] = {};  // [m] in the frame of the triangles
+    alignas(64) double clear[contactBatch] = {};      // [m] the surface is at least this far from the anchor
+    alignas(64) double radius[contactBatch] = {};     // [m] so near to the anchor feet are inside of `triangle`
+    alignas(64) long triangle[contactBatch] = {};     //
+    double fewRadius[contactBatch] = {};              // [m] so near to the anchor feet are on one of `few`
+    int few[contactBatch][4] = {};                    //
+    std::size_t fewCount[contactBatch] = {};          //
+    const FootFinder* finder[contactBatch] = {};      // whose triangles they are; nullptr: nothing is known
+};
+
+// Finds the feet of the points of a batch that are lost, and notes what is known about them.
+void findFeet(const FeetArgs& args, double thickness, int n, ContactLanes& lanes);
+
+}  // namespace taut::collision

@@ -225,6 +225,7 @@ void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     // The lists of pairs that have used it up are due.
     selectDue();
     bvh_.measureFlatness(between_, x0, x1);
+    findBoxes(x0);
     refreshDue(x0);
     limitSlack(boxMargin);
 }

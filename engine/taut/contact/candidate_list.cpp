@@ -8,6 +8,7 @@
 
 #include "taut/contact/broad_phase.h"
 #include "taut/contact/closest_batch.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::contact {
 namespace {
@@ -15,34 +16,14 @@ namespace {
 constexpr double leastMargin = 0.4;    // of the thickness
 constexpr double instantsAhead = 4.0;  // a list should last for so many instants like this one
 
-// Boxes of elements, one row for each coordinate, for the kernel that tests many at once.
-struct BoxRows {
-    std::vector<int> item;
-    std::vector<double> low[3], high[3];
-    void clear() {
-        item.clear();
-        for (int k = 0; k < 3; ++k) {
-            low[k].clear();
-            high[k].clear();
-        }
-    }
-    void add(int number, const core::Aabb& box) {
-        item.push_back(number);
-        for (int k = 0; k < 3; ++k) {
-            low[k].push_back(box.low[k]);
-            high[k].push_back(box.high[k]);
-        }
-    }
-};
-
 struct MeasuredPair {
     CandidatePair pair;
     double distance;  // [m]
 };
 
 struct Scratch {
-    BoxRows first, second;
-    std::vector<int> hits;
+    ElementBoxes near;  // of the second leaf, those near the first
+    std::vector<int> firsts, seconds;
     std::vector<CandidatePair> overlapping;
     ClosestBatch batch;
     std::vector<MeasuredPair> inReach;
@@ -59,83 +40,41 @@ struct Query {
     bool isBond;       // both surfaces belong to one body
     bool isOne;        // both leaves are the same leaf
 
-    const dvec3& at(int i) const { return x0[static_cast<std::size_t>(i)]; }
     const Triangle& triangle(int t) const { return elements.triangles()[static_cast<std::size_t>(t)]; }
     const Edge& edge(int e) const { return elements.edges()[static_cast<std::size_t>(e)]; }
-    core::Aabb boxOfEdge(int e) const {
-        core::Aabb box;
-        box.add(at(edge(e).a));
-        box.add(at(edge(e).b));
-        return box;
-    }
 };
 
-// Calls each(item) for the rows from `from` on that overlap the box.
-template <class Each>
-void forEachHit(const ClosestKernels& kernels, const BoxRows& rows, const core::Aabb& box, std::size_t from,
-                std::vector<int>& hits, Each&& each) {
-    hits.resize(rows.item.size());
+// The numbers of the boxes, from `from` on, that overlap the box grown by the reach -> hits.
+void findHits(const Query& query, const ElementBoxes& boxes, core::Aabb box, std::size_t from, std::vector<int>& hits) {
+    box.grow(query.reach);
+    hits.resize(boxes.item.size());
     BoxLanes lanes;
-    lanes.n = static_cast<int>(rows.item.size() - from);
+    lanes.n = static_cast<int>(boxes.item.size() - from);
     for (int k = 0; k < 3; ++k) {
-        lanes.low[k] = rows.low[k].data() + from;
-        lanes.high[k] = rows.high[k].data() + from;
+        lanes.low[k] = boxes.low[k].data() + from;
+        lanes.high[k] = boxes.high[k].data() + from;
     }
-    const int count = kernels.findOverlapping(lanes, &box.low[0], &box.high[0], hits.data());
-    for (int n = 0; n < count; ++n) each(rows.item[from + static_cast<std::size_t>(hits[static_cast<std::size_t>(n)])]);
+    hits.resize(static_cast<std::size_t>(query.kernels.findOverlapping(lanes, &box.low[0], &box.high[0], hits.data())));
+    for (int& hit : hits) hit += static_cast<int>(from);
 }
 
-core::Aabb grown(core::Aabb box, double by) {
-    box.grow(by);
-    return box;
-}
-
-// Finds points of one leaf and triangles of the other whose boxes are within reach -> scratch.overlapping.
-void overlapPoints(const Query& query, const BvhLeaf& ofPoints, const BvhLeaf& ofTriangles, const core::Aabb& pointBox,
-                   const core::Aabb& triangleBox, Scratch& scratch) {
-    scratch.first.clear();
-    for (int i : ofPoints.points) {
-        core::Aabb box;
-        box.add(query.at(i));
-        if (box.overlaps(triangleBox, query.reach)) scratch.first.add(i, box);
-    }
-    if (scratch.first.item.empty()) return;
-    for (int t : ofTriangles.triangles) {
-        const Triangle& triangle = query.triangle(t);
-        if (triangle.isGone) continue;
-        const std::array<int, 3>& c = triangle.points;
-        core::Aabb box;
-        for (int i : c) box.add(query.at(i));
-        if (!box.overlaps(pointBox, query.reach)) continue;
-        forEachHit(query.kernels, scratch.first, grown(box, query.reach), 0, scratch.hits, [&](int i) {
-            if (i != c[0] && i != c[1] && i != c[2]) scratch.overlapping.push_back({i, t, query.thickness});
-        });
-    }
-}
-
-// Finds edges of both leaves whose boxes are within reach -> scratch.overlapping.
-void overlapEdges(const Query& query, const BvhLeaf& a, const BvhLeaf& b, const core::Aabb& boxA,
-                  const core::Aabb& boxB, Scratch& scratch) {
-    const auto gather = [&](const BvhLeaf& leaf, const core::Aabb& other, BoxRows& rows) {
-        rows.clear();
-        for (int e : leaf.edges) {
-            if (query.edge(e).isGone) continue;
-            const core::Aabb box = query.boxOfEdge(e);
-            if (box.overlaps(other, query.reach)) rows.add(e, box);
-        }
-    };
-    gather(b, boxA, scratch.second);
-    if (!query.isOne) gather(a, boxB, scratch.first);
-    const BoxRows& firsts = query.isOne ? scratch.second : scratch.first;
-    for (std::size_t k = 0; k < firsts.item.size(); ++k) {
-        const int e = firsts.item[k];
-        const Edge& first = query.edge(e);
-        const core::Aabb box = grown(query.boxOfEdge(e), query.reach);
-        forEachHit(query.kernels, scratch.second, box, query.isOne ? k + 1 : 0, scratch.hits, [&](int f) {
-            const Edge& second = query.edge(f);
-            if (first.a != second.a && first.a != second.b && first.b != second.a && first.b != second.b)
-                scratch.overlapping.push_back({std::min(e, f), std::max(e, f), query.thickness});
-        });
+// Calls each(first, second) for elements of two leaves whose boxes are within reach of each other. box: of the first
+// leaf's elements; boxOfSecond likewise.
+template <class Each>
+void forEachNear(const Query& query, const ElementBoxes& first, const core::Aabb& box, const ElementBoxes& second,
+                 const core::Aabb& boxOfSecond, bool areSame, Scratch& scratch, const Each& each) {
+    findHits(query, second, box, 0, scratch.seconds);
+    scratch.near.clear();
+    for (int hit : scratch.seconds) scratch.near.add(second.item[static_cast<std::size_t>(hit)], second.box(hit));
+    if (scratch.near.item.empty()) return;
+    if (!areSame) findHits(query, first, boxOfSecond, 0, scratch.firsts);
+    const ElementBoxes& firsts = areSame ? scratch.near : first;
+    const std::size_t count = areSame ? firsts.item.size() : scratch.firsts.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const int own = areSame ? static_cast<int>(k) : scratch.firsts[k];
+        findHits(query, scratch.near, firsts.box(own), areSame ? k + 1 : 0, scratch.seconds);
+        for (int hit : scratch.seconds)
+            each(firsts.item[static_cast<std::size_t>(own)], scratch.near.item[static_cast<std::size_t>(hit)]);
     }
 }
 
@@ -191,6 +130,37 @@ void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), Point
 
 }  // namespace
 
+// Of the leaves of lists that expired: boxes of their elements at x0, which many lists need -> boxes_.
+void BroadPhase::findBoxes(std::span<const dvec3> x0) {
+    boxes_.resize(static_cast<std::size_t>(bvh_.count()));
+    leafList_.clear();
+    for (const CandidateList* list : due_)
+        if (list->isExpired) leafList_.insert(leafList_.end(), {list->a, list->b});
+    std::sort(leafList_.begin(), leafList_.end());
+    leafList_.erase(std::unique(leafList_.begin(), leafList_.end()), leafList_.end());
+    core::parallelFor(static_cast<int>(leafList_.size()), [&](int k) {
+        const int number = leafList_[static_cast<std::size_t>(k)];
+        const BvhLeaf& leaf = bvh_[number];
+        LeafBoxes& boxes = boxes_[static_cast<std::size_t>(number)];
+        for (ElementBoxes* own : {&boxes.points, &boxes.triangles, &boxes.edges}) own->clear();
+        const auto boxOf = [&](auto... points) {
+            core::Aabb box;
+            (box.add(x0[static_cast<std::size_t>(points)]), ...);
+            return box;
+        };
+        for (int i : leaf.points) boxes.points.add(i, boxOf(i));
+        for (int t : leaf.triangles) {
+            const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(t)];
+            const std::array<int, 3>& c = triangle.points;
+            if (!triangle.isGone) boxes.triangles.add(t, boxOf(c[0], c[1], c[2]));
+        }
+        for (int e : leaf.edges) {
+            const Edge& edge = elements_.edges()[static_cast<std::size_t>(e)];
+            if (!edge.isGone) boxes.edges.add(e, boxOf(edge.a, edge.b));
+        }
+    });
+}
+
 void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const {
     const BvhLeaf &a = bvh_[list.a], &b = bvh_[list.b];
     const double thickness = list.thickness;
@@ -208,12 +178,21 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     const double reach = nearShare * thickness + margin;
     const Query query{elements_, x0, kernels, thickness, margin, reach, isBond, list.a == list.b};
     const core::Aabb &boxA = bvh_.motion(list.a).before, &boxB = bvh_.motion(list.b).before;
+    const LeafBoxes &ofA = boxes_[static_cast<std::size_t>(list.a)], &ofB = boxes_[static_cast<std::size_t>(list.b)];
     thread_local Scratch scratch;
     scratch.overlapping.clear();
 
     // Pairs of points and triangles first.
-    overlapPoints(query, a, b, boxA, boxB, scratch);
-    if (!query.isOne) overlapPoints(query, b, a, boxB, boxA, scratch);
+    const auto addPoints = [&](const LeafBoxes& points, const core::Aabb& boxOfPoints, const LeafBoxes& triangles,
+                               const core::Aabb& boxOfTriangles) {
+        forEachNear(query, triangles.triangles, boxOfTriangles, points.points, boxOfPoints, false, scratch,
+                    [&](int t, int i) {
+                        const std::array<int, 3>& c = query.triangle(t).points;
+                        if (i != c[0] && i != c[1] && i != c[2]) scratch.overlapping.push_back({i, t, thickness});
+                    });
+    };
+    addPoints(ofA, boxA, ofB, boxB);
+    if (!query.isOne) addPoints(ofB, boxB, ofA, boxA);
     appendInReach(
         query, kernels.onTriangles,
         [&](const CandidatePair& pair) -> std::array<int, 4> {
@@ -225,7 +204,11 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     list.pointPairs = list.pairs.size();
 
     // Then pairs of edges.
-    overlapEdges(query, a, b, boxA, boxB, scratch);
+    forEachNear(query, ofA.edges, boxA, ofB.edges, boxB, query.isOne, scratch, [&](int e, int f) {
+        const Edge &first = query.edge(e), &second = query.edge(f);
+        if (first.a != second.a && first.a != second.b && first.b != second.a && first.b != second.b)
+            scratch.overlapping.push_back({std::min(e, f), std::max(e, f), thickness});
+    });
     appendInReach(
         query, kernels.onSegments,
         [&](const CandidatePair& pair) -> std::array<int, 4> {

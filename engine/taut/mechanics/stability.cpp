@@ -264,9 +264,10 @@ void addSpringStiffness(std::span<const Spring> springs, std::span<const glm::dv
                         std::span<const glm::dvec3> u, std::span<glm::dvec3> out) {
     for (const Spring& spring : springs) {
         const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
+        const glm::dvec3 du = u[a] - u[b];
+        if (du == glm::dvec3(0.0)) continue;
         const glm::dvec3 d = positions[b] - positions[a];
         const double l = std::sqrt(glm::dot(d, d));
-        const glm::dvec3 du = u[a] - u[b];
         glm::dvec3 f = spring.stiffness * du;
         if (l > 0) {
             const glm::dvec3 n = d / l;

@@ -401,7 +401,7 @@ void ContactStage::resolveInstant(double h) {
     total_.testedPairs += static_cast<std::int64_t>(group_->testedCount());
     hadImpulse_ = hadImpulse_ || result_.impulses > 0;
     turn_ = 0;
-    if (result_.impulses > 0)
+    if (result_.impulses > 0 && !spec_.instants && instants_ < instantsFor(result_.surfaces))
         for (const Part& part : parts_) turn_ = std::max(turn_, turnOf(part, h));
     total_.slides += result_.slides;
     total_.zones += result_.zones;

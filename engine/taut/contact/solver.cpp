@@ -220,7 +220,8 @@ void ContactSolver::addRow(int source, const Problem& problem) {
 
 // Solves v by the same rule, for the rows that got an impulse.
 void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster, const Problem& problem) {
-    std::vector<Row> rows;
+    thread_local std::vector<Row> rows;
+    rows.clear();
     for (const Row& row : all) {
         const bool isPair = static_cast<std::size_t>(row.source) < problem.pairs.size();
         if (isPair && !(row.impulse.of[3] > 0)) continue;
@@ -233,7 +234,8 @@ void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster
 // Solves 0 <= multiplier  ⊥  n·shift - target >= 0, for the pairs that overlap or have an impulse. Pairs that do not
 // overlap have the target 0, so that a correction does not press them together, nor into colliders.
 void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cluster, const Problem& problem) {
-    std::vector<Row> rows;
+    thread_local std::vector<Row> rows;
+    rows.clear();
     bool overlaps = false;
     for (const Row& row : all) {
         double target = 0;

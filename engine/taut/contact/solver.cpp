@@ -195,7 +195,10 @@ int ContactSolver::solveCluster(const Cluster& cluster, std::span<const ContactC
                                 std::span<dvec3> shift) {
     const int sweeps =
         projectedGaussSeidel(pairs, cluster.rows, cluster.kinematicRows, options.sweeps, cluster.tolerance, u);
-    for (const Row& row : cluster.rows) impulses_[static_cast<std::size_t>(row.pair)] = row.impulse.normal;
+    for (const Row& row : cluster.rows) {
+        impulses_[static_cast<std::size_t>(row.pair)] = row.impulse.normal;
+        frictions_[static_cast<std::size_t>(row.pair)] = row.impulse.friction;
+    }
 
     const auto solveV = [&] {
         std::vector<Row> rows;
@@ -222,6 +225,7 @@ void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<co
                           std::span<const double> inverseMass, double h, const SolverOptions& options,
                           std::span<dvec3> u, std::span<dvec3> v, std::span<dvec3> shift) {
     impulses_.assign(pairs.size(), 0.0);
+    frictions_.assign(pairs.size(), dvec3(0.0));
     findClusters(pairs, kinematic, u.size(), inverseMass);
     prepareRows(pairs, inverseMass, h, options, u);
 

@@ -14,7 +14,12 @@ namespace taut::world {
 namespace {
 
 constexpr float frozenDullness = 0.93F;
+constexpr float asleepDullness = 0.8F;  // in the debug view
 constexpr double fullStrain = 0.02;  // strain that the debug view shows in full colour
+
+float dullnessOf(const Island& island, bool debug) {
+    return island.frozen() != nullptr ? frozenDullness : debug && island.isAsleep() ? asleepDullness : 0.0F;
+}
 
 // Blue when compressed, grey at rest, red when stretched.
 glm::vec3 strainColour(double strain) {
@@ -93,7 +98,7 @@ std::vector<dvec3> placesAhead(const Island& island, double ahead) {
 }
 
 // Draws ties of joints. Ties between bodies are extrapolated with them.
-void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
+void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view) {
     const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
     if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
     std::map<std::string, glm::mat4> poses;  // of the colliders
@@ -113,13 +118,13 @@ void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
             const glm::vec3 b = tie.b >= 0 ? glm::vec3(x[static_cast<std::size_t>(tie.b)])
                                            : glm::vec3(poses.at(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
             view.surfaces.push_back(drawing->surface(a, b, number));
-            if (island->frozen() != nullptr) view.surfaces.back().dulled = frozenDullness;
+            if (const float dull = dullnessOf(*island, debug); dull > 0) view.surfaces.back().dulled = dull;
         }
     }
 }
 
 // The contents of a picture without labels and marks. Puts bodies into `drawn`, in order.
-view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& drawn) {
+view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vector<Body*>& drawn) {
     const double time = w.seconds() + ahead;
     view::FrameView view;
     view.frame = w.tick / w.ticksPerFrame;
@@ -151,7 +156,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
             view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
                                      matrixOf(pose) * piece.transform, part.spec.shape == "plane"});
     });
-    // Bodies, dulled if frozen.
+    // Bodies, dulled if frozen, in the debug view also if they sleep.
     std::map<const Island*, std::vector<dvec3>> places;  // of the islands so far, if extrapolated
     for (const WorldImpl::Member& member : w.bodies) {
         const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
@@ -168,10 +173,10 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
         }
         const std::size_t first = view.surfaces.size();
         part.drawing->addSurfaces(positions, view.surfaces);
-        if (island.frozen() == nullptr) continue;
-        for (std::size_t i = first; i < view.surfaces.size(); ++i) view.surfaces[i].dulled = frozenDullness;
+        const float dull = dullnessOf(island, debug);
+        for (std::size_t i = first; dull > 0 && i < view.surfaces.size(); ++i) view.surfaces[i].dulled = dull;
     }
-    addTies(w, ahead, view);
+    addTies(w, ahead, debug, view);
     return view;
 }
 
@@ -179,12 +184,12 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
 
 view::FrameView viewAhead(const WorldImpl& w, double ahead) {
     std::vector<Body*> ignored;
-    return sceneOf(w, ahead, ignored);
+    return sceneOf(w, ahead, false, ignored);
 }
 
 view::FrameView viewOf(WorldImpl& w, bool debug) {
     std::vector<Body*> bodies;
-    view::FrameView view = sceneOf(w, 0.0, bodies);
+    view::FrameView view = sceneOf(w, 0.0, debug, bodies);
     for (const LabelSpec& label : w.spec.labels) {
         std::vector<LabelSubject> subjects;
         for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &islandOf(*body)});

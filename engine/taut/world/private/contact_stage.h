@@ -62,7 +62,17 @@ class ContactStage {
         Island* island = nullptr;
         Fault fault;
     };
-    std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving);
+    // watchesFriction: for sticking() and pressing(), which tell of this tick.
+    std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving, bool watchesFriction);
+
+    // Sleep. All islands are still, and some sleep: a tick does nothing.
+    bool isAtRest() const { return anySleeps() && !movesAny(); }
+    // (points of the island) whether friction with other bodies held it, by a margin.
+    std::vector<char> sticking(const Island& island) const;
+    // Islands that pressed each other, each two once.
+    std::span<const std::pair<const Island*, const Island*>> pressing() const { return pressing_; }
+    // Whether anything of the island crossed, or was crossed by, anything at the start of the last tick.
+    bool crosses(const Island& island) const;
 
     // To be called when points have been moved from outside.
     void drop() { hasJumped_ = true, areCrossingsKnown_ = false; }
@@ -93,6 +103,13 @@ class ContactStage {
     };
     void beginTick(const TickTime& time, std::span<const ColliderMotion> moving);
     void takeDamage();
+    void takeMasses();
+    void wake(const TickTime& time, std::span<const std::int64_t> companies);
+    void wakeCrossed(const TickTime& time);
+    void addReached(int surfaceA, int surfaceB);
+    bool findReached();
+    void addPresses();
+    bool anySleeps() const;
     void readAll();
     int mostInstants() const;
     int commonSubsteps() const;  // greatest common divisor over the islands; 1 if all are frozen
@@ -126,6 +143,14 @@ class ContactStage {
     std::vector<dvec3> vBefore_;       // (points) before the last instant
     std::vector<double> inverseMass_;  // (points)
     std::vector<contact::KinematicContact> kinematic_;
+    // What contact did with a point in a tick, summed over pairs and instants.
+    struct Press {
+        double limit = 0;     // [N s] of friction
+        dvec3 friction{0.0};  // [N s]
+    };
+    std::vector<Press> presses_;                                     // (points) empty: nobody asked
+    std::vector<std::pair<const Island*, const Island*>> pressing_;  // likewise
+    std::vector<std::int64_t> reached_;                              // companies, in this try
     int instants_ = 0;
     contact::InstantResult result_;
     ContactInfo total_;  // sum over the ticks since it was made

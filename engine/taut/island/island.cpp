@@ -383,25 +383,30 @@ bool Island::isCalm() {
            std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) && dynamics_->isSteady(forces_);
 }
 
-bool Island::rests(double seconds, std::span<const char> sticks) {
+bool Island::rests(double seconds, std::vector<Support> supports) {
     constexpr double stillShare = 0.01;  // of the error: how far a point may go in a window that friction holds
     const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
     const std::size_t n = plan_.points.size();
     dynamics_->positions(x_);
-    std::vector<dvec3> v(n), r(n);
+    supports.resize(n);
+    for (const collision::Contact& contact : now_.contacts) {
+        Support& support = supports[static_cast<std::size_t>(contact.point)];
+        support.mayStick = (support.push == dvec3(0.0) || support.mayStick) && contact.friction > 0;
+        support.push = contact.normal;
+    }
+    std::vector<dvec3> v(n), r(n), normals(n, dvec3(0.0));
     std::vector<double> inverseMasses = inverseMassesOf(plan_);
     const std::vector<bool> isHeld = heldPointsOf(plan_);
-    std::vector<char> isPressed(sticks.begin(), sticks.end());
-    for (const collision::Contact& contact : now_.contacts)
-        if (contact.friction > 0) isPressed[static_cast<std::size_t>(contact.point)] = 1;
     for (std::size_t i = 0; i < n; ++i) {
-        v[i] = rest_.velocity(i, x_[i], seconds);
-        if (isHeld[i] || !isFree(plan_, static_cast<int>(i)) || (isPressed[i] != 0 && glm::dot(v[i], v[i]) <= still * still))
-            inverseMasses[i] = 0;
         const mechanics::PointMass& point = plan_.points[i];
+        v[i] = rest_.velocity(i, x_[i], seconds);
         r[i] = point.mass * (rest_.acceleration(i, x_[i], seconds) + point.dragRate * v[i]);
+        const bool sticks = supports[i].mayStick && glm::dot(v[i], v[i]) <= still * still;
+        if (isHeld[i] || !isFree(plan_, static_cast<int>(i)) || sticks) inverseMasses[i] = 0;
+        const double push = std::sqrt(glm::dot(supports[i].push, supports[i].push));
+        if (push > 0) normals[i] = supports[i].push / push;
     }
-    return restBound(inverseMasses, v, r, still, stiffnessAt(x_)) <= error / 3;
+    return restBound(inverseMasses, normals, v, r, still, stiffnessAt(x_)) <= error / 3;
 }
 
 void Island::fallAsleep(const TickTime& time, std::int64_t company) {

@@ -18,15 +18,20 @@ double product(std::span<const dvec3> a, std::span<const dvec3> b) {
     return sum;
 }
 
+// Without the part along a normal.
+dvec3 along(const dvec3& v, const dvec3& normal) {
+    return v - glm::dot(v, normal) * normal;
+}
+
 // Solves K u = b for the free points by conjugate gradients on M^{-1/2} K M^{-1/2}. Returns false if it cannot.
-bool solve(std::span<const double> inverseMasses, const mechanics::StiffnessProduct& multiply,
-           std::span<const dvec3> b, std::vector<dvec3>& u) {
+bool solve(std::span<const double> inverseMasses, std::span<const dvec3> normals,
+           const mechanics::StiffnessProduct& multiply, std::span<const dvec3> b, std::vector<dvec3>& u) {
     const std::size_t n = b.size();
     std::vector<double> root(n);
     std::vector<dvec3> y(n, dvec3(0.0)), r(n), p(n), scaled(n), q(n);
     for (std::size_t i = 0; i < n; ++i) {
         root[i] = std::sqrt(inverseMasses[i]);
-        r[i] = root[i] * b[i];
+        r[i] = root[i] * along(b[i], normals[i]);
     }
     p = r;
     double square = product(r, r), stiffest = 0;
@@ -37,7 +42,7 @@ bool solve(std::span<const double> inverseMasses, const mechanics::StiffnessProd
         for (std::size_t i = 0; i < n; ++i) scaled[i] = root[i] * p[i];
         std::fill(q.begin(), q.end(), dvec3(0.0));
         multiply(scaled, q);
-        for (std::size_t i = 0; i < n; ++i) q[i] *= root[i];
+        for (std::size_t i = 0; i < n; ++i) q[i] = root[i] * along(q[i], normals[i]);
         const double curvature = product(p, q) / product(p, p);
         stiffest = std::max(stiffest, curvature);
         if (!(curvature > singular * stiffest)) return false;
@@ -64,8 +69,8 @@ double longest(std::span<const dvec3> vectors) {
 
 }  // namespace
 
-double restBound(std::span<const double> inverseMasses, std::span<const dvec3> v, std::span<const dvec3> r, double floor,
-                 const mechanics::StiffnessProduct& multiply) {
+double restBound(std::span<const double> inverseMasses, std::span<const dvec3> normals, std::span<const dvec3> v,
+                 std::span<const dvec3> r, double floor, const mechanics::StiffnessProduct& multiply) {
     constexpr double none = std::numeric_limits<double>::infinity();
     const std::size_t n = v.size();
     std::vector<dvec3> shaken(n, dvec3(0.0)), momenta(n, dvec3(0.0)), forces(n, dvec3(0.0)), way, swing;
@@ -78,11 +83,12 @@ double restBound(std::span<const double> inverseMasses, std::span<const dvec3> v
             const double phase = static_cast<double>(3 * i + static_cast<std::size_t>(k) + 1) * 0.6180339887498949;
             shaken[i][k] = v[i][k] + floor * (2.0 * (phase - std::floor(phase)) - 1.0);
         }
+        shaken[i] = along(shaken[i], normals[i]);
         momenta[i] = shaken[i] / inverseMasses[i];
         forces[i] = r[i];
     }
     if (!isAnyFree) return 0.0;
-    if (!solve(inverseMasses, multiply, momenta, swing) || !solve(inverseMasses, multiply, forces, way)) return none;
+    if (!solve(inverseMasses, normals, multiply, momenta, swing) || !solve(inverseMasses, normals, multiply, forces, way)) return none;
     const double kinetic = product(momenta, shaken), swung = product(momenta, swing);
     if (!(kinetic > 0) || !(swung >= 0)) return none;
     return longest(way) + longest(shaken) * std::sqrt(swung / kinetic);

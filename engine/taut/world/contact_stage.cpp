@@ -358,6 +358,7 @@ void ContactStage::addPresses() {
         for (std::size_t k = 0; k < 4; ++k) {
             Press& press = presses_[static_cast<std::size_t>(pair.points[k])];
             press.limit += std::abs(pair.weights[k]) * pair.friction * normal;
+            press.push += pair.weights[k] * normal * pair.normal;
             press.friction += pair.weights[k] * friction;
         }
         const int a = elements().surfaceOf(pair.points[0]), b = elements().surfaceOf(pair.points[3]);
@@ -368,18 +369,19 @@ void ContactStage::addPresses() {
     });
 }
 
-std::vector<char> ContactStage::sticking(const Island& island) const {
+std::vector<Island::Support> ContactStage::supports(const Island& island) const {
     constexpr double inside = 0.9;  // of the cone of friction
-    std::vector<char> sticks(island.plan().points.size(), 0);
+    std::vector<Island::Support> supports(island.plan().points.size());
     for (const Part& part : parts_) {
         if (part.island != &island || presses_.empty()) continue;
         for (int i = part.first; i < part.last; ++i) {
-            const auto& [limit, friction] = presses_[static_cast<std::size_t>(i)];
+            const auto& [limit, push, friction] = presses_[static_cast<std::size_t>(i)];
             const double most = inside * limit;
-            sticks[static_cast<std::size_t>(i - part.first)] = limit > 0 && glm::dot(friction, friction) <= most * most;
+            supports[static_cast<std::size_t>(i - part.first)] = {
+                push, limit > 0 && glm::dot(friction, friction) <= most * most};
         }
     }
-    return sticks;
+    return supports;
 }
 
 bool ContactStage::crosses(const Island& island) const {

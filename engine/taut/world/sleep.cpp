@@ -48,7 +48,7 @@ void endWindow(WorldImpl& w) {
         Island& island = *w.islands[k];
         const std::size_t company = companies[k];
         if (island.isStill() || isCalm[company] == 0 || rests[company] == 0) continue;
-        if (!island.rests(seconds, w.contactStage ? w.contactStage->sticking(island) : std::vector<char>{}))
+        if (!island.rests(seconds, w.contactStage ? w.contactStage->supports(island) : std::vector<Island::Support>{}))
             rests[company] = 0;
     }
     for (std::size_t k = 0; k < count; ++k) {

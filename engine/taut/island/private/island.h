@@ -131,9 +131,13 @@ class Island {
     void beginRestWindow();
     // At the end of a window that lasted `seconds`: whether it was calm, and what acts on the points is steady.
     bool isCalm();
-    // Whether no point of a calm island could go further than the error allows. sticks (points): what contact with
-    // other bodies holds. Points that a collider held all the time are held too.
-    bool rests(double seconds, std::span<const char> sticks);
+    // Whether no point of a calm island could go further than the error allows. supports (points; empty: none): by
+    // other bodies, with those of colliders to come.
+    struct Support {
+        dvec3 push{0.0};        // what presses the point, as a direction; 0: nothing
+        bool mayStick = false;  // friction could hold it by a margin
+    };
+    bool rests(double seconds, std::vector<Support> supports);
     void restInVain() { rest_.fail(); }
     // Takes the motion that is left, and books it.
     void fallAsleep(const TickTime& time, std::int64_t company);

@@ -62,13 +62,14 @@ class ContactStage {
         Island* island = nullptr;
         Fault fault;
     };
-    // watchesFriction: for sticking() and pressing(), which tell of this tick.
+    // watchesFriction: for supports() and pressing(), which tell of this tick.
     std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving, bool watchesFriction);
 
     // Sleep. All islands are still, and some sleep: a tick does nothing.
     bool isAtRest() const { return anySleeps() && !movesAny(); }
-    // (points of the island) whether friction with other bodies held it, by a margin.
-    std::vector<char> sticking(const Island& island) const;
+    // (points of the island) by other bodies, and by edges of colliders. Friction may hold a point if it used at most
+    // 0.9 of what Coulomb allows.
+    std::vector<Island::Support> supports(const Island& island) const;
     // Islands that pressed each other, each two once.
     std::span<const std::pair<const Island*, const Island*>> pressing() const { return pressing_; }
     // Whether anything of the island crossed, or was crossed by, anything at the start of the last tick.
@@ -145,8 +146,8 @@ class ContactStage {
     std::vector<contact::KinematicContact> kinematic_;
     // What contact did with a point in a tick, summed over pairs and instants.
     struct Press {
-        double limit = 0;     // [N s] of friction
-        dvec3 friction{0.0};  // [N s]
+        double limit = 0;                // [N s] of friction
+        dvec3 push{0.0}, friction{0.0};  // [N s] along the normals, and across
     };
     std::vector<Press> presses_;                                     // (points) empty: nobody asked
     std::vector<std::pair<const Island*, const Island*>> pressing_;  // likewise

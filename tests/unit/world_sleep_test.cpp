@@ -134,7 +134,7 @@ TEST(Sleep, SheetsThatLieOnEachOtherStayWithinTheErrorOfTheRunThatNeverSleeps) {
 // matrix [2 -1 0; -1 2 -1; 0 -1 2] k: the middle goes f/k · 1.
 TEST(RestBound, IsTheAmplitudeAndTheWayToEquilibrium) {
     constexpr double k = 50.0, m = 0.02, v = 0.3, f = 0.7;
-    const mechanics::StiffnessProduct spring = [](std::span<const dvec3> u, std::span<dvec3> sum) { sum[0] += k * u[0]; };
+    const auto spring = [](std::span<const dvec3> u, std::span<dvec3> sum) { sum[0] += k * u[0]; };
     const std::vector<double> inverse{1.0 / m};
     const std::vector<dvec3> none{dvec3(0.0)}, fast{{v, 0, 0}}, pulled{{0, f, 0}};
     EXPECT_NEAR(restBound(inverse, none, fast, none, 0.0, spring), v / std::sqrt(k / m), 1e-12);

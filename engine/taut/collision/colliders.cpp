@@ -64,9 +64,11 @@ void Colliders::move(int collider, const Pose& from, const Pose& to) {
 
 bool Colliders::isNear(int collider, const core::Aabb& box) const {
     TAUT_EXPECTS(collider >= 0 && collider < size());
-    const auto first = impl_->solids.begin() + static_cast<std::ptrdiff_t>(impl_->firstSolid[static_cast<std::size_t>(collider)]);
-    const auto last = impl_->solids.begin() + static_cast<std::ptrdiff_t>(impl_->firstSolid[static_cast<std::size_t>(collider) + 1]);
-    return std::any_of(first, last, [&](const Solid& solid) { return !solid.bounded || solid.bounds.overlaps(box, 0.0); });
+    const std::size_t first = impl_->firstSolid[static_cast<std::size_t>(collider)];
+    const std::size_t last = impl_->firstSolid[static_cast<std::size_t>(collider) + 1];
+    return std::any_of(impl_->solids.data() + first, impl_->solids.data() + last, [&](const Solid& solid) {
+        return !solid.bounded || solid.bounds.overlaps(box, 0.0);
+    });
 }
 
 double Colliders::distance(const glm::dvec3& position) const {

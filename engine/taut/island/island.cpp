@@ -365,9 +365,9 @@ void Island::watchVolumes(double t) {
 
 // Sleep.
 
-void Island::beginRestWindow() {
+void Island::beginRestWindow(std::int64_t number) {
     dynamics_->positions(x_);
-    rest_.begin(x_);
+    rest_.begin(number, x_);
 }
 
 void Island::watchRest(bool isMiddle) {
@@ -473,7 +473,7 @@ void Island::open(const TickTime& time) {
 void Island::close(const TickTime& time) {
     if (!isOpen_) return;
     TAUT_EXPECTS(!isAsleep());
-    rest_.stop();
+    rest_ = {};
     if (changes_.any()) {
         dynamics_->take(changes_, forces_);
         yielding_.watch(plan_, *dynamics_);

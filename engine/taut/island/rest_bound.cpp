@@ -88,7 +88,8 @@ double restBound(std::span<const double> inverseMasses, std::span<const dvec3> n
         forces[i] = r[i];
     }
     if (!isAnyFree) return 0.0;
-    if (!solve(inverseMasses, normals, multiply, momenta, swing) || !solve(inverseMasses, normals, multiply, forces, way)) return none;
+    if (!solve(inverseMasses, normals, multiply, momenta, swing)) return none;
+    if (!solve(inverseMasses, normals, multiply, forces, way)) return none;
     const double kinetic = product(momenta, shaken), swung = product(momenta, swing);
     if (!(kinetic > 0) || !(swung >= 0)) return none;
     return longest(way) + longest(shaken) * std::sqrt(swung / kinetic);

@@ -48,14 +48,15 @@ void endWindow(WorldImpl& w) {
         Island& island = *w.islands[k];
         const std::size_t company = companies[k];
         if (island.isStill() || isCalm[company] == 0 || rests[company] == 0) continue;
-        if (!island.rests(seconds, w.contactStage ? w.contactStage->supports(island) : std::vector<Island::Support>{}))
-            rests[company] = 0;
+        std::vector<Island::Support> supports;
+        if (w.contactStage) supports = w.contactStage->supports(island);
+        if (!island.rests(seconds, std::move(supports))) rests[company] = 0;
     }
     for (std::size_t k = 0; k < count; ++k) {
         Island& island = *w.islands[k];
         if (island.isStill() || isCalm[companies[k]] == 0) continue;
         if (rests[companies[k]] != 0)
-            island.fallAsleep(w.now(), w.tick * static_cast<std::int64_t>(count) + static_cast<std::int64_t>(companies[k]));
+            island.fallAsleep(w.now(), static_cast<std::int64_t>(static_cast<std::size_t>(w.tick) * count + companies[k]));
         else
             island.restInVain();
     }
@@ -92,7 +93,7 @@ void letSleep(WorldImpl& w) {
     if (into != 0) return;
     endWindow(w);
     for (const auto& island : w.islands)
-        if (!island->isStill()) island->beginRestWindow();
+        if (!island->isStill()) island->beginRestWindow(w.tick / window);
 }
 
 }  // namespace taut::world

@@ -128,7 +128,7 @@ class Island {
     bool isStill() const { return isAsleep() || frozen_; }
     // At the end of a tick, while awake. A window of rest ends, and the next begins, or it is looked at in between.
     void watchRest(bool isMiddle);
-    void beginRestWindow();
+    void beginRestWindow(std::int64_t number);
     // At the end of a window that lasted `seconds`: whether it was calm, and what acts on the points is steady.
     bool isCalm();
     // Whether no point of a calm island could go further than the error allows. supports (points; empty: none): by

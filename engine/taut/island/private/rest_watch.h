@@ -5,7 +5,8 @@
 // middle does so again. An island is calm if no point is ever further than a third of the error from its first place.
 //
 //     tick end   0                      n/2                      n      calm: all within error / 3 of x0
-//     kept       x0                     xm                       x1     v = (x1 - x0) / T, a = (x1 - 2 xm + x0) / (T/2)²
+//     kept       x0                     xm                       x1     v = (x1 - x0) / T
+//                                                                       a = (x1 - 2 xm + x0) / (T/2)²
 //
 // v and a are means over half a second. What trembles faster has little of both, but then its whole way is seen.
 // Stored velocities would not do: those of pressed points contain half a kick of the forces.
@@ -28,13 +29,10 @@ inline std::int64_t restWindow(double ticksPerSecond) {
 
 class RestWatch {
   public:
-    // Begins a window at places x (points) [m], or lets it pass.
-    void begin(std::span<const dvec3> x) {
-        if (passing_ > 0) {
-            --passing_;
-            return stop();
-        }
-        first_.assign(x.begin(), x.end());
+    // Begins window `number` at places x (points) [m], or lets it pass.
+    void begin(std::int64_t number, std::span<const dvec3> x) {
+        stop();
+        if (number % every_ == 0) first_.assign(x.begin(), x.end());
     }
     // At the end of a tick within the window, and once more at its end.
     void look(std::span<const dvec3> x, double most, bool isMiddle) {
@@ -50,12 +48,10 @@ class RestWatch {
     // Whether it has seen the whole window, and all were calm.
     bool isCalm() const { return isWatching() && !middle_.empty(); }
 
-    // A calm island could not fall asleep: the longer it goes on, the more windows pass.
-    void fail() {
-        passing_ = failures_;
-        failures_ = std::min(2 * failures_ + 1, mostPassing);
-    }
-    void forgive() { passing_ = failures_ = 0; }
+    // A calm island could not fall asleep, which was dear to find out: it watches every second window, every fourth ...
+    // By their numbers, so that islands that touch watch the same ones.
+    void fail() { every_ = std::min(2 * every_, seldom); }
+    void forgive() { every_ = 1; }
 
     // Over the window that ends at x, `seconds` [s] long: velocity [m/s] and acceleration [m/s²] of a point.
     dvec3 velocity(std::size_t i, const dvec3& x, double seconds) const { return (x - first_[i]) / seconds; }
@@ -67,19 +63,16 @@ class RestWatch {
     void visit(Bytes& bytes, std::size_t pointCount) {
         bytes.list(first_);
         bytes.list(middle_);
-        bytes(passing_);
-        bytes(failures_);
-        const auto fits = [&](const std::vector<dvec3>& places) { return places.empty() || places.size() == pointCount; };
-        bytes.require(fits(first_) && fits(middle_) && passing_ >= 0 && passing_ <= mostPassing && failures_ >= 0 &&
-                      failures_ <= mostPassing);
+        bytes(every_);
+        const auto fits = [&](const auto& places) { return places.empty() || places.size() == pointCount; };
+        bytes.require(fits(first_) && fits(middle_) && every_ >= 1 && every_ <= seldom);
     }
 
   private:
-    static constexpr int mostPassing = 15;  // windows
+    static constexpr int seldom = 16;
 
     std::vector<dvec3> first_, middle_;  // (points) [m]; empty: not calm, or not there yet
-    int passing_ = 0;                    // windows yet to pass
-    int failures_ = 0;                   // windows to pass after the next failure
+    int every_ = 1;                      // of these windows one is watched
 };
 
 }  // namespace taut::world

@@ -10,9 +10,9 @@
 //   last tick was below 0.9 of what Coulomb allows;
 // - islands that press each other fall asleep together, as a company, once all of them rest.
 //
-// Waking, the whole company at once: any change of an island, of its forces or its grips, and a moving collider near it,
-// before the tick; a pair of a surface that sleeps and one that does not which presses, within the tick, which is then
-// taken again. A body or collider that comes or goes wakes all.
+// Waking, the whole company at once: any change of an island, of its forces or its grips, and a moving collider near
+// it, before the tick; contact with a body that is awake, within the tick, which is then taken again. A collider that
+// comes, and a body or collider that goes, wake all.
 //
 // Restorable: what islands keep is saved with them. Nothing here outlives a tick.
 #pragma once

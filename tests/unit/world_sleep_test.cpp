@@ -209,6 +209,11 @@ TEST(Sleep, AHandAPushARampAndAColliderWakeWithinTheTick) {
     };
     EXPECT_FALSE(wakes({[](World&) {}}));
     EXPECT_TRUE(wakes({[](World& w) { w.apply(support::push(0, "cloth.curtain@bottom", {0, 0, 1e-3})); }}));
+    const auto draw = [](World& w) {
+        w.apply(support::ramp(0, "world.gravity.y", fields::Affects::forces, -9.0, 1.0, Ease::linear,
+                              [](SceneSpec& s) -> double& { return s.world.gravity.y; }));
+    };
+    EXPECT_TRUE(wakes({draw}));
     EXPECT_TRUE(wakes({[](World& w) { w.apply(support::grab(0, "cloth.curtain@bottom-left")); }}));
     const auto sendBall = [](const dvec3& to) {
         return [to](World& w) {
@@ -261,7 +266,7 @@ TEST(Sleep, IsInTheHashTheStateAndGoesOnFromIt) {
     World whole(scene);
     ASSERT_GT(untilAsleep(whole, 5.0), 0);
     const std::vector<std::byte> state = whole.save();
-    World resumed(scene);
+    World resumed(scene, {.threads = 3});
     resumed.restore(state);
     EXPECT_EQ(resumed.save(), state);
     bool hasWoken = false;
@@ -275,6 +280,16 @@ TEST(Sleep, IsInTheHashTheStateAndGoesOnFromIt) {
     scene.solver.sleepError = 0;
     World other(scene);
     EXPECT_THROW(other.restore(state), core::Error);
+}
+
+TEST(Sleep, IsGreyInTheDebugViewAlone) {
+    World world(curtain());
+    EXPECT_EQ(world.view(true).surfaces.front().greyed, 0.0F);
+    ASSERT_GT(untilAsleep(world, 6.0), 0);
+    EXPECT_EQ(world.view(false).surfaces.front().greyed, 0.0F);
+    EXPECT_GT(world.view(true).surfaces.front().greyed, 0.5F);
+    EXPECT_EQ(world.metrics().asleep, 25);
+    EXPECT_EQ(world.metrics().kinetic, 0.0);
 }
 
 TEST(Sleep, WithoutAnErrorNothingSleepsAndWithKeptStepsNeither) {

@@ -14,11 +14,13 @@ namespace taut::world {
 namespace {
 
 constexpr float frozenDullness = 0.93F;
-constexpr float asleepDullness = 0.8F;  // in the debug view
+constexpr float asleepGreyness = 0.9F;  // in the debug view
 constexpr double fullStrain = 0.02;  // strain that the debug view shows in full colour
 
-float dullnessOf(const Island& island, bool debug) {
-    return island.frozen() != nullptr ? frozenDullness : debug && island.isAsleep() ? asleepDullness : 0.0F;
+// Shows whether an island is frozen, and in the debug view whether it sleeps.
+void addStillness(const Island& island, bool debug, view::Surface& surface) {
+    if (island.frozen() != nullptr) surface.dulled = frozenDullness;
+    if (debug && island.isAsleep()) surface.greyed = asleepGreyness;
 }
 
 // Blue when compressed, grey at rest, red when stretched.
@@ -118,7 +120,7 @@ void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view
             const glm::vec3 b = tie.b >= 0 ? glm::vec3(x[static_cast<std::size_t>(tie.b)])
                                            : glm::vec3(poses.at(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
             view.surfaces.push_back(drawing->surface(a, b, number));
-            if (const float dull = dullnessOf(*island, debug); dull > 0) view.surfaces.back().dulled = dull;
+            addStillness(*island, debug, view.surfaces.back());
         }
     }
 }
@@ -156,7 +158,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
             view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
                                      matrixOf(pose) * piece.transform, part.spec.shape == "plane"});
     });
-    // Bodies, dulled if frozen, in the debug view also if they sleep.
+    // Bodies, dulled if frozen.
     std::map<const Island*, std::vector<dvec3>> places;  // of the islands so far, if extrapolated
     for (const WorldImpl::Member& member : w.bodies) {
         const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
@@ -173,8 +175,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
         }
         const std::size_t first = view.surfaces.size();
         part.drawing->addSurfaces(positions, view.surfaces);
-        const float dull = dullnessOf(island, debug);
-        for (std::size_t i = first; dull > 0 && i < view.surfaces.size(); ++i) view.surfaces[i].dulled = dull;
+        for (std::size_t i = first; i < view.surfaces.size(); ++i) addStillness(island, debug, view.surfaces[i]);
     }
     addTies(w, ahead, debug, view);
     return view;

@@ -77,9 +77,9 @@ void main() {
     float open = tint.a;
     vec3 albedo = isBack ? mix(backRoughness.rgb, pattern, 0.12) : pattern;
     vec3 through = isBack ? pattern : backRoughness.rgb;
-    float light = dot(albedo, vec3(0.3, 0.6, 0.1));
-    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * light, max(kind.y, 0.0));
-    albedo = mix(albedo, vec3(0.12 + 0.2 * light), max(-kind.y, 0.0));
+    float lightness = dot(albedo, vec3(0.3, 0.6, 0.1));
+    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * lightness, max(kind.y, 0.0));
+    albedo = mix(albedo, vec3(0.12 + 0.2 * lightness), max(-kind.y, 0.0));
 
     float lightSide = dot(smoothNormal, lightWay.xyz);
     float steep = max(dot(smoothNormal, toEye), 0.05);

@@ -175,6 +175,15 @@ TEST(Sleep, WhatNothingDrawsBackStaysAwake) {
     }
 }
 
+// Friction between sheets does not hold them where the ground has none.
+TEST(Sleep, APileOnIceStaysAwake) {
+    SceneSpec scene = pile();
+    scene.colliders.back().friction = 0.0;
+    World world(scene);
+    EXPECT_EQ(untilAsleep(world, 4.0), -1);
+    EXPECT_EQ(world.asleepShare(), 0.0);
+}
+
 TEST(Sleep, AGustKeepsAwakeAndASteadyWindDoesNot) {
     for (const bool gusts : {false, true}) {
         SceneSpec scene = curtain();

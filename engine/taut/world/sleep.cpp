@@ -33,13 +33,22 @@ std::vector<std::size_t> companiesOf(const WorldImpl& w) {
     return lowest;
 }
 
+// Whether anything holds it besides other islands: friction between them alone would let all of them go together.
+bool isGrounded(const Island& island) {
+    const std::vector<bool> isHeld = heldPointsOf(island.plan());
+    const auto contacts = island.contacts();
+    return std::find(isHeld.begin(), isHeld.end(), true) != isHeld.end() ||
+           std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0; });
+}
+
 // Islands that press each other fall asleep together if all rest.
 void endWindow(WorldImpl& w) {
     const std::size_t count = w.islands.size();
     const std::vector<std::size_t> companies = companiesOf(w);
-    std::vector<char> isCalm(count, 1), rests(count, 1);
+    std::vector<char> isCalm(count, 1), rests(count, 1), areGrounded(count, 0);
     for (std::size_t k = 0; k < count; ++k) {
         Island& island = *w.islands[k];
+        if (isGrounded(island)) areGrounded[companies[k]] = 1;
         if (!island.isStill() && !island.isCalm()) isCalm[companies[k]] = 0;
         if (!island.isStill() && w.contactStage && w.contactStage->crosses(island)) isCalm[companies[k]] = 0;
     }
@@ -50,6 +59,7 @@ void endWindow(WorldImpl& w) {
         if (island.isStill() || isCalm[company] == 0 || rests[company] == 0) continue;
         std::vector<Island::Support> supports;
         if (w.contactStage) supports = w.contactStage->supports(island);
+        for (Island::Support& support : supports) support.mayStick = support.mayStick && areGrounded[company] != 0;
         if (!island.rests(seconds, std::move(supports))) rests[company] = 0;
     }
     for (std::size_t k = 0; k < count; ++k) {

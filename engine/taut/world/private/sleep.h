@@ -7,7 +7,7 @@
 // - an island is calm if none of its points went further than a third of the error in the window;
 // - it rests if in addition no point could go further than another third: see rest_bound.h. What friction holds counts
 //   as held: at colliders the points that it did not let go in the window, between bodies those whose friction in the
-//   last tick was below 0.9 of what Coulomb allows;
+//   last tick was below 0.9 of what Coulomb allows, if anything of the company is held or rubs on a collider;
 // - islands that press each other fall asleep together, as a company, once all of them rest.
 //
 // Waking, the whole company at once: any change of an island, of its forces or its grips, and a moving collider near

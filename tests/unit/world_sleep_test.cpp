@@ -130,6 +130,27 @@ TEST(Sleep, SheetsThatLieOnEachOtherStayWithinTheErrorOfTheRunThatNeverSleeps) {
     expectWithinError(pile(), {"cloth.lower", "cloth.upper"}, 4.0);
 }
 
+// Blocks of 0.1 m on the ground, one on the other a little aside.
+TEST(Sleep, ATowerStaysWithinTheErrorOfTheRunThatNeverSleeps) {
+    SceneSpec scene = sleepy();
+    scene.colliders.push_back(support::ground());
+    for (int k = 0; k < 2; ++k) {
+        BlockSpec block;
+        block.name = k == 0 ? "low" : "high";
+        block.size = {0.1, 0.1, 0.1};
+        block.cells = {2, 2, 2};
+        block.position = {0.004 * k, 0.056 + 0.111 * k, 0.003 * k};
+        block.young = 1e5;
+        block.bulk = 1e5;
+        block.density = 300;
+        block.drag = 4.0;
+        block.dampingTime = 2e-3;
+        block.touch = Touch::others;
+        scene.bodies.add(block);
+    }
+    expectWithinError(scene, {"block.low", "block.high"}, 4.0);
+}
+
 // An oscillator swings by v/ω and rests at f/k. A chain of three between walls has the compliance of its stiffness
 // matrix [2 -1 0; -1 2 -1; 0 -1 2] k: the middle goes f/k · 1.
 TEST(RestBound, IsTheAmplitudeAndTheWayToEquilibrium) {

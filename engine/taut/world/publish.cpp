@@ -23,6 +23,8 @@ void addStillness(const Island& island, bool debug, view::Surface& surface) {
     if (debug && island.isAsleep()) surface.greyed = asleepGreyness;
 }
 
+constexpr glm::vec3 asleepColour(0.2F);  // of springs
+
 // Blue when compressed, grey at rest, red when stretched.
 glm::vec3 strainColour(double strain) {
     const auto share = static_cast<float>(std::clamp(strain / fullStrain, -1.0, 1.0));
@@ -37,8 +39,9 @@ void addMarks(const Island& island, view::Marks& marks) {
         if (s.kind == mechanics::SpringKind::bend || plan.broken[i]) continue;  // bend: would cover structural ones
         const dvec3 a = island.position(s.a), b = island.position(s.b);
         const double l = std::sqrt(glm::dot(b - a, b - a));
+        const double strain = s.restLength > 0 ? l / s.restLength - 1.0 : 0.0;
         marks.lines.push_back(
-            {glm::vec3(a), glm::vec3(b), strainColour(s.restLength > 0 ? l / s.restLength - 1.0 : 0.0)});
+            {glm::vec3(a), glm::vec3(b), island.isAsleep() ? asleepColour : strainColour(strain)});
     }
     const std::vector<bool> isHeld = heldPointsOf(plan);
     for (std::size_t i = 0; i < plan.points.size(); ++i) {

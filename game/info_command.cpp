@@ -39,6 +39,7 @@ struct TickCost {
     double spent = 0.0;                          // on the ticks that were played
     std::int64_t ticks = 0, from = 0;            // how many; the first of those that stand for what is to come
     double least = 0.0, mean = 0.0, most = 0.0;  // of these; between the outer two eight of ten lie
+    double asleep = 0.0;                         // share of points that slept, mean over the ticks that were played
     double ofAll(std::int64_t all) const { return spent + mean * static_cast<double>(all - ticks); }
 };
 
@@ -57,6 +58,7 @@ TickCost measuredCost(world::World& world, std::int64_t ticks) {
             const double before = processorSeconds();
             if (world.advance()) break;
             costs.push_back(processorSeconds() - before);
+            cost.asleep += world.asleepShare();
             cost.spent += costs.back();
             ++cost.ticks;
         }
@@ -64,6 +66,7 @@ TickCost measuredCost(world::World& world, std::int64_t ticks) {
         if (error.kind() != core::ErrorKind::badContent) throw;
     }
     if (costs.empty()) return cost;
+    cost.asleep /= static_cast<double>(cost.ticks);
     double late = 0.0;
     for (cost.from = cost.ticks; cost.from > 0 && late < 0.5 * cost.spent;)
         late += costs[static_cast<std::size_t>(--cost.from)];
@@ -198,6 +201,7 @@ void printJson(const Facts& facts) {
                        {"processor_s_per_frame", {facts.cost.least * perFrame, facts.cost.most * perFrame}},
                        {"processor_s", facts.cost.ofAll(facts.ticks())},
                        {"rehearsed_ticks", facts.cost.ticks},
+                       {"asleep", facts.cost.asleep},
                        {"contacts_may_come", mayHaveContacts(facts.spec)},
                        {"islands", std::move(islands)},
                        {"joints", std::move(joints)},
@@ -300,6 +304,9 @@ void printCost(const Facts& facts, double pointSteps) {
         cost.ticks < ticks ? fmt::format(": {} of {} ticks rehearsed, the others as the last {} of these", cost.ticks,
                                          ticks, cost.ticks - cost.from)
                            : "");
+    if (facts.spec.solver.sleepError > 0)
+        printResult("asleep {:.3g} % of the points, in the mean of the {} ticks rehearsed\n", 100.0 * cost.asleep,
+                    cost.ticks);
 }
 
 void printTable(const Facts& facts) {

@@ -12,7 +12,7 @@ vec3 lightFrom(vec3 way, float cone) { return hemisphere(way); }
 #endif
 uniform sampler2D tints;
 uniform usampler2D shapes;
-uniform sampler2D materials;  // three texels a row: colour of the back, roughness; sheen, dulled, translucency, woven; anisotropy
+uniform sampler2D materials;  // three texels a row: colour of the back, roughness; sheen, dulled less greyed, translucency, woven; anisotropy
 uniform vec3 firstWay;        // from the eye through the picture's lower left corner, 1 m ahead
 uniform vec3 rightWay;        // from one pixel to the next
 uniform vec3 upWay;
@@ -77,7 +77,9 @@ void main() {
     float open = tint.a;
     vec3 albedo = isBack ? mix(backRoughness.rgb, pattern, 0.12) : pattern;
     vec3 through = isBack ? pattern : backRoughness.rgb;
-    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * dot(albedo, vec3(0.3, 0.6, 0.1)), kind.y);
+    float lightness = dot(albedo, vec3(0.3, 0.6, 0.1));
+    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * lightness, max(kind.y, 0.0));
+    albedo = mix(albedo, vec3(0.12 + 0.2 * lightness), max(-kind.y, 0.0));
 
     float lightSide = dot(smoothNormal, lightWay.xyz);
     float steep = max(dot(smoothNormal, toEye), 0.05);

@@ -265,7 +265,7 @@ TEST(Font, OnlyAViewWithTextNeedsOne) {
     EXPECT_THROW(renderer.draw(view), core::Error);
 }
 
-TEST(Surface, ADulledOneTurnsRed) {
+TEST(Surface, ADulledOneTurnsRedAndAGreyedOneGrey) {
     view::FrameView view;
     view.camera.eye = {0.0F, 0.0F, 3.0F};
     view.camera.target = {0.0F, 0.0F, 0.0F};
@@ -276,6 +276,10 @@ TEST(Surface, ADulledOneTurnsRed) {
     view.surfaces[0].dulled = 1.0F;
     const Pixel after = pixelOf(pictureOf(view), view.camera, {0, 0, 0.5F});
     EXPECT_GT(after[0], 2 * after[1]);
+    view.surfaces[0].dulled = 0.0F;
+    view.surfaces[0].greyed = 1.0F;
+    const Pixel grey = pixelOf(pictureOf(view), view.camera, {0, 0, 0.5F});
+    EXPECT_NEAR(grey[0], grey[1], 12);  // of 255: the light of sky and ground has a colour
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ TEST(SceneFields, SettingsLandInTheirMembers) {
     EXPECT_EQ(scene.solver.newtonSteps, 4);
     EXPECT_EQ(scene.solver.cgTolerance, 1e-7);
     EXPECT_EQ(scene.solver.cgIterations, 300);
+    EXPECT_EQ(scene.solver.sleepError, 2e-4);
     EXPECT_EQ(scene.solver.precision, world::Precision::double_);
     EXPECT_EQ(scene.world.gravity, dvec3(0.5, -1.62, 0.25));
     EXPECT_EQ(scene.world.airDensity, 0.02);
@@ -156,7 +157,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 66);
+    EXPECT_EQ(flag.source.line, 67);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 
@@ -241,7 +242,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 129);
+    EXPECT_EQ(net.points[1].source.line, 130);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");

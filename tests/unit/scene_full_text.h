@@ -21,6 +21,7 @@ cg_tolerance = 1e-7
 cg_iterations = 300
 on_divergence = "freeze"
 freeze_strain = 0.5
+sleep_error_m = 2e-4
 [world]
 gravity = [0.5, -1.62, 0.25]
 air_density_kg_per_m3 = 0.02

@@ -28,6 +28,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_restoring_test.cpp
   world_rods_test.cpp
   world_saving_test.cpp
+  world_sleep_test.cpp
   world_start_doubts_test.cpp
   world_step_choice_test.cpp
   world_step_following_test.cpp

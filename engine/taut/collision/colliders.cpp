@@ -62,6 +62,15 @@ void Colliders::move(int collider, const Pose& from, const Pose& to) {
     for (std::size_t i = first; i < last; ++i) impl_->solids[i].travel = travel;
 }
 
+bool Colliders::isNear(int collider, const core::Aabb& box) const {
+    TAUT_EXPECTS(collider >= 0 && collider < size());
+    const std::size_t first = impl_->firstSolid[static_cast<std::size_t>(collider)];
+    const std::size_t last = impl_->firstSolid[static_cast<std::size_t>(collider) + 1];
+    return std::any_of(impl_->solids.data() + first, impl_->solids.data() + last, [&](const Solid& solid) {
+        return !solid.bounded || solid.bounds.overlaps(box, 0.0);
+    });
+}
+
 double Colliders::distance(const glm::dvec3& position) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Solid& solid : impl_->solids) {

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "taut/core/aabb.h"
+
 namespace taut::collision {
 
 struct Pose {
@@ -131,6 +133,9 @@ class Colliders {
     template <class Real>
     void resolve(std::span<const MovingPoints<Real>> bodies, double h, Candidates& candidates,
                  std::vector<int>& touched, std::vector<Contact>* contacts) const;
+
+    // Whether a box may be touched by a collider during the step; yes if in doubt.
+    bool isNear(int collider, const core::Aabb& box) const;
 
     // Signed distance [m] from a position to the nearest collider at its end-of-step pose; negative inside a solid or
     // a closed mesh. Infinite without colliders.

@@ -33,6 +33,7 @@ void BroadPhase::drop() {
     due_.clear();
     fatBoxes_.clear();
     bvh_.takeBalls();
+    bvh_.forgetStill();
     checked_.clear();
     deviation_.assign(static_cast<std::size_t>(bvh_.count()), 0.0);
     travel_.assign(static_cast<std::size_t>(bvh_.count()), 0.0);

@@ -20,6 +20,7 @@
 // and at x1; F is linear in time on straight ways, so the bound holds in between.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
@@ -84,6 +85,8 @@ class Bvh {
 
     // Takes over the balls of the elements. Call it when they have changed.
     void takeBalls();
+    // Surfaces that stand still may have moved in between: their leaves are followed once more.
+    void forgetStill() { std::fill(isStillFollowed_.begin(), isStillFollowed_.end(), 0); }
 
     // An instant from x0 to x1 (points) [m] begins. Finds travel() of all leaves, and nothing else.
     void start(std::span<const dvec3> x0, std::span<const dvec3> x1);

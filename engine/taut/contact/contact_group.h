@@ -112,6 +112,12 @@ class ContactGroup {
     std::vector<Crossing> crossingsAt(std::span<const dvec3> x);
     // Of the last instant.
     std::vector<ContactPoint> contactPoints(std::span<const dvec3> x) const;
+    // Calls each(pair, normal impulse, friction) of all pairs that pressed in the last instant [N s].
+    template <class Each>
+    void forEachPressing(Each&& each) const {
+        for (std::size_t p = 0; p < active_.size() && p < solver_.impulses().size(); ++p)
+            if (solver_.impulses()[p] > 0) each(active_[p], solver_.impulses()[p], solver_.frictions()[p]);
+    }
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
     std::size_t activeCount() const { return active_.size(); }  // pairs that went to the solver
     std::size_t listsMade() const { return broadPhase_.listsMade(); }

@@ -68,13 +68,16 @@ class Elements {
     // Whether two surfaces, or one with itself, may touch.
     bool mayMeet(int surfaceA, int surfaceB) const {
         const ContactSurface &a = surface(surfaceA), &b = surface(surfaceB);
+        if (isStill(surfaceA) && isStill(surfaceB)) return false;
         if (surfaceA == surfaceB) return a.meetsItself && !a.isRigid;
         if (a.isRigid || b.isRigid) return a.isRigid != b.isRigid && a.meetsRigid && b.meetsRigid;
         return a.meetsOthers && b.meetsOthers;
     }
     bool isRigid(int number) const { return surface(number).isRigid; }
 
-    // A rigid surface stands still: its leaves need not be followed again.
+    // A rigid surface, or one of points that do not move at all, stands still: its leaves need not be followed again.
+    // Two that stand still do not meet. After a surface that is not rigid began or ended to stand still, forget all
+    // lists.
     void setStill(int surface, bool isStill) { isStill_[static_cast<std::size_t>(surface)] = isStill ? 1 : 0; }
     bool isStill(int surface) const { return isStill_[static_cast<std::size_t>(surface)] != 0; }
 

@@ -274,12 +274,15 @@ int ContactSolver::solveCluster(const Cluster& cluster, const Problem& problem) 
 void ContactSolver::remember(std::size_t pairCount) {
     last_.clear();
     impulses_.assign(pairCount, 0.0);
+    frictions_.assign(pairCount, dvec3(0.0));
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const Row& row = rows_[r];
         if (!(row.impulse.of[3] > 0)) continue;
         last_.push_back({keys_[r], row.impulse});
         const auto source = static_cast<std::size_t>(row.source);
-        if (source < impulses_.size()) impulses_[source] = row.impulse.of[3];
+        if (source >= pairCount) continue;
+        impulses_[source] = row.impulse.of[3];
+        frictions_[source] = vectorOf(row.impulse);
     }
     std::sort(last_.begin(), last_.end(), [](const LastImpulse& a, const LastImpulse& b) { return a.key < b.key; });
 }

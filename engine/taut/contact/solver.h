@@ -75,6 +75,7 @@ class ContactSolver {
     // After solve().
     std::span<const int> points() const { return touched_; }        // of the pairs, ascending
     std::span<const double> impulses() const { return impulses_; }  // (pairs) [N s] along the normal
+    std::span<const dvec3> frictions() const { return frictions_; }  // (pairs) [N s] tangential, on the first side
     int sweeps() const { return mostSweeps_; }                      // of the cluster that took most
     int clusters() const { return static_cast<int>(clusters_.size()); }
 
@@ -121,6 +122,7 @@ class ContactSolver {
     std::vector<std::uint64_t> taken_;         // (slots) scratch: colours
     std::vector<LastImpulse> last_;            // ascending by key
     std::vector<double> impulses_;             // (pairs)
+    std::vector<dvec3> frictions_;             // (pairs)
     int mostSweeps_ = 0;
 };
 

@@ -68,6 +68,7 @@ class AnchorForce final : public ForceOf<AnchorForce> {
     void guide(mechanics::ForceGenerator<Real>& generator) const {
         static_cast<mechanics::Anchor<Real>&>(generator).setPlace(place_);
     }
+    bool isSteady() const override { return !place_.isLine; }
     void visit(StateBytes& bytes) override {
         bytes(place_);
         bytes.notNegative(stiffness_);

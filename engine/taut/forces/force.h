@@ -42,6 +42,10 @@ class Force {
     // their order, and its bits may differ between machines.
     virtual bool isCallback() const { return false; }
 
+    // Whether, as long as it is not replaced, it is a function of places and velocities alone. Where any other force
+    // acts nothing sleeps.
+    virtual bool isSteady() const { return false; }
+
     // visit() reads or writes all that may differ from the force at the start of the scene. copy() makes a force to
     // read into.
     virtual void visit(StateBytes& bytes) = 0;

@@ -36,6 +36,7 @@ class GravityForce final : public ForceOf<GravityForce> {
     void guide(mechanics::ForceGenerator<Real>& generator) const {
         static_cast<mechanics::Gravity<Real>&>(generator).setAcceleration(acceleration_);
     }
+    bool isSteady() const override { return true; }
     void visit(StateBytes& bytes) override { bytes(acceleration_); }
 
   private:

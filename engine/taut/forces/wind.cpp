@@ -62,6 +62,7 @@ class WindForce final : public ForceOf<WindForce> {
     void guide(mechanics::ForceGenerator<Real>& generator) const {
         static_cast<mechanics::Wind<Real>&>(generator).setVelocity(velocity_);
     }
+    bool isSteady() const override { return settings_.gust.amplitude == 0.0; }
     void visit(StateBytes& bytes) override {
         bytes(velocity_);
         mechanics::WindSettings& s = settings_;

@@ -103,6 +103,10 @@ class DynamicsOf final : public Dynamics {
         return std::any_of(acting_.begin(), acting_.end(),
                            [&](const auto& acting) { return forces[acting.first]->isCallback(); });
     }
+    bool isSteady(const ForceList& forces) const override {
+        return std::all_of(acting_.begin(), acting_.end(),
+                           [&](const auto& acting) { return forces[acting.first]->isSteady(); });
+    }
     void steer(const ForceList& forces) override {
         for (const auto& [number, generator] : acting_) forces[number]->steer(*generator);
     }

@@ -6,6 +6,7 @@
 
 #include "taut/bodies/private/ties.h"
 #include "taut/island/private/island_report.h"
+#include "taut/island/private/rest_bound.h"
 #include "taut/spec/private/motion.h"
 
 namespace taut::world {
@@ -100,7 +101,7 @@ void Island::findInside(std::span<const std::string> names) {
 
 std::optional<Fault> Island::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
     beginTick(time);
-    if (frozen_) return std::nullopt;
+    if (isStill()) return std::nullopt;
     for (;;) {
         beginTry();
         auto fault = advance(time, moving, 0, 1);
@@ -115,7 +116,7 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
 
 void Island::beginTick(const TickTime& time) {
     yielding_.keep();
-    if (mayFreeze_ && frozen_) return;
+    if ((mayFreeze_ && frozen_) || isAsleep()) return;
     TAUT_EXPECTS(!isOpen_);
     hasMoved_ = true;
     takeParts(time, parts_);
@@ -123,7 +124,7 @@ void Island::beginTick(const TickTime& time) {
 }
 
 void Island::beginTry() {
-    if (frozen_) return;
+    if (isStill()) return;
     dynamics_->keep(Since::tick);
     before_ = now_;
     dynamics_->forgetImpulses();
@@ -134,20 +135,20 @@ void Island::beginTry() {
 
 std::optional<Fault> Island::advance(const TickTime& time, std::span<const ColliderMotion> moving, int part,
                                      int parts) {
-    if (frozen_) return std::nullopt;
+    if (isStill()) return std::nullopt;
     TAUT_EXPECTS(now_.substeps % parts == 0);
     const int each = now_.substeps / parts;
     return takeSubsteps(time, moving, part * each, (part + 1) * each);
 }
 
 void Island::endTick(const TickTime& time) {
-    if (frozen_) return;
+    if (isStill()) return;
     if (hasCells_) watchVolumes(time.at(1, 1));
     precision_.look(plan_, *dynamics_, tickSeconds_, now_.step, choice_.limitingSpring);
 }
 
 TickVerdict Island::judge(const TickTime& time, std::optional<Fault>& fault) {
-    if (frozen_) return TickVerdict::stands;
+    if (isStill()) return TickVerdict::stands;
     if (choice_.need || shortensForContact_) return judgeSteps(time, fault);
     if (fault) return TickVerdict::fails;
     now_.budget.add(dynamics_->takeContactWork(), tickSeconds_);
@@ -195,7 +196,7 @@ TickVerdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault
 }
 
 void Island::tryAgain(const TickTime& time, TickVerdict verdict) {
-    if (frozen_) return;
+    if (isStill()) return;
     const StepFollowing following = now_.following;
     const ContactBudget budget = now_.budget;
     undoTick();
@@ -226,7 +227,7 @@ int Island::instantsToPress() const {
 
 void Island::takeParts(const TickTime& time, int parts) {
     parts_ = parts;
-    if (frozen_ || wantedSubsteps() == now_.substeps) return;
+    if (isStill() || wantedSubsteps() == now_.substeps) return;
     dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
     startWith(time, wantedSubsteps(), false);
 }
@@ -244,6 +245,7 @@ void Island::place(std::span<const int> points, std::span<dvec3> x, std::span<dv
 }
 
 void Island::undoTick() {
+    if (isAsleep()) return;
     dynamics_->goBack(Since::tick);
     yielding_.undo(plan_, *dynamics_, forces_);
     now_ = before_;
@@ -361,16 +363,117 @@ void Island::watchVolumes(double t) {
     }
 }
 
+// Sleep.
+
+void Island::beginRestWindow(std::int64_t number) {
+    dynamics_->positions(x_);
+    rest_.begin(number, x_);
+}
+
+void Island::watchRest(bool isMiddle) {
+    if (!rest_.isWatching()) return;
+    dynamics_->positions(x_);
+    rest_.look(x_, plan_.solver.sleepError / 3, isMiddle);
+}
+
+// What constraints hold has no stiffness, so their islands stay awake. So does what a hand or a collider moves.
+bool Island::isCalm() {
+    const auto moves = [](const Grip& grip) { return grip.path.moves(); };
+    return rest_.isCalm() && plan_.constraints.empty() && now_.inside.empty() && !isOpen_ &&
+           std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) && dynamics_->isSteady(forces_);
+}
+
+bool Island::rests(double seconds, std::vector<Support> supports) {
+    constexpr double stillShare = 0.01;  // of the error: how far a point may go in a window that friction holds
+    const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
+    const std::size_t n = plan_.points.size();
+    dynamics_->positions(x_);
+    supports.resize(n);
+    for (const collision::Contact& contact : now_.contacts) {
+        Support& support = supports[static_cast<std::size_t>(contact.point)];
+        support.mayStick = (support.push == dvec3(0.0) || support.mayStick) && contact.friction > 0;
+        support.push = contact.normal;
+    }
+    std::vector<dvec3> v(n), r(n), normals(n, dvec3(0.0));
+    std::vector<double> inverseMasses = inverseMassesOf(plan_);
+    const std::vector<bool> isHeld = heldPointsOf(plan_);
+    for (std::size_t i = 0; i < n; ++i) {
+        const mechanics::PointMass& point = plan_.points[i];
+        v[i] = rest_.velocity(i, x_[i], seconds);
+        r[i] = point.mass * (rest_.acceleration(i, x_[i], seconds) + point.dragRate * v[i]);
+        const bool sticks = supports[i].mayStick && glm::dot(v[i], v[i]) <= still * still;
+        if (isHeld[i] || !isFree(plan_, static_cast<int>(i)) || sticks) inverseMasses[i] = 0;
+        const double push = std::sqrt(glm::dot(supports[i].push, supports[i].push));
+        if (push > 0) normals[i] = supports[i].push / push;
+    }
+    return restBound(inverseMasses, normals, v, r, still, stiffnessAt(x_)) <= error / 3;
+}
+
+void Island::fallAsleep(const TickTime& time, std::int64_t company) {
+    open(time);
+    const std::vector<dvec3> v = dynamics_->velocities();
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        if (isFree(plan_, static_cast<int>(i))) {
+            const double m = plan_.points[i].mass;
+            sleep_.taken.energy += 0.5 * m * glm::dot(v[i], v[i]);
+            sleep_.taken.momentum += m * v[i];
+        }
+        dynamics_->setVelocity(static_cast<int>(i), dvec3(0.0));
+    }
+    isOpen_ = false;
+    now_.pressed.clear();
+    rest_.stop();
+    rest_.forgive();
+    sleep_.company = company;
+}
+
+void Island::wake() {
+    sleep_.company = 0;
+    sleep_.box.reset();
+    sleep_.hashes.clear();
+    isOpen_ = true;
+}
+
+bool Island::isReachedBy(std::span<const ColliderMotion> moving) {
+    if (!mayCollide_ || moving.empty()) return false;
+    if (!sleep_.box) {
+        sleep_.box.emplace();
+        for (int i = 0; i < static_cast<int>(plan_.points.size()); ++i) sleep_.box->add(position(i));
+        double thickness = 0;
+        for (const Body* body : plan_.bodies) thickness = std::max(thickness, body->spec->thickness);
+        sleep_.box->grow(2 * thickness + plan_.solver.sleepError);
+    }
+    bool isReached = false;
+    for (const ColliderMotion& m : moving)
+        for (const collision::Pose& start : {m.from, m.to}) {
+            // At its start, then on its way: a collider that jumps has no way.
+            colliders_.move(m.collider, m.from, start);
+            isReached = isReached || colliders_.isNear(m.collider, *sleep_.box);
+        }
+    return isReached;
+}
+
+std::uint64_t Island::hashAsleep(const Body& body) {
+    for (const auto& [known, hash] : sleep_.hashes)
+        if (known == &body) return hash;
+    core::Hash hash;
+    addToHash(body, hash);
+    sleep_.hashes.emplace_back(&body, hash.value());
+    return hash.value();
+}
+
 // Changes between two ticks.
 
 void Island::open(const TickTime& time) {
     if (isOpen_) return;
-    if (!frozen_) dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
+    if (!isStill()) dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
     isOpen_ = true;
 }
 
 void Island::close(const TickTime& time) {
     if (!isOpen_) return;
+    TAUT_EXPECTS(!isAsleep());
+    rest_ = {};
     if (changes_.any()) {
         dynamics_->take(changes_, forces_);
         yielding_.watch(plan_, *dynamics_);
@@ -433,7 +536,7 @@ void Island::release(const TickTime& time, const std::function<bool(const JointT
 }
 
 std::vector<bool> Island::overloaded() const {
-    return tieLoad_.isOn() && !frozen_ ? tieLoad_.overloaded(plan_, *dynamics_, tickSeconds_)
+    return tieLoad_.isOn() && !isStill() ? tieLoad_.overloaded(plan_, *dynamics_, tickSeconds_)
                                       : std::vector<bool>(plan_.ties.size(), false);
 }
 
@@ -445,7 +548,7 @@ void Island::setPath(std::size_t grip, const mechanics::PosePath& path) {
 
 void Island::setForces(const TickTime& time, const ForceList& forces) {
     if (frozen_) return;
-    const bool jumps = !goesOn(forces_, forces);
+    const bool jumps = isAsleep() || !goesOn(forces_, forces);
     if (jumps) open(time);  // with the forces so far
     haveForcesJumped_ = haveForcesJumped_ || jumps;
     forces_ = forces;
@@ -470,7 +573,7 @@ void Island::watchLimit(double t) {
 
 std::vector<dvec3> Island::velocities(const TickTime& time) {
     if (frozen_) return std::vector<dvec3>(plan_.points.size(), dvec3(0.0));
-    if (isOpen_) return dynamics_->velocities();
+    if (isOpen_ || isAsleep()) return dynamics_->velocities();
     // A query changes nothing, and its work does not count for the run.
     workElsewhere_ += dynamics_->work();
     std::vector<dvec3> v = dynamics_->velocitiesAt(time.start(), now_.contacts, now_.pressed);

@@ -116,6 +116,9 @@ void addMetrics(Island& island, const TickTime& time, const std::function<bool(c
         metrics.contacts += counts[static_cast<std::size_t>(contact.point)] ? 1 : 0;
     metrics.penetration = std::max(metrics.penetration, penetrationOf(island, counts));
     metrics.work += island.work();
+    if (island.isAsleep()) metrics.asleep += static_cast<int>(std::count(counts.begin(), counts.end(), true));
+    metrics.sleptEnergy += island.slept().energy;
+    metrics.sleptMomentum += island.slept().momentum;
 }
 
 std::vector<std::string> warningsOf(const Island& island) {

@@ -102,6 +102,9 @@ void visitPart(StateBytes& bytes, Divergence& d) {
 // length.
 constexpr std::uint64_t insideMark = 0xfff8'7461'7574'0002ULL;
 
+// Marks an island that may sleep. Differs likewise.
+constexpr std::uint64_t sleepMark = 0xfff8'7461'7574'0007ULL;
+
 }  // namespace
 
 void Island::visitPlan(StateBytes& bytes) {
@@ -141,6 +144,20 @@ void Island::visitInside(StateBytes& bytes) {
     bytes.list(now_.inside);
     for (int i : now_.inside) bytes.require(i >= 0 && i < static_cast<int>(plan_.points.size()));
     bytes.each(insideWarnings_, [&](std::string& warning) { bytes(warning); });
+}
+
+void Island::visitSleep(StateBytes& bytes) {
+    const bool has = bytes.mark(sleepMark, plan_.solver.sleepError > 0);
+    if (bytes.isReading()) {
+        rest_ = {};
+        sleep_ = {};
+    }
+    if (!has) return;
+    bytes.require(plan_.solver.sleepError > 0);
+    rest_.visit(bytes, plan_.points.size());
+    bytes(sleep_.company);
+    bytes.notNegative(sleep_.taken.energy);
+    bytes(sleep_.taken.momentum);
 }
 
 void Island::visitStep(StateBytes& bytes) {
@@ -202,6 +219,7 @@ void Island::visit(StateBytes& bytes) {
     const std::string name = plan_.bodies.front()->fullName();
     // What must be as the scene makes it, and the steps.
     visitInside(bytes);
+    visitSleep(bytes);
     bytes.expect(name, "the bodies are others");
     bytes.expect(plan_.solver.integrator, "the methods of its bodies are others");
     visitStep(bytes);

@@ -86,6 +86,9 @@ std::span<const Metric> metricTable() {
          "Largest height that a collider's corner or sharp edge stands out of a triangle, of bodies that meet those.",
          ofMember<&M::facePenetration>, 1, Measures::all, Counts::whatMeetsFaces},
         {"max_speed_m_per_s", "", "m/s", "Largest speed of a point.", {.measure = largestSpeed}},
+        {"asleep", "asleep", "", "Number of points that sleep.", ofMember<&M::asleep>},
+        {"slept_J", "slept_energy", "J", "Energy of motion that falling asleep has taken since the start.",
+         ofMember<&M::sleptEnergy>},
     };
     return table;
 }

@@ -21,6 +21,7 @@ struct PosePath {
 
     bool isTurned() const { return turns() || from != glm::dquat(1, 0, 0, 0); }
     bool turns() const { return from != to; }
+    bool moves() const { return turns() || place.from != place.to; }
 
     // The body at a moment.
     struct Frame {

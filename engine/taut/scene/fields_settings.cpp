@@ -106,6 +106,8 @@ SceneSection solverSection() {
                     "Whether a body that diverges stops the run, or is kept as it last was and marked in the picture.")
             .number("freeze_strain", &SolverSpec::freezeStrain, "", Range{0.01, 1e6},
                     "Strain of a spring that counts as diverged, with on_divergence = \"freeze\".")
+            .number("sleep_error_m", &SolverSpec::sleepError, "m", Range{0.0, 1.0},
+                    "What rests sleeps if no point could move further than this; 0: nothing sleeps.")
             .take();
     return section;
 }

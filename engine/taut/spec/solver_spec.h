@@ -29,6 +29,7 @@ struct SolverSpec {
     int cgIterations = 1000;    // of implicit methods: most iterations in a solve
     OnDivergence onDivergence = OnDivergence::stop;
     double freezeStrain = 1.0;  // |l - L|/L of a spring (not of bending) above which freezing takes a body as diverged
+    double sleepError = 0;      // [m] furthest that sleep may leave a point from where it would be; 0: nothing sleeps
     std::shared_ptr<const ode::Methods> methods;  // that integrators are named in; none: the engine's own
 };
 

@@ -9,6 +9,7 @@ world::SceneSpec byMethod(const world::SceneSpec& spec, std::string_view method,
     scene.solver.integrator = method;
     scene.solver.precision = precision;
     scene.solver.onDivergence = world::OnDivergence::stop;
+    scene.solver.sleepError = 0.0;
     scene.solver.dt.reset();
     for (world::BodySpec& body : scene.bodies) {
         body.solver = {};

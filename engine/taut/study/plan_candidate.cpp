@@ -159,6 +159,7 @@ SceneSpec modelOf(const SceneSpec& spec, const Resolution& resolution, const Can
     model.solver.precision = candidate.precision;
     model.solver.dt.reset();
     model.solver.onDivergence = world::OnDivergence::stop;
+    model.solver.sleepError = 0.0;
     for (world::BodySpec& body : model.bodies) {
         body.solver.integrator.reset();
         body.solver.dt.reset();

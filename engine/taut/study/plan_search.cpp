@@ -30,6 +30,7 @@ class Search {
     void tryAsWritten() {
         world::SceneSpec model = withoutJitter(context_.spec);
         model.solver.onDivergence = world::OnDivergence::stop;
+        model.solver.sleepError = 0.0;
         PlanTrial trial;
         trial.isAsWritten = true;
         trial.candidate.count = context_.resolution.count;

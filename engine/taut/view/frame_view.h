@@ -54,6 +54,7 @@ struct Surface {
         0.0F;  // [m] of a rope or rod as tubeGeometry makes it: it is never drawn thinner than a pixel; 0: other
     float hem = 0.0F;     // [m] thickness of a cloth as its free edges show it, seen close
     float dulled = 0.0F;  // 0 … 1: how far its colours give way to a dull red, for what has stopped
+    float greyed = 0.0F;  // 0 … 1: how far they give way to grey, for what sleeps; of a surface that is not dulled
 };
 
 struct Camera {

@@ -150,7 +150,7 @@ void ContactStage::readAll() {
 int ContactStage::commonSubsteps() const {
     int common = 0;
     for (const Island* island : islands_)
-        if (island->frozen() == nullptr) common = std::gcd(common, island->substeps());
+        if (!island->isStill()) common = std::gcd(common, island->substeps());
     return std::max(common, 1);
 }
 
@@ -158,7 +158,7 @@ int ContactStage::commonSubsteps() const {
 int ContactStage::instantsFor(std::span<const int> surfaces) const {
     int needed = 1;
     for (int s : surfaces)
-        if (isOfBody(s) && bodyOf(s).island->frozen() == nullptr)
+        if (isOfBody(s) && !bodyOf(s).island->isStill())
             needed = std::max(needed, bodyOf(s).island->instantsToPress());
     return needed;
 }
@@ -168,7 +168,7 @@ int ContactStage::mostInstants() const {
     int most = spec_.instants.value_or(fewest_);
     if (!spec_.instants)
         for (const Island* island : islands_)
-            if (island->frozen() == nullptr) most = std::max(most, island->instantsToPress());
+            if (!island->isStill()) most = std::max(most, island->instantsToPress());
     return most;
 }
 
@@ -203,6 +203,26 @@ int ContactStage::chooseInstants(const TickTime& time) {
                         forecast.surfaces);
 }
 
+// What is still has no inverse mass. Surfaces that sleep, or have slept until now, are told apart.
+void ContactStage::takeMasses() {
+    for (const Part& part : parts_) {
+        const IslandPlan& plan = part.island->plan();
+        for (int i = part.first; i < part.last; ++i) {
+            const int own = i - part.first;
+            const bool moves = !part.island->isStill() && isFree(plan, own);
+            inverseMass_[static_cast<std::size_t>(i)] =
+                moves ? 1.0 / plan.points[static_cast<std::size_t>(own)].mass : 0.0;
+        }
+    }
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+        const int surface = static_cast<int>(s);
+        const bool isAsleep = bodies_[s]->island->isAsleep();
+        if (group_->elements().isStill(surface) == isAsleep) continue;
+        group_->elements().setStill(surface, isAsleep);
+        hasJumped_ = true;
+    }
+}
+
 // Updates damage, masses, colliders and places.
 void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotion> moving) {
     for (Island* island : islands_) {
@@ -211,15 +231,7 @@ void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotio
     }
     areCrossingsKnown_ = false;
     takeDamage();
-    for (const Part& part : parts_) {
-        const IslandPlan& plan = part.island->plan();
-        for (int i = part.first; i < part.last; ++i) {
-            const int own = i - part.first;
-            const bool moves = part.island->frozen() == nullptr && isFree(plan, own);
-            inverseMass_[static_cast<std::size_t>(i)] =
-                moves ? 1.0 / plan.points[static_cast<std::size_t>(own)].mass : 0.0;
-        }
-    }
+    takeMasses();
     hasJumped_ = colliders_.move(moving, tickSeconds_, group_->elements(), v_) || hasJumped_;
     readAll();
     colliders_.place(0.0, x1_);
@@ -227,13 +239,19 @@ void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotio
     hasJumped_ = false;
 }
 
-std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
+std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, std::span<const ColliderMotion> moving,
+                                                        bool watchesFriction) {
+    if (isAtRest()) {
+        hasJumped_ = colliders_.move(moving, tickSeconds_, group_->elements(), v_) || hasJumped_;
+        return std::nullopt;
+    }
     beginTick(time, moving);
 
     // Crossings, and the number of instants. An island that keeps its step needs the largest number from the first
     // tick.
     const auto start = Clock::now();
     group_->begin(x1_);
+    if (anySleeps()) wakeCrossed(time);
     if (islands_.front()->keepsStep()) takeInstants(time, mostInstants());
     int instants = chooseInstants(time);
     total_.seconds += secondsSince(start);
@@ -246,6 +264,9 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         colliders_.place(0.0, x1_);
         const bool isTrial = instants < 0;
         instants_ = std::abs(instants);
+        presses_.assign(watchesFriction ? x1_.size() : 0, {});
+        pressing_.clear();
+        reached_.clear();
         const bool isCoarse = tryTick(time, moving, instants_, faults, isTrial);
         std::vector<TickVerdict> verdicts(islands_.size(), TickVerdict::stands);
 
@@ -273,8 +294,14 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         readAll();
         colliders_.place(0.0, x1_);
         group_->rewind(x0_, x1_);
-        instants = isCoarse ? takeInstants(time, std::max({fewest_, 2 * instants_, instantsToFollow()}), result_.surfaces)
-                            : chooseInstants(time);
+        if (!reached_.empty()) {
+            wake(time, reached_);
+            instants = chooseInstants(time);
+            continue;
+        }
+        instants = isCoarse
+                       ? takeInstants(time, std::max({fewest_, 2 * instants_, instantsToFollow()}), result_.surfaces)
+                       : chooseInstants(time);
     }
 
     // Ends the tick.
@@ -286,9 +313,96 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
     return std::nullopt;
 }
 
+// Wakes companies within the tick, at its start.
+void ContactStage::wake(const TickTime& time, std::span<const std::int64_t> companies) {
+    for (Island* island : islands_) {
+        if (!island->isAsleep() || std::count(companies.begin(), companies.end(), island->company()) == 0) continue;
+        island->wake();
+        island->close(time);
+        island->takeParts(time, pace_.substeps());
+        island->beginTick(time);
+    }
+    takeMasses();
+    readAll();
+    colliders_.place(0.0, x1_);
+    if (hasJumped_) group_->drop();
+    hasJumped_ = false;
+}
+
+// What crosses a body that is awake has to make way for it.
+void ContactStage::wakeCrossed(const TickTime& time) {
+    reached_.clear();
+    for (const contact::Crossing& crossing : group_->crossings()) {
+        const auto& elements = group_->elements();
+        addReached(elements.edges()[static_cast<std::size_t>(crossing.edge)].surface,
+                   elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface);
+    }
+    if (!reached_.empty()) wake(time, reached_);
+}
+
+// Of two surfaces that meet: if one sleeps and the other is of a body that moves, the first has been reached.
+void ContactStage::addReached(int surfaceA, int surfaceB) {
+    if (!isOfBody(surfaceA) || !isOfBody(surfaceB)) return;
+    const Island &a = *bodyOf(surfaceA).island, &b = *bodyOf(surfaceB).island;
+    if (a.isAsleep() && !b.isStill()) reached_.push_back(a.company());
+    if (b.isAsleep() && !a.isStill()) reached_.push_back(b.company());
+}
+
+bool ContactStage::findReached() {
+    group_->forEachPressing([&](const contact::ContactConstraint& pair, double, const dvec3&) {
+        addReached(elements().surfaceOf(pair.points[0]), elements().surfaceOf(pair.points[3]));
+    });
+    return !reached_.empty();
+}
+
+// Adds up what pairs press points with in this instant.
+void ContactStage::addPresses() {
+    group_->forEachPressing([&](const contact::ContactConstraint& pair, double normal, const dvec3& friction) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            Press& press = presses_[static_cast<std::size_t>(pair.points[k])];
+            press.limit += std::abs(pair.weights[k]) * pair.friction * normal;
+            press.push += pair.weights[k] * normal * pair.normal;
+            press.friction += pair.weights[k] * friction;
+        }
+        const int a = elements().surfaceOf(pair.points[0]), b = elements().surfaceOf(pair.points[3]);
+        if (!isOfBody(a) || !isOfBody(b)) return;
+        const std::pair<const Island*, const Island*> islands{bodyOf(a).island, bodyOf(b).island};
+        if (islands.first != islands.second && std::count(pressing_.begin(), pressing_.end(), islands) == 0)
+            pressing_.push_back(islands);
+    });
+}
+
+std::vector<Island::Support> ContactStage::supports(const Island& island) const {
+    constexpr double inside = 0.9;  // of the cone of friction
+    std::vector<Island::Support> supports(island.plan().points.size());
+    for (const Part& part : parts_) {
+        if (part.island != &island || presses_.empty()) continue;
+        for (int i = part.first; i < part.last; ++i) {
+            const auto& [limit, push, friction] = presses_[static_cast<std::size_t>(i)];
+            const double most = inside * limit;
+            supports[static_cast<std::size_t>(i - part.first)] = {
+                push, limit > 0 && glm::dot(friction, friction) <= most * most};
+        }
+    }
+    return supports;
+}
+
+bool ContactStage::crosses(const Island& island) const {
+    const auto isOwn = [&](int surface) { return isOfBody(surface) && bodyOf(surface).island == &island; };
+    const auto crossings = crossingsBefore();
+    return std::any_of(crossings.begin(), crossings.end(), [&](const contact::Crossing& crossing) {
+        return isOwn(elements().edges()[static_cast<std::size_t>(crossing.edge)].surface) ||
+               isOwn(elements().triangles()[static_cast<std::size_t>(crossing.triangle)].surface);
+    });
+}
+
+bool ContactStage::anySleeps() const {
+    return std::any_of(islands_.begin(), islands_.end(), [](const Island* island) { return island->isAsleep(); });
+}
+
 bool ContactStage::movesAny() const {
     return std::any_of(
-        islands_.begin(), islands_.end(), [](const Island* island) { return !island->frozen(); });
+        islands_.begin(), islands_.end(), [](const Island* island) { return !island->isStill(); });
 }
 
 // How many instants would follow what contact moved in the last one, see turnOf().
@@ -329,6 +443,8 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
         resolveInstant(h);
         settle();
         if (findFaults(time.at(c + 1, instants), faults)) return false;
+        if (!presses_.empty()) addPresses();
+        if (anySleeps() && findReached()) return true;
         if (isTooCoarse(isTrial)) return true;
     }
     return false;
@@ -359,7 +475,8 @@ double ContactStage::turnOf(const Part& part, double h) const {
 void ContactStage::resolveInstant(double h) {
     kinematic_.clear();
     for (const Part& part : parts_)
-        for (const collision::Contact& c : part.island->contacts())
+        for (const collision::Contact& c : part.island->isStill() ? std::span<const collision::Contact>{}
+                                                                  : part.island->contacts())
             kinematic_.push_back(
                 {part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
     contact::Instant instant;

@@ -14,7 +14,16 @@ namespace taut::world {
 namespace {
 
 constexpr float frozenDullness = 0.93F;
+constexpr float asleepGreyness = 0.9F;  // in the debug view
 constexpr double fullStrain = 0.02;  // strain that the debug view shows in full colour
+
+// Shows whether an island is frozen, and in the debug view whether it sleeps.
+void addStillness(const Island& island, bool debug, view::Surface& surface) {
+    if (island.frozen() != nullptr) surface.dulled = frozenDullness;
+    if (debug && island.isAsleep()) surface.greyed = asleepGreyness;
+}
+
+constexpr glm::vec3 asleepColour(0.2F);  // of springs
 
 // Blue when compressed, grey at rest, red when stretched.
 glm::vec3 strainColour(double strain) {
@@ -30,8 +39,9 @@ void addMarks(const Island& island, view::Marks& marks) {
         if (s.kind == mechanics::SpringKind::bend || plan.broken[i]) continue;  // bend: would cover structural ones
         const dvec3 a = island.position(s.a), b = island.position(s.b);
         const double l = std::sqrt(glm::dot(b - a, b - a));
+        const double strain = s.restLength > 0 ? l / s.restLength - 1.0 : 0.0;
         marks.lines.push_back(
-            {glm::vec3(a), glm::vec3(b), strainColour(s.restLength > 0 ? l / s.restLength - 1.0 : 0.0)});
+            {glm::vec3(a), glm::vec3(b), island.isAsleep() ? asleepColour : strainColour(strain)});
     }
     const std::vector<bool> isHeld = heldPointsOf(plan);
     for (std::size_t i = 0; i < plan.points.size(); ++i) {
@@ -93,7 +103,7 @@ std::vector<dvec3> placesAhead(const Island& island, double ahead) {
 }
 
 // Draws ties of joints. Ties between bodies are extrapolated with them.
-void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
+void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view) {
     const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
     if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
     std::map<std::string, glm::mat4> poses;  // of the colliders
@@ -113,13 +123,13 @@ void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
             const glm::vec3 b = tie.b >= 0 ? glm::vec3(x[static_cast<std::size_t>(tie.b)])
                                            : glm::vec3(poses.at(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
             view.surfaces.push_back(drawing->surface(a, b, number));
-            if (island->frozen() != nullptr) view.surfaces.back().dulled = frozenDullness;
+            addStillness(*island, debug, view.surfaces.back());
         }
     }
 }
 
 // The contents of a picture without labels and marks. Puts bodies into `drawn`, in order.
-view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& drawn) {
+view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vector<Body*>& drawn) {
     const double time = w.seconds() + ahead;
     view::FrameView view;
     view.frame = w.tick / w.ticksPerFrame;
@@ -168,10 +178,9 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
         }
         const std::size_t first = view.surfaces.size();
         part.drawing->addSurfaces(positions, view.surfaces);
-        if (island.frozen() == nullptr) continue;
-        for (std::size_t i = first; i < view.surfaces.size(); ++i) view.surfaces[i].dulled = frozenDullness;
+        for (std::size_t i = first; i < view.surfaces.size(); ++i) addStillness(island, debug, view.surfaces[i]);
     }
-    addTies(w, ahead, view);
+    addTies(w, ahead, debug, view);
     return view;
 }
 
@@ -179,12 +188,12 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
 
 view::FrameView viewAhead(const WorldImpl& w, double ahead) {
     std::vector<Body*> ignored;
-    return sceneOf(w, ahead, ignored);
+    return sceneOf(w, ahead, false, ignored);
 }
 
 view::FrameView viewOf(WorldImpl& w, bool debug) {
     std::vector<Body*> bodies;
-    view::FrameView view = sceneOf(w, 0.0, bodies);
+    view::FrameView view = sceneOf(w, 0.0, debug, bodies);
     for (const LabelSpec& label : w.spec.labels) {
         std::vector<LabelSubject> subjects;
         for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &islandOf(*body)});

@@ -125,6 +125,15 @@ ContactInfo World::contact() const {
     return impl_->contactStage->info();
 }
 
+double World::asleepShare() const {
+    std::size_t all = 0, asleep = 0;
+    for (const auto& island : impl_->islands) {
+        all += island->plan().points.size();
+        asleep += island->isAsleep() ? island->plan().points.size() : 0;
+    }
+    return all > 0 ? static_cast<double>(asleep) / static_cast<double>(all) : 0.0;
+}
+
 bool World::hasTouched() const {
     return impl_->contactReport.hadImpulse() ||
            std::any_of(

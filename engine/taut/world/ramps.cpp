@@ -5,6 +5,7 @@
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/sleep.h"
 
 namespace taut::world {
 namespace {
@@ -79,6 +80,7 @@ void changeColliders(WorldImpl& w) {
     if (!isRamping(w, fields::Affects::colliders)) return;
     applyRamps(w, static_cast<double>(w.tick) + 0.5, fields::Affects::colliders);
     takeRampedParts(w);
+    wakeAll(w);
     rebuildColliders(w);
 }
 

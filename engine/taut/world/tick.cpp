@@ -7,6 +7,7 @@
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/sleep.h"
 
 namespace taut::world {
 namespace {
@@ -44,7 +45,7 @@ std::optional<Divergence> tickIslands(WorldImpl& w, const std::vector<ColliderMo
                 const auto k = static_cast<std::size_t>(i);
                 faults[k] = alone[k]->tick(time, moving);
             });
-        if (!w.contactStage->isEmpty()) outcome = w.contactStage->tick(time, moving);
+        if (!w.contactStage->isEmpty()) outcome = w.contactStage->tick(time, moving, endsRestWindow(w));
     });
     const auto diagnose = [&](Island& island, const Fault& fault) {
         undoTick(w);
@@ -56,7 +57,7 @@ std::optional<Divergence> tickIslands(WorldImpl& w, const std::vector<ColliderMo
             alone[i]->freeze(*faults[i], time);
         }
     if (outcome) return diagnose(*outcome->island, outcome->fault);
-    if (!w.contactStage->isEmpty()) w.contactReport.look(*w.contactStage, time.start());
+    if (!w.contactStage->isEmpty() && !w.contactStage->isAtRest()) w.contactReport.look(*w.contactStage, time.start());
     return std::nullopt;
 }
 
@@ -66,7 +67,13 @@ void updateHash(WorldImpl& w) {
     next.add(static_cast<std::uint64_t>(w.tick));
     for (const WorldImpl::Member& member : w.bodies) {
         next.add(member.name);
-        islandOf(*member.body).addToHash(*member.body, next);
+        Island& island = islandOf(*member.body);
+        if (!island.isAsleep()) {
+            island.addToHash(*member.body, next);
+            continue;
+        }
+        next.add(static_cast<std::uint64_t>(island.company()));
+        next.add(island.hashAsleep(*member.body));
     }
     w.hash = next.value();
 }

@@ -9,6 +9,7 @@
 #include "taut/world/private/impl.h"
 #include "taut/world/private/joints.h"
 #include "taut/world/private/saving.h"
+#include "taut/world/private/sleep.h"
 #include "taut/world/private/tick.h"
 #include "taut/world/private/timeline.h"
 
@@ -68,13 +69,16 @@ std::optional<Divergence> World::advance() {
     changeSprings(w);
     leadHands(w);
     carryTied(w);
+    const std::vector<ColliderMotion> moving = movingColliders(w);
+    wakeReached(w, moving);
     closeIslands(w);
-    if (auto divergence = tickIslands(w, movingColliders(w))) return divergence;
+    if (auto divergence = tickIslands(w, moving)) return divergence;
     ++w.tick;
     breakJoints(w);
     if (std::any_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->hasTorn(); }))
         redrawDamage(w);
     changePicture(w);
+    letSleep(w);
     updateHash(w);
     return std::nullopt;
 }
@@ -105,6 +109,7 @@ void World::addSystem(System system, const std::string& callback) {
 }
 
 ecs::Entity World::spawn(const ColliderSpec& spec) {
+    wakeAll(*impl_);
     const ecs::Entity entity = addCollider(*impl_, spec);
     rebuildColliders(*impl_);
     return entity;
@@ -116,6 +121,7 @@ ecs::Entity World::spawn(const BodySpec& spec) {
 void World::destroy(ecs::Entity entity) {
     WorldImpl& w = *impl_;
     TAUT_EXPECTS(w.registry.isAlive(entity));
+    if (w.registry.find<BodyPart>(entity) != nullptr || w.registry.find<ColliderPart>(entity) != nullptr) wakeAll(w);
     if (w.registry.find<BodyPart>(entity) != nullptr) removeBody(w, entity);
     const bool wasCollider = w.registry.find<ColliderPart>(entity) != nullptr;
     if (wasCollider) letGo(w, w.registry.find<Identity>(entity)->fullName());

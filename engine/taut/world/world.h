@@ -108,6 +108,7 @@ class World {
     ContactInfo contact() const;                // of bodies that touch
     std::vector<JointInfo> joints() const;      // in the order of the scene, those with colliders last
     ode::Work work() const;                     // of all methods since the start
+    double asleepShare() const;                 // of the points, that sleep
     bool hasTouched() const;                    // a collider or a body, since it was made or restored
     std::vector<FrozenIsland> frozen() const;   // in the order of islands()
     std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, frozen, …

@@ -73,6 +73,8 @@ class Dynamics {
     virtual void setForces(const ForceList& forces) = 0;
     // Whether any force that acts here is a callback.
     virtual bool callsBack(const ForceList& forces) const = 0;
+    // Whether every force that acts here is steady.
+    virtual bool isSteady(const ForceList& forces) const = 0;
     // Takes over forces that go on without a jump from those before.
     virtual void steer(const ForceList& forces) = 0;
     // Takes over the changed path of a grip.

@@ -13,11 +13,13 @@
 #include <vector>
 
 #include "taut/collision/colliders.h"
+#include "taut/core/aabb.h"
 #include "taut/core/private/hash.h"
 #include "taut/island/private/dynamics.h"
 #include "taut/island/private/envelope.h"
 #include "taut/island/private/memory.h"
 #include "taut/island/private/precision_watch.h"
+#include "taut/island/private/rest_watch.h"
 #include "taut/island/report.h"
 #include "taut/island/private/step_choice.h"
 #include "taut/island/private/step_following.h"
@@ -100,7 +102,7 @@ class Island {
     // After a part: contact with other bodies has moved points (ascending). Brings them out of colliders again.
     void place(std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v);
     // After place(): constraints share its changes. Returns whether any point of the island moved.
-    bool settle() { return !frozen_ && dynamics_->settle(); }
+    bool settle() { return !isStill() && dynamics_->settle(); }
     // After the last part: takes over the accelerations by contact with other bodies in the last instant.
     void bear(std::span<const ContactAcceleration> pressed) { now_.pressed.assign(pressed.begin(), pressed.end()); }
 
@@ -117,6 +119,38 @@ class Island {
     void freeze(const Fault& fault, const TickTime& time);
     // Why and when it froze, or null while it moves.
     const FrozenIsland* frozen() const { return frozen_ ? &*frozen_ : nullptr; }
+
+    // Sleep: world/private/sleep.h decides. An island that sleeps keeps its places to the bit, at speed 0, and later
+    // ticks do nothing. Changes open it as any other; then it has to be woken before close().
+    bool isAsleep() const { return sleep_.company != 0; }
+    // The number of those that fell asleep together, which wake together; 0: awake.
+    std::int64_t company() const { return sleep_.company; }
+    bool isStill() const { return isAsleep() || frozen_; }
+    // At the end of a tick, while awake. A window of rest ends, and the next begins, or it is looked at in between.
+    void watchRest(bool isMiddle);
+    void beginRestWindow(std::int64_t number);
+    // At the end of a window that lasted `seconds`: whether it was calm, and what acts on the points is steady.
+    bool isCalm();
+    // Whether no point of a calm island could go further than the error allows. supports (points; empty: none): by
+    // other bodies, with those of colliders to come.
+    struct Support {
+        dvec3 push{0.0};        // what presses the point, as a direction; 0: nothing
+        bool mayStick = false;  // friction could hold it by a margin
+    };
+    bool rests(double seconds, std::vector<Support> supports);
+    void restInVain() { rest_.fail(); }
+    // Takes the motion that is left, and books it.
+    void fallAsleep(const TickTime& time, std::int64_t company);
+    // Opens it.
+    void wake();
+    // While it sleeps: whether a collider that moves in this tick comes near any point. Moves its colliders.
+    bool isReachedBy(std::span<const ColliderMotion> moving);
+    struct Slept {
+        double energy = 0;    // [J]
+        dvec3 momentum{0.0};  // [kg m/s]
+    };
+    // What falling asleep has taken since the start.
+    const Slept& slept() const { return sleep_.taken; }
 
     // Changes between two ticks. The first one opens the island: velocities are brought to the time of the positions.
     // close() starts the method again from there, with the changed plan and forces. Expects that the island is not
@@ -152,6 +186,8 @@ class Island {
 
     // The state of a body: x and the stored v of its points in the order of authoring, and what else it has.
     void addToHash(const Body& body, core::Hash& hash) const { dynamics_->addToHash(body, hash); }
+    // The same as one number, kept while it sleeps.
+    std::uint64_t hashAsleep(const Body& body);
     // Adds x and the stored v of one point.
     void addPointToHash(int point, core::Hash& hash) const { dynamics_->addToHash({&point, 1}, hash); }
     // Work of the methods since the start.
@@ -195,6 +231,7 @@ class Island {
     const ode::MethodInfo& method() const { return *methodsOf(plan_.solver).find(plan_.solver.integrator); }
     void visitPlan(StateBytes& bytes);
     void visitInside(StateBytes& bytes);
+    void visitSleep(StateBytes& bytes);
     void visitStep(StateBytes& bytes);
 
     // Members that every tick reads stand close together.
@@ -232,6 +269,14 @@ class Island {
     Yielding yielding_;
     TieLoad tieLoad_;
     std::optional<FrozenIsland> frozen_;
+    RestWatch rest_;
+    struct {
+        std::int64_t company = 0;
+        Slept taken;
+        // Made when they are asked for:
+        std::optional<core::Aabb> box;                             // [m] of the points
+        std::vector<std::pair<const Body*, std::uint64_t>> hashes;
+    } sleep_;
 };
 
 }  // namespace taut::world

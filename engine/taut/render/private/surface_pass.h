@@ -33,7 +33,7 @@ class SurfacePass {
     // What light.frag has to know of a surface: a row of its table.
     struct Material {
         glm::vec4 backRoughness;
-        glm::vec4 kind;    // sheen, dulled, translucency, woven
+        glm::vec4 kind;    // sheen, dulled less greyed, translucency, woven
         glm::vec4 fibres;  // anisotropy; rest 0
         bool operator==(const Material&) const = default;
     };

@@ -64,7 +64,18 @@ class ContactStage {
         Island* island = nullptr;
         Fault fault;
     };
-    std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving);
+    // watchesFriction: for supports() and pressing(), which tell of this tick.
+    std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving, bool watchesFriction);
+
+    // Sleep. All islands are still, and some sleep: a tick does nothing.
+    bool isAtRest() const { return anySleeps() && !movesAny(); }
+    // (points of the island) by other bodies, and by edges of colliders. Friction may hold a point if it used at most
+    // 0.9 of what Coulomb allows.
+    std::vector<Island::Support> supports(const Island& island) const;
+    // Islands that pressed each other, each two once.
+    std::span<const std::pair<const Island*, const Island*>> pressing() const { return pressing_; }
+    // Whether anything of the island crossed, or was crossed by, anything at the start of the last tick.
+    bool crosses(const Island& island) const;
 
     // To be called when points have been moved from outside.
     void drop() { hasJumped_ = true, areCrossingsKnown_ = false; }
@@ -95,6 +106,13 @@ class ContactStage {
     };
     void beginTick(const TickTime& time, std::span<const ColliderMotion> moving);
     void takeDamage();
+    void takeMasses();
+    void wake(const TickTime& time, std::span<const std::int64_t> companies);
+    void wakeCrossed(const TickTime& time);
+    void addReached(int surfaceA, int surfaceB);
+    bool findReached();
+    void addPresses();
+    bool anySleeps() const;
     void readAll();
     int mostInstants() const;
     int commonSubsteps() const;  // greatest common divisor over the islands; 1 if all are frozen
@@ -131,6 +149,14 @@ class ContactStage {
     double turn_ = 0;                       // [rad] largest turnOf() in the last instant
     std::vector<double> inverseMass_;  // (points)
     std::vector<contact::KinematicContact> kinematic_;
+    // What contact did with a point in a tick, summed over pairs and instants.
+    struct Press {
+        double limit = 0;                // [N s] of friction
+        dvec3 push{0.0}, friction{0.0};  // [N s] along the normals, and across
+    };
+    std::vector<Press> presses_;                                     // (points) empty: nobody asked
+    std::vector<std::pair<const Island*, const Island*>> pressing_;  // likewise
+    std::vector<std::int64_t> reached_;                              // companies, in this try
     int instants_ = 0;
     int room_ = 1;  // instants for which the substeps of this tick have room
     contact::InstantResult result_;

@@ -65,6 +65,7 @@ bending_yield_per_m = 5.5
 damping_time_s = 2e-4
 drag_per_s = 0.4
 air_kg_per_m2 = 0.03
+flutter = 0.5
 lumping = "uniform"
 yield_strain = 0.05
 break_strain = 0.5

@@ -46,7 +46,7 @@ namespace taut::contact {
 
 struct SolverOptions {
     int sweeps = 20;           // at most
-    double settled = 1e-4;     // sweeps end when they change less than this share of the thickness per instant [-]
+    double settled = 1e-5;     // sweeps end when they change less than this share of the thickness per instant [-]
     double recovery = 0.2;     // share of an overlap that is corrected in an instant [-]
     double restitution = 0.0;  // of pairs that close faster than restSpeed [-]
     double restSpeed = 0.0;    // [m/s]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace taut::world {

@@ -89,7 +89,7 @@ void ContactSolver::findClusters(const Problem& problem) {
     for (int i : touched_) {
         if (problem.isFixed(i)) continue;
         const auto k = static_cast<std::size_t>(i);
-        slots_[k] = addConstant(problem.u[k], problem.v[k]);
+        slots_[k] = addSlot(problem.u[k], problem.v[k]);
     }
 
     const int pairCount = static_cast<int>(problem.pairs.size());
@@ -152,7 +152,7 @@ void ContactSolver::colour(std::span<int> sources, const Problem& problem) {
     for (const std::vector<int>& own : colours) to = std::copy(own.begin(), own.end(), to);
 }
 
-int ContactSolver::addConstant(const dvec3& u, const dvec3& v) {
+int ContactSolver::addSlot(const dvec3& u, const dvec3& v) {
     u_.push_back(four(u));
     v_.push_back(four(v));
     return static_cast<int>(u_.size()) - 1;
@@ -160,7 +160,7 @@ int ContactSolver::addConstant(const dvec3& u, const dvec3& v) {
 
 int ContactSolver::slotOf(int point, const Problem& problem) {
     const auto k = static_cast<std::size_t>(point);
-    return problem.isFixed(point) ? addConstant(problem.u[k], problem.v[k]) : slots_[k];
+    return problem.isFixed(point) ? addSlot(problem.u[k], problem.v[k]) : slots_[k];
 }
 
 // Appends the row of a pair, or of a contact with a collider. It starts with what it had in the last instant.
@@ -202,7 +202,7 @@ void ContactSolver::addRow(int source, const Problem& problem) {
         row.mass = 1.0 / row.gains[0];
         row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
         row.slots[0] = slotOf(contact.point, problem);
-        row.slots[1] = row.slots[2] = row.slots[3] = addConstant(contact.carried, contact.carried);
+        row.slots[1] = row.slots[2] = row.slots[3] = addSlot(contact.carried, contact.carried);
     }
 
     keys_.push_back(key);

@@ -103,7 +103,7 @@ class ContactSolver {
     void colour(std::span<int> sources, const Problem& problem);
     void addRow(int source, const Problem& problem);
     int slotOf(int point, const Problem& problem);
-    int addConstant(const dvec3& u, const dvec3& v);
+    int addSlot(const dvec3& u, const dvec3& v);
     int solveCluster(const Cluster& cluster, const Problem& problem);
     void solveStored(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
     void correctPositions(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);

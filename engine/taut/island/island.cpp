@@ -537,7 +537,7 @@ void Island::release(const TickTime& time, const std::function<bool(const JointT
 
 std::vector<bool> Island::overloaded() const {
     return tieLoad_.isOn() && !isStill() ? tieLoad_.overloaded(plan_, *dynamics_, tickSeconds_)
-                                      : std::vector<bool>(plan_.ties.size(), false);
+                                         : std::vector<bool>(plan_.ties.size(), false);
 }
 
 void Island::setPath(std::size_t grip, const mechanics::PosePath& path) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
 
 namespace taut::world {

@@ -453,7 +453,7 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
 // ω H of the shift by which contact moved the points of an island in the last instant [rad]: ω² is its Rayleigh
 // quotient. The springs gain ½ shift·K shift by it, where contact took ½ m (shift/h)² from the motion.
 double ContactStage::turnOf(const Part& part, double h) const {
-    if (part.island->frozen() != nullptr) return 0;
+    if (part.island->isStill()) return 0;
     const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.last) - first;
     std::vector<dvec3> shift(count, dvec3(0.0)), force(count, dvec3(0.0));
     double inertia = 0;

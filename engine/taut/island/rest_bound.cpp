@@ -6,11 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "taut/ode/private/conjugate_gradient.h"
+
 namespace taut::world {
 namespace {
 
 constexpr double tolerance = 1e-3;  // residual over right-hand side
-constexpr double singular = 1e-12;  // curvature over the largest, below which nothing holds
 constexpr int mostProducts = 2000;
 
 double product(std::span<const dvec3> a, std::span<const dvec3> b) {
@@ -24,42 +25,26 @@ dvec3 along(const dvec3& v, const dvec3& normal) {
     return v - glm::dot(v, normal) * normal;
 }
 
-// Solves K u = b for the free points by conjugate gradients on M^{-1/2} K M^{-1/2}. Returns false if it cannot.
+// Solves K u = b for the free points. Returns false if it cannot.
 bool solve(std::span<const double> inverseMasses, std::span<const dvec3> normals,
            const mechanics::StiffnessProduct& multiply, std::span<const dvec3> b, std::vector<dvec3>& u) {
     const std::size_t n = b.size();
-    std::vector<double> root(n);
-    std::vector<dvec3> y(n, dvec3(0.0)), r(n), p(n), scaled(n), q(n);
+    std::vector<dvec3> inverse(n), across(n), in(n), sum(n);
     for (std::size_t i = 0; i < n; ++i) {
-        root[i] = std::sqrt(inverseMasses[i]);
-        r[i] = root[i] * along(b[i], normals[i]);
+        inverse[i] = dvec3(inverseMasses[i]);
+        across[i] = along(b[i], normals[i]);
     }
-    p = r;
-    double square = product(r, r), stiffest = 0;
-    const double enough = tolerance * tolerance * square;
+    u.assign(n, dvec3(0.0));
+    const auto multiplyAcross = [&](const double* from, double* to) {
+        std::copy_n(from, 3 * n, &in.front().x);
+        std::fill(sum.begin(), sum.end(), dvec3(0.0));
+        multiply(in, sum);
+        for (std::size_t i = 0; i < n; ++i) sum[i] = along(sum[i], normals[i]);
+        std::copy_n(&sum.front().x, 3 * n, to);
+    };
+    ode::ConjugateGradient<double> solver(3 * n);
     const int most = std::min(mostProducts, 6 * static_cast<int>(n) + 20);
-    for (int k = 0; square > enough; ++k) {
-        if (k == most) return false;
-        for (std::size_t i = 0; i < n; ++i) scaled[i] = root[i] * p[i];
-        std::fill(q.begin(), q.end(), dvec3(0.0));
-        multiply(scaled, q);
-        for (std::size_t i = 0; i < n; ++i) q[i] = root[i] * along(q[i], normals[i]);
-        const double curvature = product(p, q) / product(p, p);
-        stiffest = std::max(stiffest, curvature);
-        if (!(curvature > singular * stiffest)) return false;
-        const double step = square / (curvature * product(p, p));
-        for (std::size_t i = 0; i < n; ++i) {
-            y[i] += step * p[i];
-            r[i] -= step * q[i];
-        }
-        const double before = square;
-        square = product(r, r);
-        if (!std::isfinite(square)) return false;
-        for (std::size_t i = 0; i < n; ++i) p[i] = r[i] + (square / before) * p[i];
-    }
-    u.resize(n);
-    for (std::size_t i = 0; i < n; ++i) u[i] = root[i] * y[i];
-    return true;
+    return solver.solve(multiplyAcross, &inverse.front().x, &across.front().x, tolerance, most, &u.front().x).converged;
 }
 
 double longest(std::span<const dvec3> vectors) {

@@ -32,6 +32,7 @@
 #include <vector>
 
 #include "taut/contact/bvh.h"
+#include "taut/contact/leaf_boxes.h"
 
 namespace taut::contact {
 
@@ -44,33 +45,6 @@ struct CandidatePair {
 // A pair needs a certificate if its distance is below the relative motion of its leaves plus this share of its
 // thickness. The share is for the motion that contact adds.
 inline constexpr double watchShare = 0.5;
-
-// Boxes of elements, one row for each coordinate, for the kernel that tests many at once.
-struct ElementBoxes {
-    std::vector<int> item;
-    std::vector<double> low[3], high[3];
-    void clear() {
-        item.clear();
-        for (int k = 0; k < 3; ++k) {
-            low[k].clear();
-            high[k].clear();
-        }
-    }
-    void add(int number, const core::Aabb& box) {
-        item.push_back(number);
-        for (int k = 0; k < 3; ++k) {
-            low[k].push_back(box.low[k]);
-            high[k].push_back(box.high[k]);
-        }
-    }
-    core::Aabb box(int i) const {
-        const auto k = static_cast<std::size_t>(i);
-        return {{low[0][k], low[1][k], low[2][k]}, {high[0][k], high[1][k], high[2][k]}};
-    }
-};
-struct LeafBoxes {
-    ElementBoxes points, triangles, edges;
-};
 
 class BroadPhase {
   public:
@@ -166,6 +140,7 @@ class BroadPhase {
     std::vector<TrackedPair> tracked_, merged_;  // ascending; scratch
     std::vector<TrackedPair*> checked_;          // in this instant
     std::vector<CandidateList*> due_;
+    std::vector<FloatBox> pointBoxes_;     // (points) scratch
     std::vector<LeafBoxes> boxes_;         // (leaves) of this instant, where a list is made anew
     std::vector<double> deviation_;        // (leaves) [m] sum over all instants
     std::vector<double> travel_;           // (leaves) [m] sum over all instants of the furthest way of a point

@@ -22,8 +22,6 @@ struct MeasuredPair {
 };
 
 struct Scratch {
-    ElementBoxes near;  // of the second leaf, those near the first
-    std::vector<int> firsts, seconds;
     std::vector<CandidatePair> overlapping;
     ClosestBatch batch;
     std::vector<MeasuredPair> inReach;
@@ -43,40 +41,6 @@ struct Query {
     const Triangle& triangle(int t) const { return elements.triangles()[static_cast<std::size_t>(t)]; }
     const Edge& edge(int e) const { return elements.edges()[static_cast<std::size_t>(e)]; }
 };
-
-// The numbers of the boxes, from `from` on, that overlap the box grown by the reach -> hits.
-void findHits(const Query& query, const ElementBoxes& boxes, core::Aabb box, std::size_t from, std::vector<int>& hits) {
-    box.grow(query.reach);
-    hits.resize(boxes.item.size());
-    BoxLanes lanes;
-    lanes.n = static_cast<int>(boxes.item.size() - from);
-    for (int k = 0; k < 3; ++k) {
-        lanes.low[k] = boxes.low[k].data() + from;
-        lanes.high[k] = boxes.high[k].data() + from;
-    }
-    hits.resize(static_cast<std::size_t>(query.kernels.findOverlapping(lanes, &box.low[0], &box.high[0], hits.data())));
-    for (int& hit : hits) hit += static_cast<int>(from);
-}
-
-// Calls each(first, second) for elements of two leaves whose boxes are within reach of each other. box: of the first
-// leaf's elements; boxOfSecond likewise.
-template <class Each>
-void forEachNear(const Query& query, const ElementBoxes& first, const core::Aabb& box, const ElementBoxes& second,
-                 const core::Aabb& boxOfSecond, bool areSame, Scratch& scratch, const Each& each) {
-    findHits(query, second, box, 0, scratch.seconds);
-    scratch.near.clear();
-    for (int hit : scratch.seconds) scratch.near.add(second.item[static_cast<std::size_t>(hit)], second.box(hit));
-    if (scratch.near.item.empty()) return;
-    if (!areSame) findHits(query, first, boxOfSecond, 0, scratch.firsts);
-    const ElementBoxes& firsts = areSame ? scratch.near : first;
-    const std::size_t count = areSame ? firsts.item.size() : scratch.firsts.size();
-    for (std::size_t k = 0; k < count; ++k) {
-        const int own = areSame ? static_cast<int>(k) : scratch.firsts[k];
-        findHits(query, scratch.near, firsts.box(own), areSame ? k + 1 : 0, scratch.seconds);
-        for (int hit : scratch.seconds)
-            each(firsts.item[static_cast<std::size_t>(own)], scratch.near.item[static_cast<std::size_t>(hit)]);
-    }
-}
 
 // Measures scratch.overlapping, and appends the pairs within the margin to the list, sorted by isBefore.
 // pointsOf(pair): the four points that the kernel gets.
@@ -138,26 +102,11 @@ void BroadPhase::findBoxes(std::span<const dvec3> x0) {
         if (list->isExpired) leafList_.insert(leafList_.end(), {list->a, list->b});
     std::sort(leafList_.begin(), leafList_.end());
     leafList_.erase(std::unique(leafList_.begin(), leafList_.end()), leafList_.end());
+    if (leafList_.empty()) return;
+    findPointBoxes(x0, pointBoxes_);
     core::parallelFor(static_cast<int>(leafList_.size()), [&](int k) {
         const int number = leafList_[static_cast<std::size_t>(k)];
-        const BvhLeaf& leaf = bvh_[number];
-        LeafBoxes& boxes = boxes_[static_cast<std::size_t>(number)];
-        for (ElementBoxes* own : {&boxes.points, &boxes.triangles, &boxes.edges}) own->clear();
-        const auto boxOf = [&](auto... points) {
-            core::Aabb box;
-            (box.add(x0[static_cast<std::size_t>(points)]), ...);
-            return box;
-        };
-        for (int i : leaf.points) boxes.points.add(i, boxOf(i));
-        for (int t : leaf.triangles) {
-            const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(t)];
-            const std::array<int, 3>& c = triangle.points;
-            if (!triangle.isGone) boxes.triangles.add(t, boxOf(c[0], c[1], c[2]));
-        }
-        for (int e : leaf.edges) {
-            const Edge& edge = elements_.edges()[static_cast<std::size_t>(e)];
-            if (!edge.isGone) boxes.edges.add(e, boxOf(edge.a, edge.b));
-        }
+        boxes_[static_cast<std::size_t>(number)].find(elements_, bvh_[number], pointBoxes_);
     });
 }
 
@@ -183,13 +132,13 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     scratch.overlapping.clear();
 
     // Pairs of points and triangles first.
+    BoxQuery boxes(kernels, reach);
     const auto addPoints = [&](const LeafBoxes& points, const core::Aabb& boxOfPoints, const LeafBoxes& triangles,
                                const core::Aabb& boxOfTriangles) {
-        forEachNear(query, triangles.triangles, boxOfTriangles, points.points, boxOfPoints, false, scratch,
-                    [&](int t, int i) {
-                        const std::array<int, 3>& c = query.triangle(t).points;
-                        if (i != c[0] && i != c[1] && i != c[2]) scratch.overlapping.push_back({i, t, thickness});
-                    });
+        boxes.forEach(triangles.triangles, boxOfTriangles, points.points, boxOfPoints, [&](int t, int i) {
+            const std::array<int, 3>& c = query.triangle(t).points;
+            if (i != c[0] && i != c[1] && i != c[2]) scratch.overlapping.push_back({i, t, thickness});
+        });
     };
     addPoints(ofA, boxA, ofB, boxB);
     if (!query.isOne) addPoints(ofB, boxB, ofA, boxA);
@@ -204,7 +153,7 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     list.pointPairs = list.pairs.size();
 
     // Then pairs of edges.
-    forEachNear(query, ofA.edges, boxA, ofB.edges, boxB, query.isOne, scratch, [&](int e, int f) {
+    boxes.forEach(ofA.edges, boxA, ofB.edges, boxB, [&](int e, int f) {
         const Edge &first = query.edge(e), &second = query.edge(f);
         if (first.a != second.a && first.a != second.b && first.b != second.a && first.b != second.b)
             scratch.overlapping.push_back({std::min(e, f), std::max(e, f), thickness});

@@ -15,6 +15,47 @@ constexpr long face = 0, edge0 = 1, edge1 = 2, edge2 = 3, corner0 = 4, corner1 =
 
 constexpr int room = 64;  // boxes or pairs at a time
 
+constexpr int sixteen = static_cast<int>(boxesAtOnce);
+
+// A bit for each of sixteen numbers that is at most, or at least, the limit.
+#if defined(__AVX512F__)
+inline unsigned atMost(const float* numbers, float limit) {
+    return _mm512_cmp_ps_mask(_mm512_loadu_ps(numbers), _mm512_set1_ps(limit), _CMP_LE_OQ);
+}
+inline unsigned atLeast(const float* numbers, float limit) {
+    return _mm512_cmp_ps_mask(_mm512_loadu_ps(numbers), _mm512_set1_ps(limit), _CMP_GE_OQ);
+}
+#else
+#if defined(__AVX2__)
+inline unsigned bitsAtMost(const float* numbers, float limit) {
+    const __m256 own = _mm256_loadu_ps(numbers);
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(own, _mm256_set1_ps(limit), _CMP_LE_OQ)));
+}
+inline unsigned bitsAtLeast(const float* numbers, float limit) {
+    const __m256 own = _mm256_loadu_ps(numbers);
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(own, _mm256_set1_ps(limit), _CMP_GE_OQ)));
+}
+#else
+inline unsigned bitsAtMost(const float* numbers, float limit) {
+    return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(_mm_loadu_ps(numbers), _mm_set1_ps(limit))));
+}
+inline unsigned bitsAtLeast(const float* numbers, float limit) {
+    return static_cast<unsigned>(_mm_movemask_ps(_mm_cmpge_ps(_mm_loadu_ps(numbers), _mm_set1_ps(limit))));
+}
+#endif
+constexpr int width = core::TAUT_ISA::vectorBytes / static_cast<int>(sizeof(float));
+inline unsigned atMost(const float* numbers, float limit) {
+    unsigned bits = 0;
+    for (int i = 0; i < sixteen; i += width) bits |= bitsAtMost(numbers + i, limit) << static_cast<unsigned>(i);
+    return bits;
+}
+inline unsigned atLeast(const float* numbers, float limit) {
+    unsigned bits = 0;
+    for (int i = 0; i < sixteen; i += width) bits |= bitsAtLeast(numbers + i, limit) << static_cast<unsigned>(i);
+    return bits;
+}
+#endif
+
 inline double clampShare(double s) {
     const double above = s < 0 ? 0.0 : s;
     return above > 1 ? 1.0 : above;
@@ -134,26 +175,21 @@ void onSegments(ClosestLanes& lanes, int n) {
     sumUp(lanes, n);
 }
 
-int findOverlapping(const BoxLanes& boxes, const double* low, const double* high, int* hits) {
-    const double lx = low[0], ly = low[1], lz = low[2], hx = high[0], hy = high[1], hz = high[2];
-    alignas(64) long isHit[room];
-    int count = 0;
-    for (int from = 0; from < boxes.n; from += room) {
-        const int n = boxes.n - from < room ? boxes.n - from : room;
-        const double *boxLx = boxes.low[0] + from, *boxLy = boxes.low[1] + from, *boxLz = boxes.low[2] + from;
-        const double *boxHx = boxes.high[0] + from, *boxHy = boxes.high[1] + from, *boxHz = boxes.high[2] + from;
-        TAUT_INDEPENDENT
-        for (int i = 0; i < n; ++i) {
-            const bool is = (boxLx[i] <= hx) & (lx <= boxHx[i]) & (boxLy[i] <= hy) & (ly <= boxHy[i]) &
-                            (boxLz[i] <= hz) & (lz <= boxHz[i]);
-            isHit[i] = is ? 1L : 0L;
+bool findOverlapping(const BoxLanes& boxes, const float* low, const float* high, std::uint64_t* hits) {
+    std::uint64_t any = 0;
+    for (int from = 0; from < boxes.n; from += 64) {
+        const int n = boxes.n - from < 64 ? boxes.n - from : 64;
+        std::uint64_t bits = 0;
+        for (int i = 0; i < n; i += sixteen) {
+            unsigned own = 0xffff;
+            for (int k = 0; k < 3; ++k)
+                own &= atMost(boxes.low[k] + from + i, high[k]) & atLeast(boxes.high[k] + from + i, low[k]);
+            bits |= static_cast<std::uint64_t>(own) << static_cast<unsigned>(i);
         }
-        for (int i = 0; i < n; ++i) {
-            hits[count] = from + i;
-            count += static_cast<int>(isHit[i]);
-        }
+        *hits++ = bits;
+        any |= bits;
     }
-    return count;
+    return any != 0;
 }
 
 // Minima are computed as maxima of negative numbers, because the wide vectors only have maxima.

@@ -3,6 +3,9 @@
 // Plain data only.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 namespace taut::contact {
 
 inline constexpr int closestBatch = 64;  // pairs at most
@@ -19,11 +22,13 @@ struct ClosestLanes {
     alignas(64) long where[closestRow];
 };
 
-// Boxes in rows (n) [m].
+inline constexpr std::size_t boxesAtOnce = 16;
+
+// Boxes in rows (n) [m]; n is a multiple of boxesAtOnce.
 struct BoxLanes {
     int n;
-    const double* low[3];
-    const double* high[3];
+    const float* low[3];
+    const float* high[3];
 };
 
 // The budgets of a list's pairs (CandidateList). A pair is due when both budgets are used up.
@@ -40,8 +45,9 @@ struct CandidateRows {
 struct ClosestKernels {
     void (*onTriangles)(ClosestLanes& lanes, int n);
     void (*onSegments)(ClosestLanes& lanes, int n);
-    // hits (n) gets the numbers of the boxes that overlap the box from low to high (3) [m]. Returns how many.
-    int (*findOverlapping)(const BoxLanes& boxes, const double* low, const double* high, int* hits);
+    // hits (n / 64, rounded up) gets a bit for each box that overlaps the box from low to high (3) [m]. Returns whether
+    // there is any.
+    bool (*findOverlapping)(const BoxLanes& boxes, const float* low, const float* high, std::uint64_t* hits);
     int (*findDue)(CandidateRows& rows);  // returns how many
 };
 

@@ -3,12 +3,12 @@
 
 namespace taut::contact {
 
-#define TAUT_DECLARE(isa)                                                     \
-    namespace isa {                                                           \
-    void onTriangles(ClosestLanes&, int);                                     \
-    void onSegments(ClosestLanes&, int);                                      \
-    int findOverlapping(const BoxLanes&, const double*, const double*, int*); \
-    int findDue(CandidateRows&);                                              \
+#define TAUT_DECLARE(isa)                                                             \
+    namespace isa {                                                                   \
+    void onTriangles(ClosestLanes&, int);                                             \
+    void onSegments(ClosestLanes&, int);                                              \
+    bool findOverlapping(const BoxLanes&, const float*, const float*, std::uint64_t*); \
+    int findDue(CandidateRows&);                                                      \
     }
 TAUT_DECLARE(sse2)
 TAUT_DECLARE(avx2)

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "taut/contact/closest_points.h"
+#include "taut/contact/leaf_boxes.h"
 
 namespace taut::contact {
 namespace {
@@ -227,62 +228,41 @@ dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec
     return out < 0 ? -normal : normal;
 }
 
-// Over 60 lines, with the two functions that only it uses.
 std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
-    // Tests edges of one leaf against triangles of the other, by boxes first.
-    struct Boxed {
-        int item;
-        core::Aabb box;
+    // Edges that may pierce anything. A rigid edge with fewer than two faces has no outer side.
+    const auto mayPierce = [&](const Edge& edge) {
+        return edge.a != edge.b && (!elements.isRigid(edge.surface) || (edge.wings[0] >= 0 && edge.wings[1] >= 0));
     };
-    std::vector<Boxed> edges;
-    const auto tryBoth = [&](const BvhLeaf& ofEdges, const BvhLeaf& ofTriangles, const core::Aabb& edgeBox,
-                             const core::Aabb& triangleBox) {
-        edges.clear();
-        for (int e : ofEdges.edges) {
-            const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
-            if (edge.isGone || edge.a == edge.b) continue;
-            // A rigid edge with fewer than two faces has no outer side.
-            if (elements.isRigid(edge.surface) && (edge.wings[0] < 0 || edge.wings[1] < 0)) continue;
-            core::Aabb box;
-            box.add(at(edge.a));
-            box.add(at(edge.b));
-            if (box.overlaps(triangleBox, 0.0)) edges.push_back({e, box});
-        }
-        if (edges.empty()) return;
-        // Each triangle against the edges whose boxes it overlaps and with which it shares no point.
-        for (int t : ofTriangles.triangles) {
-            const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
-            if (triangle.isGone) continue;
-            const std::array<int, 3>& c = triangle.points;
-            core::Aabb box;
-            for (int i : c) box.add(at(i));
-            if (!box.overlaps(edgeBox, 0.0)) continue;
-            for (const Boxed& boxed : edges) {
-                if (!boxed.box.overlaps(box, 0.0)) continue;
-                const Edge& edge = elements.edges()[static_cast<std::size_t>(boxed.item)];
-                if (edge.a == c[0] || edge.a == c[1] || edge.a == c[2] || edge.b == c[0] || edge.b == c[1] ||
-                    edge.b == c[2])
-                    continue;
-                Piercing p;
-                if (!pierces(at(edge.a), at(edge.b), at(c[0]), at(c[1]), at(c[2]), p)) continue;
-                crossings.push_back({boxed.item,
-                                     t,
-                                     at(edge.a) + p.s * (at(edge.b) - at(edge.a)),
-                                     {edge.a, edge.b, c[0], c[1], c[2]},
-                                     {1 - p.s, p.s, -p.weights[0], -p.weights[1], -p.weights[2]},
-                                     dvec3(0.0),
-                                     {}});
-            }
-        }
+    const auto test = [&](int e, int t) {
+        const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
+        const std::array<int, 3>& c = elements.triangles()[static_cast<std::size_t>(t)].points;
+        const auto isCorner = [&](int i) { return i == c[0] || i == c[1] || i == c[2]; };
+        Piercing p;
+        if (isCorner(edge.a) || isCorner(edge.b) || !mayPierce(edge)) return;
+        if (!pierces(at(edge.a), at(edge.b), at(c[0]), at(c[1]), at(c[2]), p)) return;
+        crossings.push_back({e,
+                             t,
+                             at(edge.a) + p.s * (at(edge.b) - at(edge.a)),
+                             {edge.a, edge.b, c[0], c[1], c[2]},
+                             {1 - p.s, p.s, -p.weights[0], -p.weights[1], -p.weights[2]},
+                             dvec3(0.0),
+                             {}});
     };
     // All pairs of leaves, then sorted so that the order does not depend on the tree.
+    std::vector<FloatBox> ofPoints;
+    findPointBoxes(x, ofPoints);
+    std::vector<LeafBoxes> boxes(static_cast<std::size_t>(leaves.count()));
+    for (int p = 0; p < leaves.count(); ++p) boxes[static_cast<std::size_t>(p)].find(elements, leaves[p], ofPoints);
+    const ClosestKernels kernels = closestKernels();
+    BoxQuery query(kernels, 0.0);
     for (LeafPair pair : overlapping(leaves, x)) {
         const int a = lowOf(pair), b = highOf(pair);
         const core::Aabb &boxA = leaves.motion(a).box, &boxB = leaves.motion(b).box;
-        tryBoth(leaves[a], leaves[b], boxA, boxB);
-        if (a != b) tryBoth(leaves[b], leaves[a], boxB, boxA);
+        const LeafBoxes &ofA = boxes[static_cast<std::size_t>(a)], &ofB = boxes[static_cast<std::size_t>(b)];
+        query.forEach(ofA.edges, boxA, ofB.triangles, boxB, test);
+        if (a != b) query.forEach(ofB.edges, boxB, ofA.triangles, boxA, test);
     }
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
         return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);

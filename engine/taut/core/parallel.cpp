@@ -17,8 +17,8 @@ constexpr int mostShares = 256;
 }  // namespace
 
 void parallelFor(int count, const std::function<void(int)>& task) {
-    if (count == 1) {
-        task(0);
+    if (count == 1 || oneapi::tbb::this_task_arena::max_concurrency() == 1) {
+        for (int i = 0; i < count; ++i) task(i);
         return;
     }
     // What is shared out is no less than what sharing costs.

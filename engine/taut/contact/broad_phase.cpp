@@ -61,10 +61,6 @@ BroadPhase::CandidateList* BroadPhase::newList(LeafPair pair) {
     list->between = bvh_.leavesBetween(list->a, list->b);
     const int a = bvh_[list->a].surface, b = bvh_[list->b].surface;
     list->thickness = elements_.surface(a).thickness + elements_.surface(b).thickness;
-    if (!elements_.shareBond(a, b))
-        list->unlistedDistance = list->thickness;
-    else if (a == b && bvh_.isPlane(a))
-        list->unlistedDistance = std::min(list->thickness, restShare * bvh_.leastAltitude(a));
     return list;
 }
 
@@ -115,14 +111,14 @@ bool BroadPhase::isSeparatedOnTheWay(const CandidateList& list, std::span<const 
 }
 
 // Whether the last search of the tree still holds. Only leaves that have gone further than freeTravel_ are measured.
-bool BroadPhase::areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed) {
+bool BroadPhase::areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     if (fatBoxes_.empty()) return false;
     leafList_.clear();
     for (int p = 0; p < bvh_.count(); ++p) {
         const auto k = static_cast<std::size_t>(p);
         if (travel_[k] + bvh_.travel(p) - travelAtSearch_[k] > freeTravel_) leafList_.push_back(p);
     }
-    bvh_.follow(leafList_, x0, x1, mostDeformed);
+    bvh_.follow(leafList_, x0, x1, mostDeformed_);
     for (int p : leafList_) {
         const core::Aabb &box = bvh_.motion(p).box, &fat = fatBoxes_[static_cast<std::size_t>(p)];
         if (!(box.low.x >= fat.low.x && box.low.y >= fat.low.y && box.low.z >= fat.low.z && box.high.x <= fat.high.x &&
@@ -165,7 +161,7 @@ void BroadPhase::searchTree(double boxMargin) {
         if (old != tracked_.end() && old->pair == pair)
             merged_.push_back(*old++);
         else
-            merged_.push_back({pair, newList(pair), -1, 0, travelOf(pair)});
+            merged_.push_back({pair, newList(pair), -1, 0, travelOf(pair), freeShiftOf(pair)});
     }
     releaseUntil(~LeafPair{0});
     std::swap(tracked_, merged_);
@@ -173,6 +169,15 @@ void BroadPhase::searchTree(double boxMargin) {
 
 double BroadPhase::travelOf(LeafPair pair) const {
     return travel_[static_cast<std::size_t>(lowOf(pair))] + travel_[static_cast<std::size_t>(highOf(pair))];
+}
+
+// Elements of one body that is not flat at rest may be as close as they like at rest, and so keep no distance that is
+// known beforehand.
+double BroadPhase::freeShiftOf(LeafPair pair) const {
+    const int a = bvh_[lowOf(pair)].surface, b = bvh_[highOf(pair)].surface;
+    const double thickness = elements_.surface(a).thickness + elements_.surface(b).thickness;
+    if (!elements_.shareBond(a, b)) return watchShare * thickness;
+    return a == b && bvh_.isPlane(a) ? watchShare * std::min(thickness, restShare * bvh_.leastAltitude(a)) : 0.0;
 }
 
 // Brings the motion of a pair's list up to date, and finds out whether the list has expired.
@@ -205,57 +210,70 @@ void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     double thickest = 0;
     for (const ContactSurface& surface : elements_.surfaces())
         if (!surface.isRigid) thickest = std::max(thickest, surface.thickness);
-    const double boxMargin = boxMarginShare * thickest, mostDeformed = referenceShare * thickest;
+    mostDeformed_ = referenceShare * thickest;
 
-    // Pairs of leaves to track.
     bvh_.start(x0, x1);
-    if (!areInFatBoxes(x0, x1, mostDeformed)) {
-        bvh_.followAll(x0, x1, mostDeformed);
-        searchTree(boxMargin);
+    pointBoxes_.clear();
+    hasBoxes_.assign(static_cast<std::size_t>(bvh_.count()), 0);
+    for (TrackedPair* tracked : checked_) tracked->isChecked = false;
+    checked_.clear();
+    if (!areInFatBoxes(x0, x1)) {
+        bvh_.followAll(x0, x1, mostDeformed_);
+        searchTree(boxMarginShare * thickest);
     }
+    selectForCheck([](const TrackedPair&) { return true; });
+    xFound_.assign(x1.begin(), x1.end());
+    shift_.assign(static_cast<std::size_t>(bvh_.count()), 0.0);
+    checkSelected(x0, x1);
+}
 
-    // Check the pairs that may have used up a budget.
-    selectForCheck(boxMargin);
-    bvh_.follow(leafList_, x0, x1, mostDeformed);
-    const int count = static_cast<int>(checked_.size());
+bool BroadPhase::findAgain(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    bvh_.correct(moved, x0, x1);
+    if (!areInFatBoxes(x0, x1)) return false;
+    bvh_.addShifts(moved, xFound_, x1, shift_);
+    selectForCheck([&](const TrackedPair& tracked) {
+        const double shift = shift_[static_cast<std::size_t>(lowOf(tracked.pair))] +
+                             shift_[static_cast<std::size_t>(highOf(tracked.pair))];
+        return shift > tracked.freeShift;
+    });
+    checkSelected(x0, x1);
+    return true;
+}
+
+// Whether the leaves of the pair may have moved more than it has left.
+bool BroadPhase::mayUseUpBudget(const TrackedPair& tracked) const {
+    const double travel = bvh_.travel(lowOf(tracked.pair)) + bvh_.travel(highOf(tracked.pair));
+    return !(tracked.motionBudget - (travelOf(tracked.pair) + travel - tracked.budgetStart) > 0);
+}
+
+// Selects those tracked pairs whose leaves may have used up the motion budget -> selected_, and their leaves ->
+// leafList_.
+template <class MayHaveMoved>
+void BroadPhase::selectForCheck(const MayHaveMoved& mayHaveMoved) {
+    selected_.clear();
+    leafList_.clear();
+    for (TrackedPair& tracked : tracked_) {
+        if (!mayHaveMoved(tracked) || !mayUseUpBudget(tracked)) continue;
+        selected_.push_back(&tracked);
+        leafList_.push_back(lowOf(tracked.pair));
+        leafList_.push_back(highOf(tracked.pair));
+        if (!tracked.isChecked) checked_.push_back(&tracked);
+        tracked.isChecked = true;
+    }
+}
+
+// Checks the selected pairs. The lists of those that have used up a budget are due.
+void BroadPhase::checkSelected(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    bvh_.follow(leafList_, x0, x1, mostDeformed_);
+    const int count = static_cast<int>(selected_.size());
     core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k)
-            check(*checked_[static_cast<std::size_t>(k)], x0, x1);
+            check(*selected_[static_cast<std::size_t>(k)], x0, x1);
     });
-
-    // The lists of pairs that have used it up are due.
     selectDue();
     bvh_.measureFlatness(between_, x0, x1);
     findBoxes(x0);
     refreshDue(x0);
-    limitSlack(boxMargin);
-}
-
-// Selects the tracked pairs whose leaves may have used up the motion budget -> checked_, and their leaves -> leafList_.
-// The slack of the other pairs -> slacks_.
-void BroadPhase::selectForCheck(double boxMargin) {
-    const int count = static_cast<int>(tracked_.size()), tasks = (count + atOnce - 1) / atOnce;
-    needsCheck_.resize(tracked_.size());
-    slacks_.assign(static_cast<std::size_t>(tasks), boxMargin);
-    core::parallelFor(tasks, [&](int task) {
-        double& slack = slacks_[static_cast<std::size_t>(task)];
-        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            const TrackedPair& tracked = tracked_[static_cast<std::size_t>(k)];
-            const double travel = bvh_.travel(lowOf(tracked.pair)) + bvh_.travel(highOf(tracked.pair));
-            const double left = tracked.motionBudget - (travelOf(tracked.pair) + travel - tracked.budgetStart);
-            needsCheck_[static_cast<std::size_t>(k)] = left > 0 ? 0 : 1;
-            if (left > 0)
-                slack = std::min({slack, left + tracked.unlistedDistance, watchShare * tracked.leastThickness});
-        }
-    });
-    checked_.clear();
-    leafList_.clear();
-    for (std::size_t k = 0; k < tracked_.size(); ++k) {
-        if (needsCheck_[k] == 0) continue;
-        checked_.push_back(&tracked_[k]);
-        leafList_.push_back(lowOf(tracked_[k].pair));
-        leafList_.push_back(highOf(tracked_[k].pair));
-    }
 }
 
 // Selects the checked lists that have expired or have a pair that may be near -> due_. The leaves between the two
@@ -263,7 +281,7 @@ void BroadPhase::selectForCheck(double boxMargin) {
 void BroadPhase::selectDue() {
     due_.clear();
     between_.clear();
-    for (const TrackedPair* tracked : checked_) {
+    for (const TrackedPair* tracked : selected_) {
         CandidateList* list = tracked->list;
         if (list->isSeparated) continue;
         const bool hasBudget =
@@ -299,21 +317,9 @@ void BroadPhase::refreshDue(std::span<const dvec3> x0) {
     listsMade_ += made;
 }
 
-// Finds how much further points may go than find() was told, see holdWithin(). A pair that is in no list has the rest
-// of the margin, and then the distance that is left. A pair in a list that needs no certificate has watchShare of its
-// thickness.
-void BroadPhase::limitSlack(double boxMargin) {
-    slack_ = boxMargin;
-    for (double slack : slacks_) slack_ = std::min(slack_, slack);
-    for (const TrackedPair* tracked : checked_) {
-        const CandidateList& list = *tracked->list;
-        const double left = list.isSeparated ? 0.0 : list.margin - list.approached;
-        slack_ = std::min({slack_, left + list.unlistedDistance, watchShare * list.leastThickness});
-    }
-}
-
 void BroadPhase::advance(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     bvh_.start(x0, x1);
+    for (TrackedPair* tracked : checked_) tracked->isChecked = false;
     checked_.clear();
     accumulateTravel();
 }
@@ -332,8 +338,6 @@ void BroadPhase::accumulateTravel() {
         tracked->budgetStart = travelOf(tracked->pair);
         tracked->motionBudget = std::min({list.margin - list.approached, list.leastTravelBudget - list.travelled,
                                           list.leastApproachBudget - list.approached});
-        tracked->unlistedDistance = list.unlistedDistance;
-        tracked->leastThickness = list.leastThickness;
     }
     // A leaf that was not followed deviates by no more than two ways: a point's and the mean.
     for (int p = 0; p < bvh_.count(); ++p) {
@@ -344,6 +348,7 @@ void BroadPhase::accumulateTravel() {
     for (TrackedPair* tracked : checked_) {
         tracked->list->travelledBefore += relativeMotionOf(*tracked->list);
         tracked->countedTravel = travelOf(tracked->pair);
+        tracked->isChecked = false;
     }
     checked_.clear();
 }
@@ -352,7 +357,6 @@ void BroadPhase::accumulateTravel() {
 void BroadPhase::restart(CandidateList& list, double margin) const {
     clear(list);
     list.leastTravelBudget = list.leastApproachBudget = 1e300;
-    list.leastThickness = 1e300;
     list.margin = margin;
     list.offset = bvh_.motion(list.a).centre - bvh_.motion(list.b).centre;
     list.deviationA = deviation_[static_cast<std::size_t>(list.a)];

@@ -43,7 +43,7 @@ struct CandidatePair {
 };
 
 // A pair needs a certificate if its distance is below the relative motion of its leaves plus this share of its
-// thickness. The share is for the motion that contact adds.
+// thickness. The share is for the motion that contact adds: see TrackedPair::freeShift.
 inline constexpr double watchShare = 0.5;
 
 class BroadPhase {
@@ -55,10 +55,10 @@ class BroadPhase {
 
     // Finds the lists that are due on the way from x0 to x1 (points) [m].
     void find(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // Whether the result of find() still holds if each point moves at most `way` [m] further than find() was told: no
-    // pair that was not measured can have passed through itself.
-    bool holdWithin(double way) const { return 2 * way <= slack_; }
-    // Ends the instant. x1 of these points (ascending) is no longer what find() was told.
+    // x1 of these points is no longer what find() was told. Finds the lists that are due with the new x1, where points
+    // were moved so far that it matters. Returns false if that is not enough: then all have to be found again.
+    bool findAgain(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
+    // Ends the instant. x1 of these points is no longer what the last call was told.
     void finish(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
     // Points moved from x0 to x1, and pairs on the way are not wanted.
     void advance(std::span<const dvec3> x0, std::span<const dvec3> x1);
@@ -75,9 +75,7 @@ class BroadPhase {
         double leastTravelBudget = 0,
                leastApproachBudget = 0;  // [m] of all pairs: the list is due when both are reached
         double thickness = 0;            // [m] sum of the two surfaces' thicknesses
-        double leastThickness = 0;       // [m] of the pairs
         double margin = -1;              // [m] the list expires when approached exceeds it
-        double unlistedDistance = 0;     // [m] pairs that are not in the list are further apart than this until then
         std::vector<int> between;        // leaves at rest between a and b: see Bvh::leavesBetween()
 
         // Of this instant.
@@ -110,18 +108,23 @@ class BroadPhase {
         // [m] The pair is not checked until the travel of its leaves has grown from budgetStart by motionBudget.
         double motionBudget = -1, budgetStart = 0;
         double countedTravel = 0;  // [m] travel of its leaves that list->travelledBefore includes
-        double unlistedDistance = 0, leastThickness = 0;  // [m] copies of the list's
+        // [m] Contact may move the points of both leaves by this sum, and the pairs that find() led to are still all that
+        // matter: whatever it left out is further apart than it moves by watchShare of the least thickness.
+        double freeShift = 0;
+        bool isChecked = false;  // in this instant
     };
 
     // Steps of find().
-    bool areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed);
+    bool areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3> x1);
     void searchTree(double boxMargin);
-    void selectForCheck(double boxMargin);
+    template <class MayHaveMoved>
+    void selectForCheck(const MayHaveMoved& mayHaveMoved);
+    void checkSelected(std::span<const dvec3> x0, std::span<const dvec3> x1);
+    bool mayUseUpBudget(const TrackedPair& tracked) const;
     void check(TrackedPair& tracked, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
     void selectDue();
     void findBoxes(std::span<const dvec3> x0);  // candidate_list.cpp
     void refreshDue(std::span<const dvec3> x0);
-    void limitSlack(double boxMargin);
 
     double relativeMotionOf(const CandidateList& list) const;
     void measureMotion(CandidateList& list) const;
@@ -131,6 +134,7 @@ class BroadPhase {
     void restart(CandidateList& list, double margin) const;
     void makeList(CandidateList& list, std::span<const dvec3> x0) const;  // candidate_list.cpp
     double travelOf(LeafPair pair) const;
+    double freeShiftOf(LeafPair pair) const;
     void accumulateTravel();
 
     const Elements& elements_;
@@ -139,19 +143,21 @@ class BroadPhase {
     std::vector<CandidateList*> unused_;         // of lists_
     std::vector<TrackedPair> tracked_, merged_;  // ascending; scratch
     std::vector<TrackedPair*> checked_;          // in this instant
+    std::vector<TrackedPair*> selected_;         // to be checked
     std::vector<CandidateList*> due_;
-    std::vector<FloatBox> pointBoxes_;     // (points) scratch
-    std::vector<LeafBoxes> boxes_;         // (leaves) of this instant, where a list is made anew
+    std::vector<FloatBox> pointBoxes_;     // (points) at x0; empty where none was needed in this instant
+    std::vector<LeafBoxes> boxes_;         // (leaves) at x0
+    std::vector<char> hasBoxes_;           // (leaves) in this instant
     std::vector<double> deviation_;        // (leaves) [m] sum over all instants
     std::vector<double> travel_;           // (leaves) [m] sum over all instants of the furthest way of a point
     std::vector<core::Aabb> fatBoxes_;     // (leaves) of the last search of the tree
     std::vector<double> travelAtSearch_;   // (leaves) [m]
     double freeTravel_ = 0;                // [m] a leaf that went less since the search is in its fat box
-    std::vector<char> needsCheck_;         // (tracked) scratch
-    std::vector<double> slacks_;           // (tasks) [m] scratch
+    std::vector<dvec3> xFound_;            // (points) [m] the x1 of find()
+    std::vector<double> shift_;            // (leaves) [m] largest distance of a point from there
+    double mostDeformed_ = 0;              // [m] a leaf that has deformed further takes a new reference shape
     std::vector<int> between_, leafList_;  // leaves, scratch
     std::vector<LeafPair> found_;
-    double slack_ = 0;  // [m] see holdWithin()
     std::size_t listsMade_ = 0;
 };
 

@@ -293,8 +293,21 @@ void Bvh::correct(std::span<const int> points, std::span<const dvec3> x0, std::s
     forEachLeaf(leaves_.size(), [&](std::size_t p) {
         if (isCorrected_[p] == 0) return;
         findTravel(p);
-        findWay(p, x0, x1);
+        if (isFollowed_[p] != 0) findWay(p, x0, x1);
+        isMeasured_[p] = 0;
     });
+}
+
+void Bvh::addShifts(std::span<const int> points, std::span<const dvec3> from, std::span<const dvec3> to,
+                    std::span<double> shifts) const {
+    for (int i : points) {
+        const auto k = static_cast<std::size_t>(i);
+        const double shift = length(to[k] - from[k]);
+        for (std::size_t at = firstAt_[k]; at < firstAt_[k + 1]; ++at) {
+            double& most = shifts[static_cast<std::size_t>(leavesAt_[at])];
+            most = std::max(most, shift);
+        }
+    }
 }
 
 void Bvh::findTravel(std::size_t number) {

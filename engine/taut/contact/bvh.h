@@ -95,9 +95,12 @@ class Bvh {
     // mostDeformed [m] takes a new reference shape; 0: none does.
     void follow(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed);
     void followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed = 0.0);
+    // How far these points are from `from` -> shifts (leaves) [m], where they are further than that.
+    void addShifts(std::span<const int> points, std::span<const dvec3> from, std::span<const dvec3> to,
+                   std::span<double> shifts) const;
     bool isFollowed(int leaf) const { return isFollowed_[static_cast<std::size_t>(leaf)] != 0; }
     const LeafMotion& motion(int leaf) const { return motions_[static_cast<std::size_t>(leaf)]; }  // if it is followed
-    // x1 of these points has changed in this instant.
+    // x1 of these points has changed in this instant: the leaves that have them are found anew as far as they were found.
     void correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1);
 
     // Pairs a <= b of leaves that may touch, and whose boxes (leaves) are closer than near plus `more` [m]; ascending.

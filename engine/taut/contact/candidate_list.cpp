@@ -5,6 +5,7 @@
 // rest. So pairs of one body are measured twice, at x0 and at rest.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "taut/contact/broad_phase.h"
 #include "taut/contact/closest_batch.h"
@@ -87,7 +88,6 @@ void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), Point
         if (left > query.margin) continue;
         list.pairs.push_back(measured.pair);
         list.travelBudget.push_back(left);
-        list.leastThickness = std::min(list.leastThickness, measured.pair.thickness);
         list.leastTravelBudget = std::min(list.leastTravelBudget, left);
     }
 }
@@ -100,10 +100,9 @@ void BroadPhase::findBoxes(std::span<const dvec3> x0) {
     leafList_.clear();
     for (const CandidateList* list : due_)
         if (list->isExpired) leafList_.insert(leafList_.end(), {list->a, list->b});
-    std::sort(leafList_.begin(), leafList_.end());
-    leafList_.erase(std::unique(leafList_.begin(), leafList_.end()), leafList_.end());
+    std::erase_if(leafList_, [&](int p) { return std::exchange(hasBoxes_[static_cast<std::size_t>(p)], 1) != 0; });
     if (leafList_.empty()) return;
-    findPointBoxes(x0, pointBoxes_);
+    if (pointBoxes_.empty()) findPointBoxes(x0, pointBoxes_);
     core::parallelFor(static_cast<int>(leafList_.size()), [&](int k) {
         const int number = leafList_[static_cast<std::size_t>(k)];
         boxes_[static_cast<std::size_t>(number)].find(elements_, bvh_[number], pointBoxes_);

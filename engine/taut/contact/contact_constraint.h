@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 
 namespace taut::contact {
@@ -20,9 +21,17 @@ struct ContactConstraint {
     int a, b;               // as CandidatePair
     bool isPoint;           // a point and a triangle; else two edges
     bool isActive;          // the solver gets it; else it only needs a certificate
+    std::uint64_t leaves;   // the LeafPair that it was found for
     double recovery = 1.0;  // 0 … 1: share by which an overlap is taken back, see convexityOf()
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]
+    // By leaves, then as in a list of candidates: points and triangles by the triangle, then edges.
+    bool comesBefore(const ContactConstraint& other) const {
+        const auto rank = [](const ContactConstraint& c) {
+            return std::array{c.isPoint ? 0 : 1, c.isPoint ? c.b : c.a, c.isPoint ? c.a : c.b};
+        };
+        return leaves < other.leaves || (leaves == other.leaves && rank(*this) < rank(other));
+    }
 };
 
 }  // namespace taut::contact

@@ -36,7 +36,6 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
     u_.resize(count);
     v_.resize(count);
     shift_.resize(count);
-    xTested_.resize(count);
     marks_.assign(count, unmarked);
 }
 
@@ -70,13 +69,14 @@ std::vector<Crossing> ContactGroup::crossingsAt(std::span<const dvec3> x) {
 
 Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
                                 double seconds) {
-    for (std::size_t i = 0; i < x.size(); ++i) xTested_[i] = x[i] + seconds * v[i];
-    detect(x, xTested_);
+    ahead_.resize(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) ahead_[i] = x[i] + seconds * v[i];
+    detect(x, ahead_);
     Forecast forecast;
 
     // How fast the leaves of soft surfaces deform.
     Bvh& leaves = broadPhase_.bvh();
-    leaves.followAll(x, xTested_);
+    leaves.followAll(x, ahead_);
     int soft = 0;
     for (int p = 0; p < leaves.count(); ++p) {
         const ContactSurface& surface = elements_.surface(leaves[p].surface);
@@ -105,6 +105,7 @@ Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3>
 const InstantResult& ContactGroup::resolve(const Instant& instant) {
     result_ = {};
     moved_.clear();
+    pending_.clear();
 
     // Detection: which pairs are in reach, and where they are.
     detect(instant.x0, instant.x1);
@@ -119,7 +120,7 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
 
     // Certificate: rounds until every pair has one. The first use slide apart, the others impact zones.
     for (int round = 0; options_.certifies; ++round) {
-        if (!moved_.empty()) detectAgain(instant);
+        if (!pending_.empty()) detectAgain(instant);
         const std::vector<const ContactConstraint*> bad = uncertified(instant);
         result_.uncertified = static_cast<int>(bad.size());
         if (bad.empty() || round == mostSlides + mostZones) break;
@@ -130,15 +131,15 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
 
     // The lists live on: the motion of the points in this instant counts against their budgets.
     makeAscending(moved_);
-    broadPhase_.finish(moved_, instant.x0, instant.x1);
+    broadPhase_.finish(pending_, instant.x0, instant.x1);
     result_.moved = moved_;
     return result_;
 }
 
 void ContactGroup::detect(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     broadPhase_.find(x0, x1);
-    runNarrowPhase(x0, x1);
-    if (x1.data() != xTested_.data()) std::copy(x1.begin(), x1.end(), xTested_.begin());
+    tested_.clear();
+    runNarrowPhase(x0, x1, true);
 }
 
 // Selects the active pairs that contact can move. Records how deep they would go without contact.
@@ -203,6 +204,7 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
 void ContactGroup::handOver(const Instant& instant, std::span<const int> points) {
     if (points.empty()) return;
     moved_.insert(moved_.end(), points.begin(), points.end());
+    pending_.insert(pending_.end(), points.begin(), points.end());
     if (instant.place) instant.place(points);
 }
 
@@ -243,14 +245,12 @@ std::vector<const ContactConstraint*> ContactGroup::uncertified(const Instant& i
     return bad;
 }
 
-// Points were moved after the detection. It is repeated only if that may have brought new pairs into reach.
+// Points were moved after the detection, which may have brought new pairs into reach. These get a certificate; impulses
+// they may get in the next instant.
 void ContactGroup::detectAgain(const Instant& instant) {
-    double furthest = 0;  // [m²]
-    for (int i : moved_) {
-        const dvec3 d = instant.x1[static_cast<std::size_t>(i)] - xTested_[static_cast<std::size_t>(i)];
-        furthest = std::max(furthest, glm::dot(d, d));
-    }
-    if (!broadPhase_.holdWithin(std::sqrt(furthest))) detect(instant.x0, instant.x1);
+    if (!broadPhase_.findAgain(pending_, instant.x0, instant.x1)) broadPhase_.find(instant.x0, instant.x1);
+    runNarrowPhase(instant.x0, instant.x1, false);
+    pending_.clear();
 }
 
 // Moves pairs that have no certificate. Returns the points that it moved, ascending.
@@ -288,7 +288,7 @@ std::vector<ContactPoint> ContactGroup::contactPoints(std::span<const dvec3> x) 
 
 std::uint64_t ContactGroup::bytes() const {
     return elements_.bytes() + broadPhase_.bytes() + tested_.capacity() * sizeof(ContactConstraint) +
-           xTested_.size() * 5 * sizeof(dvec3);
+           u_.size() * 5 * sizeof(dvec3);
 }
 
 // Over 60 lines: its steps share the least distance so far, and each is short.

@@ -132,18 +132,18 @@ class ContactGroup {
     void untangle(const Instant& instant);                              // crossings_ -> u_, v_
     std::vector<int> applyVelocities(const Instant& instant) const;     // u_, v_, shift_ -> x1, v; the moved points
     void handOver(const Instant& instant, std::span<const int> points);
-    void detectAgain(const Instant& instant);  // where moved_ may have brought new pairs together -> tested_
+    void detectAgain(const Instant& instant);  // pairs that pending_ may have brought into reach -> tested_
     std::vector<const ContactConstraint*> uncertified(const Instant& instant) const;
     std::vector<int> separate(const Instant& instant, std::span<const ContactConstraint* const> pairs, int round);
 
     // narrow_phase.cpp
-    void runNarrowPhase(std::span<const dvec3> x0, std::span<const dvec3> x1);
+    void runNarrowPhase(std::span<const dvec3> x0, std::span<const dvec3> x1, bool mayPress);
     struct Measured;
     struct NarrowPhaseScratch;
     void gather(BroadPhase::CandidateList& list, std::span<const dvec3> x0, const ClosestKernels& kernels,
                 NarrowPhaseScratch& scratch) const;
     void classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
-                  const NarrowPhaseScratch& scratch, std::vector<ContactConstraint>& pairs) const;
+                  const NarrowPhaseScratch& scratch, bool mayPress, std::vector<ContactConstraint>& pairs) const;
     ContactConstraint constraintOf(const Measured& measured, const NarrowPhaseScratch& scratch,
                                    std::span<const dvec3> x0) const;
     double convexity(const ContactConstraint& pair, long where, std::span<const dvec3> x) const;
@@ -157,15 +157,16 @@ class ContactGroup {
     std::vector<Crossing> crossings_;
     enum Mark : char { unmarked, anySide, wrongSide };
     std::vector<char> marks_;                              // (points) of crossings_
-    std::vector<ContactConstraint> tested_;                // pairs that need a certificate
+    std::vector<ContactConstraint> tested_;                // pairs that need a certificate, in their order
+    std::vector<ContactConstraint> found_, merged_;        // scratch
     std::vector<ContactConstraint> active_;                // pairs of tested_ that the solver gets
     std::vector<std::vector<ContactConstraint>> perTask_;  // (tasks) scratch
     ContactSolver solver_;
     // (points) [m/s] mean velocity in the instant before and after the solver; [m/s] stored velocity after it; [m]
     // position correction. Set where active pairs or crossings have points.
     std::vector<dvec3> u0_, u_, v_, shift_;
-    std::vector<dvec3> xTested_;  // (points) [m] the x1 that tested_ was found for
-    std::vector<int> moved_;      // points that were handed over in this instant
+    std::vector<dvec3> ahead_;          // (points) [m] of a forecast
+    std::vector<int> moved_, pending_;  // points that were handed over in this instant; since tested_ was found
     InstantResult result_;
 };
 

@@ -6,6 +6,7 @@
 // of all pushes.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "taut/contact/certificate.h"
 #include "taut/contact/closest_batch.h"
@@ -119,6 +120,7 @@ ContactConstraint ContactGroup::constraintOf(const Measured& measured, const Nar
     ContactConstraint pair;
     pair.isPoint = measured.pair < measured.list->pointPairs;
     const ClosestBatch& batch = pair.isPoint ? scratch.points : scratch.edges;
+    pair.leaves = leafPair(measured.list->a, measured.list->b);
     pair.a = candidate.a;
     pair.b = candidate.b;
     pair.thickness = candidate.thickness;
@@ -180,9 +182,10 @@ bool ContactGroup::meetInside(const ContactConstraint& pair, long where) const {
     return soft.isLine && share > 0 && share < 1;
 }
 
-// Appends the pair if it is active, or close enough to need a certificate.
+// Appends the pair if it is active, or close enough to need a certificate. mayPress: it may become active.
 void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
-                            const NarrowPhaseScratch& scratch, std::vector<ContactConstraint>& pairs) const {
+                            const NarrowPhaseScratch& scratch, bool mayPress,
+                            std::vector<ContactConstraint>& pairs) const {
     BroadPhase::CandidateList& list = *measured.list;
     const CandidatePair& candidate = list.pairs[measured.pair];
     const bool isPoint = measured.pair < list.pointPairs;
@@ -195,7 +198,9 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     travelBudget = std::max(travelBudget, distance + list.travelledBefore - nearShare * candidate.thickness);
     limitListTo(list, travelBudget, list.approachBudget[measured.pair]);
     // The leaves do not move enough in this instant to close the gap.
-    if (list.isFlat || gap > std::max(activeShare * candidate.thickness, (1 + rounding) * list.relativeMotion)) return;
+    const double motion = (1 + rounding) * list.relativeMotion;
+    if (list.isFlat || gap > std::max(activeShare * candidate.thickness, motion)) return;
+    if (!mayPress && distance > motion + watchShare * candidate.thickness) return;
 
     // Active pairs are closed or closing along the normal, on a feature of their own, and do not pass by. Cheap tests
     // come first.
@@ -207,11 +212,11 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
         way += pair.weights[k] * (x1[i] - x0[i]);
     }
     const bool isClosed = gap < activeShare * pair.thickness;
-    const bool mayPush = meetInside(pair, where) && (isClosed || gap + glm::dot(pair.normal, way) < 0);
+    const bool mayPush = mayPress && meetInside(pair, where) && (isClosed || gap + glm::dot(pair.normal, way) < 0);
     if (mayPush) pair.recovery = convexity(pair, where, x0);
     pair.isActive = mayPush && pair.recovery >= 0 && (isClosed || !misses(pair, x0, x1, 1.0 - activeShare));
 
-    if (!pair.isActive && distance > list.relativeMotion + watchShare * pair.thickness) return;
+    if (!pair.isActive && distance > motion + watchShare * pair.thickness) return;
     if (!crossings_.empty() && isTangled(pair)) return;
     const auto i = static_cast<std::size_t>(pair.a), j = static_cast<std::size_t>(pair.b);
     const ContactSurface &a = elements_.surface(isPoint ? elements_.surfaceOf(pair.a) : elements_.edges()[i].surface),
@@ -220,7 +225,8 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     pairs.push_back(pair);
 }
 
-void ContactGroup::runNarrowPhase(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+// The pairs of the lists that are due -> tested_. Those that it has stay as they are.
+void ContactGroup::runNarrowPhase(std::span<const dvec3> x0, std::span<const dvec3> x1, bool mayPress) {
     const int count = static_cast<int>(broadPhase_.dueCount());
     const int tasks = (count + listsAtOnce - 1) / listsAtOnce;
     const ClosestKernels kernels = closestKernels();
@@ -237,14 +243,18 @@ void ContactGroup::runNarrowPhase(std::span<const dvec3> x0, std::span<const dve
             gather(broadPhase_.due(static_cast<std::size_t>(k)), x0, kernels, scratch);
         scratch.points.solve(kernels.onTriangles);
         scratch.edges.solve(kernels.onSegments);
-        for (const Measured& measured : scratch.measured) classify(measured, x0, x1, scratch, own);
+        for (const Measured& measured : scratch.measured) classify(measured, x0, x1, scratch, mayPress, own);
     });
     // Collect task by task, so that the order does not depend on threads.
-    tested_.clear();
+    found_.clear();
     for (int task = 0; task < tasks; ++task) {
         const std::vector<ContactConstraint>& own = perTask_[static_cast<std::size_t>(task)];
-        tested_.insert(tested_.end(), own.begin(), own.end());
+        found_.insert(found_.end(), own.begin(), own.end());
     }
+    const auto isBefore = [](const ContactConstraint& a, const ContactConstraint& b) { return a.comesBefore(b); };
+    merged_.clear();
+    std::set_union(tested_.begin(), tested_.end(), found_.begin(), found_.end(), std::back_inserter(merged_), isBefore);
+    std::swap(tested_, merged_);
 }
 
 }  // namespace taut::contact

@@ -6,18 +6,94 @@
 #include "taut/core/private/instruction_set.h"
 
 namespace taut::contact {
+namespace {
+
+struct Scratch {
+    std::vector<int> heights;  // (slots) levels that have it so far
+    std::vector<int> levels;   // (rows)
+    std::vector<int> next;     // (levels + 1) place of its next row, four to a pack
+    std::vector<Pack> packs;
+    std::vector<double> perRow;
+};
+
+// The level of each row -> levels. Returns how many there are.
+int findLevels(std::span<const Row> rows, std::size_t slotCount, Scratch& scratch) {
+    scratch.heights.resize(std::max(scratch.heights.size(), slotCount), 0);
+    scratch.levels.clear();
+    int count = 0;
+    for (const Row& row : rows) {
+        int level = 0;
+        for (int s : row.slots) level = std::max(level, scratch.heights[static_cast<std::size_t>(s)]);
+        for (int s : row.slots) scratch.heights[static_cast<std::size_t>(s)] = level + 1;
+        scratch.levels.push_back(level);
+        count = std::max(count, level + 1);
+    }
+    for (const Row& row : rows)
+        for (int s : row.slots) scratch.heights[static_cast<std::size_t>(s)] = 0;
+    return count;
+}
+
+void putInto(Pack& pack, int lane, const Row& row, int number) {
+    for (int k = 0; k < 4; ++k) {
+        if (k < 3) pack.normal[k].of[lane] = row.normal.of[k];
+        pack.impulse[k].of[lane] = row.impulse.of[k];
+        pack.weights[k].of[lane] = row.weights[k];
+        pack.gains[k].of[lane] = row.gains[k];
+        pack.slots[lane][k] = row.slots[k];
+    }
+    pack.mass.of[lane] = row.mass;
+    pack.closing.of[lane] = row.closing;
+    pack.friction.of[lane] = row.friction;
+    pack.largestGain.of[lane] = row.largestGain;
+    pack.rows[lane] = number;
+}
+
+}  // namespace
 
 int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities) {
-    thread_local std::vector<Four> scratch;
-    scratch.resize(std::max(scratch.size(), 2 * rows.size()));
-    const Sweeps batch{rows.data(),    static_cast<int>(rows.size()),  velocities.data(),
-                       scratch.data(), scratch.data() + rows.size(), sweeps, tolerance};
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return avx512::sweep(batch);
-        case core::InstructionSet::avx2: return avx2::sweep(batch);
-        case core::InstructionSet::sse2: break;
+    thread_local Scratch scratch;
+    const int count = static_cast<int>(rows.size());
+    const int levels = findLevels(rows, velocities.size(), scratch);
+    // How many packs each level has, and where its packs begin.
+    std::vector<int>& next = scratch.next;
+    next.assign(static_cast<std::size_t>(levels) + 1, 0);
+    for (int level : scratch.levels) ++next[static_cast<std::size_t>(level)];
+    int packCount = 0;
+    for (int& own : next) {
+        const int inLevel = (own + 3) / 4;
+        own = 4 * packCount;
+        packCount += inLevel;
     }
-    return sse2::sweep(batch);
+    scratch.packs.assign(static_cast<std::size_t>(packCount), Pack{});
+    for (int r = 0; r < count; ++r) {
+        const Row& row = rows[static_cast<std::size_t>(r)];
+        const int place = next[static_cast<std::size_t>(scratch.levels[static_cast<std::size_t>(r)])]++;
+        Pack& pack = scratch.packs[static_cast<std::size_t>(place / 4)];
+        if (place % 4 == 0)
+            for (int lane = 1; lane < 4; ++lane) {
+                std::copy(std::begin(row.slots), std::end(row.slots), pack.slots[lane]);
+                pack.rows[lane] = count;
+            }
+        putInto(pack, place % 4, row, r);
+    }
+    scratch.perRow.assign(rows.size() + 1, 0.0);
+    const Sweeps batch{scratch.packs.data(), packCount, count, scratch.perRow.data(), velocities.data(),
+                       sweeps,               tolerance};
+    const auto solve = [&] {
+        switch (core::instructionSet()) {
+            case core::InstructionSet::avx512: return avx512::sweep(batch);
+            case core::InstructionSet::avx2: return avx2::sweep(batch);
+            case core::InstructionSet::sse2: break;
+        }
+        return sse2::sweep(batch);
+    };
+    const int taken = solve();
+    for (const Pack& pack : scratch.packs)
+        for (int lane = 0; lane < 4; ++lane)
+            if (pack.rows[lane] < count)
+                for (int k = 0; k < 4; ++k)
+                    rows[static_cast<std::size_t>(pack.rows[lane])].impulse.of[k] = pack.impulse[k].of[lane];
+    return taken;
 }
 
 }  // namespace taut::contact

@@ -8,8 +8,9 @@
 // The start. Impulses that the rows have already are a guess, for instance those of the instant before. They are scaled
 // by the factor for which the energy is least, 0 or more: so the start is no worse than without them.
 //
-// Plain data, for there is one copy of the kernel for each instruction set. Rows next to each other that share a
-// velocity wait for one another in the processor; where they share none it works at several at once.
+// Four rows at a time. A row waits for the rows before it that share a velocity with it, and for no others. So rows are
+// put into levels, each one above the highest of those it waits for, and go through the processor in packs of four of
+// one level. The result is that of the rows one after the other, bit for bit; sums over rows are in their order.
 #pragma once
 
 #include <span>
@@ -38,12 +39,21 @@ struct Row {
 // velocity by `tolerance` [m/s]. Returns the number of sweeps.
 int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities);
 
-// What the kernel gets.
+// What the kernel gets: rows lane by lane. A lane without a row is all 0, and has the first lane's slots.
+struct Pack {
+    Four normal[3]{};
+    Four impulse[4]{}, change[4]{}, direction[4]{};  // [N s]
+    Four weights[4]{}, gains[4]{};
+    Four mass{}, closing{}, friction{}, largestGain{};
+    int slots[4][4]{};  // lane, velocity
+    int rows[4]{};      // lane; the number of rows where there is none
+};
 struct Sweeps {
-    Row* rows;
-    int count;
+    Pack* packs;
+    int packCount;
+    int rowCount;
+    double* perRow;  // (rows + 1) scratch
     Four* velocities;
-    Four *changes, *direction;  // (count) scratch
     int most;
     double tolerance;  // [m/s]
 };

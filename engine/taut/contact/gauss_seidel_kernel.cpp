@@ -1,5 +1,5 @@
-// Compiled once for each instruction set (engine/taut.cmake). The lanes of a vector are x, y, z and nothing, or the
-// normal part of an impulse; sums across lanes are in their order, so every width gives the same bits.
+// Compiled once for each instruction set (engine/taut.cmake). The lanes of a vector are the rows of a pack, or x, y, z
+// and 0 of one velocity. Every width does the same operations in the same order.
 #include "taut/contact/gauss_seidel.h"
 
 namespace taut::contact::TAUT_ISA {
@@ -17,112 +17,175 @@ inline Lanes load(const Four& from) {
 inline void store(Four& to, const Lanes& lanes) {
     __builtin_memcpy(&to, &lanes, sizeof lanes);
 }
-inline double dot(const Lanes& a, const Lanes& b) {
-    const Lanes product = a * b;
-    return product[0] + product[1] + product[2];
+
+// x, y and z of four rows.
+struct Vectors {
+    Lanes x, y, z;
+};
+inline Lanes dot(const Vectors& a, const Vectors& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-inline bool isZero(const Lanes& impulse) {
-    return impulse[0] == 0 && impulse[1] == 0 && impulse[2] == 0 && impulse[3] == 0;
+inline Vectors load(const Four* from) {
+    return {load(from[0]), load(from[1]), load(from[2])};
 }
 
-inline Lanes relativeVelocity(const Row& row, const Four* velocities) {
-    return row.weights[0] * load(velocities[row.slots[0]]) + row.weights[1] * load(velocities[row.slots[1]]) +
-           row.weights[2] * load(velocities[row.slots[2]]) + row.weights[3] * load(velocities[row.slots[3]]);
+inline Lanes root(Lanes square) {
+    for (int k = 0; k < 4; ++k) square[k] = __builtin_sqrt(square[k]);
+    return square;
 }
-inline void apply(const Row& row, Lanes impulse, Four* velocities) {
-    const double along = impulse[3];
-    impulse[3] = 0;
-    impulse += along * load(row.normal);
+
+// The velocities of the rows' first, second, … points.
+inline Vectors velocitiesOf(const Pack& pack, int k, const Four* velocities) {
+    const Lanes a = load(velocities[pack.slots[0][k]]), b = load(velocities[pack.slots[1][k]]);
+    const Lanes c = load(velocities[pack.slots[2][k]]), d = load(velocities[pack.slots[3][k]]);
+    const Lanes abEven = __builtin_shufflevector(a, b, 0, 4, 2, 6), abOdd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Lanes cdEven = __builtin_shufflevector(c, d, 0, 4, 2, 6), cdOdd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    return {__builtin_shufflevector(abEven, cdEven, 0, 1, 4, 5), __builtin_shufflevector(abOdd, cdOdd, 0, 1, 4, 5),
+            __builtin_shufflevector(abEven, cdEven, 2, 3, 6, 7)};
+}
+
+inline Vectors relativeVelocity(const Pack& pack, const Four* velocities) {
+    Vectors sum;
     for (int k = 0; k < 4; ++k) {
-        Four& own = velocities[row.slots[k]];
-        store(own, load(own) + row.gains[k] * impulse);
+        const Vectors own = velocitiesOf(pack, k, velocities);
+        const Lanes weight = load(pack.weights[k]);
+        sum = k == 0 ? Vectors{weight * own.x, weight * own.y, weight * own.z}
+                     : Vectors{sum.x + weight * own.x, sum.y + weight * own.y, sum.z + weight * own.z};
+    }
+    return sum;
+}
+
+// Changes the velocities by impulses; rows for which all of it is 0 change nothing.
+inline void apply(const Pack& pack, const Lanes (&impulse)[4], Four* velocities) {
+    const Vectors normal = load(pack.normal);
+    const Lanes x = impulse[0] + impulse[3] * normal.x, y = impulse[1] + impulse[3] * normal.y,
+                z = impulse[2] + impulse[3] * normal.z, none{};
+    const Lanes xyEven = __builtin_shufflevector(x, y, 0, 4, 2, 6), xyOdd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+    const Lanes zEven = __builtin_shufflevector(z, none, 0, 4, 2, 6), zOdd = __builtin_shufflevector(z, none, 1, 5, 3, 7);
+    const Lanes rows[4] = {
+        __builtin_shufflevector(xyEven, zEven, 0, 1, 4, 5), __builtin_shufflevector(xyOdd, zOdd, 0, 1, 4, 5),
+        __builtin_shufflevector(xyEven, zEven, 2, 3, 6, 7), __builtin_shufflevector(xyOdd, zOdd, 2, 3, 6, 7)};
+    const auto isNone = (impulse[0] == 0) & (impulse[1] == 0) & (impulse[2] == 0) & (impulse[3] == 0);
+    for (int lane = 0; lane < 4; ++lane) {
+        if (isNone[lane] != 0) continue;
+        for (int k = 0; k < 4; ++k) {
+            Four& own = velocities[pack.slots[lane][k]];
+            store(own, load(own) + pack.gains[k].of[lane] * rows[lane]);
+        }
     }
 }
 
-// Solves one row for the current velocities: first the normal impulse, then friction. Returns how its impulse changed.
-inline Lanes visit(Row& row, Four* velocities) {
-    const Lanes normal = load(row.normal), before = load(row.impulse), velocity = relativeVelocity(row, velocities);
-    const double parting = dot(normal, velocity), wanted = before[3] - row.mass * (parting + row.closing);
-    Lanes next{0, 0, 0, 0};
-    if (row.friction > 0) {
-        // Coulomb's friction: in the disk around 0.
-        next = before - row.mass * (velocity - parting * normal);
-        const double limit = row.friction * (wanted > 0 ? wanted : 0), square = dot(next, next);
-        if (square > limit * limit) next *= limit / __builtin_sqrt(square);
-    }
-    next[3] = wanted > 0 ? wanted : 0;
-    const Lanes change = next - before;
-    if (isZero(change)) return change;
-    store(row.impulse, next);
-    apply(row, change, velocities);
-    return change;
+// Solves the rows for the current velocities: first the normal impulse, then friction.
+inline void visit(Pack& pack, Four* velocities) {
+    const Lanes none{}, mass = load(pack.mass), friction = load(pack.friction);
+    const Vectors normal = load(pack.normal), velocity = relativeVelocity(pack, velocities);
+    const Lanes before[4] = {load(pack.impulse[0]), load(pack.impulse[1]), load(pack.impulse[2]),
+                             load(pack.impulse[3])};
+    const Lanes parting = dot(normal, velocity), wanted = before[3] - mass * (parting + load(pack.closing));
+    const Lanes pressing = wanted > none ? wanted : none;
+    // Coulomb's friction: in the disk around 0.
+    Vectors next{before[0] - mass * (velocity.x - parting * normal.x),
+                 before[1] - mass * (velocity.y - parting * normal.y),
+                 before[2] - mass * (velocity.z - parting * normal.z)};
+    const Lanes limit = friction * pressing, square = dot(next, next);
+    const auto isBeyond = square > limit * limit, slides = friction > none;
+    const Lanes share = isBeyond ? limit / root(square) : none + 1.0;
+    next = {slides ? next.x * share : none, slides ? next.y * share : none, slides ? next.z * share : none};
+    const Lanes change[4] = {next.x - before[0], next.y - before[1], next.z - before[2], pressing - before[3]};
+    store(pack.impulse[0], next.x);
+    store(pack.impulse[1], next.y);
+    store(pack.impulse[2], next.z);
+    store(pack.impulse[3], pressing);
+    for (int k = 0; k < 4; ++k) store(pack.change[k], change[k]);
+    apply(pack, change, velocities);
+}
+
+inline double sumOf(const Sweeps& batch) {
+    double sum = 0;
+    for (int r = 0; r < batch.rowCount; ++r) sum += batch.perRow[r];
+    return sum;
+}
+inline void storePerRow(const Sweeps& batch, const Pack& pack, const Lanes& values) {
+    for (int lane = 0; lane < 4; ++lane) batch.perRow[pack.rows[lane]] = values[lane];
 }
 
 // λ · (W u + closing), the slope of the energy along the impulses.
 inline double slope(const Sweeps& batch) {
-    double sum = 0;
-    for (int r = 0; r < batch.count; ++r) {
-        const Row& row = batch.rows[r];
-        const Lanes impulse = load(row.impulse), velocity = relativeVelocity(row, batch.velocities);
-        sum += impulse[3] * (dot(load(row.normal), velocity) + row.closing) + dot(impulse, velocity);
+    for (int p = 0; p < batch.packCount; ++p) {
+        const Pack& pack = batch.packs[p];
+        const Vectors velocity = relativeVelocity(pack, batch.velocities);
+        storePerRow(batch, pack,
+                    load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + load(pack.closing)) +
+                        dot(load(pack.impulse), velocity));
     }
-    return sum;
+    return sumOf(batch);
 }
 
 // Applies the impulses that the rows have, times what makes the energy least.
 inline void start(const Sweeps& batch) {
     bool isCold = true;
-    for (int r = 0; r < batch.count; ++r) isCold = isCold && isZero(load(batch.rows[r].impulse));
+    for (int p = 0; p < batch.packCount; ++p)
+        for (const Four& part : batch.packs[p].impulse)
+            for (double impulse : part.of) isCold = isCold && impulse == 0;
     if (isCold) return;
+    const auto applyAll = [&](double share) {
+        for (int p = 0; p < batch.packCount; ++p) {
+            const Pack& pack = batch.packs[p];
+            const Lanes impulse[4] = {share * load(pack.impulse[0]), share * load(pack.impulse[1]),
+                                      share * load(pack.impulse[2]), share * load(pack.impulse[3])};
+            apply(pack, impulse, batch.velocities);
+        }
+    };
     const double before = slope(batch);
-    for (int r = 0; r < batch.count; ++r) apply(batch.rows[r], load(batch.rows[r].impulse), batch.velocities);
+    applyAll(1);
     const double rise = slope(batch) - before;  // λᵀ A λ
     const double share = before < 0 && rise > 0 ? -before / rise : 0.0;
-    for (int r = 0; r < batch.count; ++r) {
-        Row& row = batch.rows[r];
-        const Lanes impulse = load(row.impulse);
-        apply(row, (share - 1) * impulse, batch.velocities);
-        store(row.impulse, share * impulse);
-    }
+    applyAll(share - 1);
+    for (int p = 0; p < batch.packCount; ++p)
+        for (Four& part : batch.packs[p].impulse) store(part, share * load(part));
 }
 
 }  // namespace
 
 int sweep(const Sweeps& batch) {
     start(batch);
-    for (int r = 0; r < batch.count; ++r) batch.direction[r] = Four{};
     double squareBefore = 0;
     for (int sweep = 1;; ++sweep) {
-        // A sweep. It records the largest squared change of a velocity [(m/s)²], and the sum of the squared changes of
-        // impulses [(N s)²].
-        double largest = 0, square = 0;
-        for (int r = 0; r < batch.count; ++r) {
-            Row& row = batch.rows[r];
-            const Lanes change = visit(row, batch.velocities);
-            store(batch.changes[r], change);
-            const double own = dot(change, change) + change[3] * change[3];
-            const double fastest = row.largestGain * row.largestGain * own;
+        // A sweep. It records the largest squared change of a velocity [(m/s)²], and the squared changes of impulses
+        // [(N s)²].
+        Lanes largest{};
+        for (int p = 0; p < batch.packCount; ++p) {
+            Pack& pack = batch.packs[p];
+            visit(pack, batch.velocities);
+            const Vectors change = load(pack.change);
+            const Lanes own = dot(change, change) + load(pack.change[3]) * load(pack.change[3]);
+            const Lanes gain = load(pack.largestGain), fastest = gain * gain * own;
             largest = fastest > largest ? fastest : largest;
-            square += own;
+            storePerRow(batch, pack, own);
         }
-        if (sweep == batch.most || largest < batch.tolerance * batch.tolerance) return sweep;
+        bool isSettled = true;
+        for (int lane = 0; lane < 4; ++lane) isSettled = isSettled && largest[lane] < batch.tolerance * batch.tolerance;
+        if (sweep == batch.most || isSettled) return sweep;
 
         // How far to extrapolate, after Fletcher and Reeves. If the changes grow, the direction starts anew.
-        const double share = squareBefore > 0 ? square / squareBefore : 0.0;
+        const double square = sumOf(batch), share = squareBefore > 0 ? square / squareBefore : 0.0;
         squareBefore = square;
         if (share > 1.0) {
-            for (int r = 0; r < batch.count; ++r) batch.direction[r] = Four{};
+            for (int p = 0; p < batch.packCount; ++p)
+                for (Four& part : batch.packs[p].direction) part = Four{};
             continue;
         }
 
         // The extrapolation. If it goes too far, the next sweep clamps it.
-        for (int r = 0; r < batch.count; ++r) {
-            Row& row = batch.rows[r];
-            const Lanes step = share * load(batch.direction[r]);
-            store(batch.direction[r], step + load(batch.changes[r]));
-            if (isZero(step)) continue;
-            store(row.impulse, load(row.impulse) + step);
-            apply(row, step, batch.velocities);
+        for (int p = 0; p < batch.packCount; ++p) {
+            Pack& pack = batch.packs[p];
+            Lanes step[4];
+            for (int k = 0; k < 4; ++k) {
+                step[k] = share * load(pack.direction[k]);
+                store(pack.direction[k], step[k] + load(pack.change[k]));
+                store(pack.impulse[k], load(pack.impulse[k]) + step[k]);
+            }
+            apply(pack, step, batch.velocities);
         }
     }
 }

@@ -189,7 +189,7 @@ void BroadPhase::check(TrackedPair& tracked, std::span<const dvec3> x0, std::spa
     tracked.countedTravel = travel;
     tracked.motionBudget = -1;
     measureMotion(list);
-    list.isFlat = list.isSeparated = false;
+    list.isSeparated = false;
     list.isExpired = list.approached > list.margin;
     if (!list.isExpired) return;
     // No new list is needed if the boxes are too far apart, or an axis separates the leaves in this instant.
@@ -277,7 +277,7 @@ void BroadPhase::checkSelected(std::span<const dvec3> x0, std::span<const dvec3>
 }
 
 // Selects the checked lists that have expired or have a pair that may be near -> due_. The leaves between the two
-// leaves of these lists -> between_.
+// leaves of those that have expired -> between_.
 void BroadPhase::selectDue() {
     due_.clear();
     between_.clear();
@@ -288,11 +288,11 @@ void BroadPhase::selectDue() {
             list->travelled < list->leastTravelBudget && list->approached < list->leastApproachBudget;
         if (!list->isExpired && hasBudget) continue;
         due_.push_back(list);
-        between_.insert(between_.end(), list->between.begin(), list->between.end());
+        if (list->isExpired) between_.insert(between_.end(), list->between.begin(), list->between.end());
     }
 }
 
-// Makes expired lists anew, and empties those of flat leaves.
+// Makes expired lists anew. Those of flat leaves stay empty.
 void BroadPhase::refreshDue(std::span<const dvec3> x0) {
     std::atomic<std::size_t> made{0};
     const int count = static_cast<int>(due_.size());
@@ -300,17 +300,17 @@ void BroadPhase::refreshDue(std::span<const dvec3> x0) {
         std::size_t own = 0;
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
             CandidateList& list = *due_[static_cast<std::size_t>(k)];
+            if (!list.isExpired) continue;
             const int surface = bvh_[list.a].surface;
             // How much flatness is left: no two parts are in contact until they have approached by `spare`.
             const double spareShare = bvh_.flatness(list.between) - bvh_.requiredFlatness(surface);
             const double spare = spareShare * bvh_.leastAltitude(surface);
-            list.isFlat = spareShare >= 0;
-            if (list.isFlat && spare >= flatShare * elements_.surface(surface).thickness) {
+            if (spare >= flatShare * elements_.surface(surface).thickness) {
                 restart(list, spare);
-            } else if (list.isExpired) {
-                makeList(list, x0);
-                ++own;
+                continue;
             }
+            makeList(list, x0);
+            ++own;
         }
         made += own;
     });

@@ -84,7 +84,6 @@ class BroadPhase {
         double approached = 0;      // [m] likewise, net
         bool isExpired = false;     // has to be made anew
         bool isSeparated = false;   // expired, but a separating axis spares it in this instant
-        bool isFlat = false;        // flat enough that no pair touches in this instant
 
         // When the list was made, and since.
         double travelledBefore = 0;                 // [m] travelled, without this instant

@@ -199,7 +199,7 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     limitListTo(list, travelBudget, list.approachBudget[measured.pair]);
     // The leaves do not move enough in this instant to close the gap.
     const double motion = (1 + rounding) * list.relativeMotion;
-    if (list.isFlat || gap > std::max(activeShare * candidate.thickness, motion)) return;
+    if (gap > std::max(activeShare * candidate.thickness, motion)) return;
     if (!mayPress && distance > motion + watchShare * candidate.thickness) return;
 
     // Active pairs are closed or closing along the normal, on a feature of their own, and do not pass by. Cheap tests

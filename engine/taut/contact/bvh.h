@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "taut/contact/elements.h"
+#include "taut/contact/flatness_kernel.h"
 #include "taut/core/aabb.h"
 
 namespace taut::contact {
@@ -146,6 +147,7 @@ class Bvh {
     void findPlane(int surface, const dvec3& along);
     void prepareFlatness();
     void measureOne(std::size_t leaf, std::span<const dvec3> x0, std::span<const dvec3> x1);
+    GradientRows gradientsOf(std::size_t leaf) const;
     void findPairsWithin(int node, double more, std::vector<LeafPair>& pairs) const;
     void findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pairs) const;
 
@@ -170,20 +172,14 @@ class Bvh {
     std::vector<char> isStillFollowed_;        // (leaves) of surfaces that stand still: the motion is known for good
 
     // Flatness.
-    struct Inverse {
-        double a, b, c, d;  // of the matrix of the two edges at corner 0, in the plane
-    };
-    struct Gradient {
-        dvec3 right, up;  // F of the plane's two axes
-    };
     std::vector<std::optional<Plane>> planes_;  // (surfaces)
     std::vector<double> altitudes_;             // (surfaces) [m] see leastAltitude()
     std::vector<double> requiredFlatness_;      // (surfaces)
-    std::vector<Inverse> inverses_;             // (triangles) of those in planes
     std::vector<RestBox> restBoxes_;            // (leaves) likewise
     std::vector<Flatness> flatness_;            // (leaves)
-    std::vector<Gradient> gradients_;           // leaf by leaf, triangle by triangle: at x0, at x1
-    std::vector<std::size_t> firstGradient_;    // (leaves + 1) in gradients_
+    // Of the triangles of leaves in planes, leaf by leaf in rows: see EdgeRows, and GradientRows at x0 and then at x1.
+    std::vector<double> inverses_, gradients_;
+    std::vector<std::size_t> firstInPlanes_;  // (leaves + 1) number of such triangles in leaves before
     std::vector<char> isMeasured_;              // (leaves) in this instant
     std::vector<int> toMeasure_;                // leaves, scratch
 };

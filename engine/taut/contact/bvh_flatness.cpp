@@ -48,14 +48,6 @@ double hullArea(std::vector<glm::dvec2> points) {
     return area;
 }
 
-// The least of t·RᵀF t over all unit t, from the symmetric part of RᵀF. R has the columns right and up, F has the
-// columns fRight and fUp.
-double leastAlong(const dvec3& right, const dvec3& up, const dvec3& fRight, const dvec3& fUp) {
-    const double a = glm::dot(right, fRight), d = glm::dot(up, fUp);
-    const double b = 0.5 * (glm::dot(right, fUp) + glm::dot(up, fRight)), half = 0.5 * (a - d);
-    return 0.5 * (a + d) - std::sqrt(half * half + b * b);
-}
-
 }  // namespace
 
 // A surface is flat if all its points lie in one plane, and convex if its triangles fill their convex hull. Small bumps
@@ -92,13 +84,15 @@ void Bvh::findPlane(int number, const dvec3& along) {
 }
 
 void Bvh::prepareFlatness() {
-    inverses_.resize(elements_.triangles().size());
     restBoxes_.resize(leaves_.size());
     altitudes_.assign(elements_.surfaces().size(), 1e300);
-    firstGradient_.assign(1, 0);
+    firstInPlanes_.assign(1, 0);
     for (std::size_t p = 0; p < leaves_.size(); ++p) {
         const std::optional<Plane>& plane = planes_[static_cast<std::size_t>(leaves_[p].surface)];
-        firstGradient_.push_back(firstGradient_.back() + (plane ? 2 * leaves_[p].triangles.size() : 0));
+        const std::size_t count = plane ? leaves_[p].triangles.size() : 0;
+        firstInPlanes_.push_back(firstInPlanes_.back() + count);
+        inverses_.resize(4 * firstInPlanes_.back());
+        double* inverse = inverses_.data() + 4 * firstInPlanes_[p];
         if (!plane) continue;
         const auto flat = [&](int i) {
             const dvec3& x = elements_.rest()[static_cast<std::size_t>(i)];
@@ -114,14 +108,18 @@ void Bvh::prepareFlatness() {
             const std::array<int, 3>& corners = elements_.triangles()[static_cast<std::size_t>(t)].points;
             const Rest2 u = flat(corners[1]) - flat(corners[0]), v = flat(corners[2]) - flat(corners[0]);
             const double det = u.x * v.y - u.y * v.x;
-            inverses_[static_cast<std::size_t>(t)] = {v.y / det, -v.x / det, -u.y / det, u.x / det};
+            inverse[0] = v.y / det;
+            inverse[count] = -v.x / det;
+            inverse[2 * count] = -u.y / det;
+            inverse[3 * count] = u.x / det;
+            ++inverse;
             const Rest2 w = v - u;
             const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
             double& altitude = altitudes_[static_cast<std::size_t>(leaves_[p].surface)];
             altitude = std::min(altitude, std::abs(det) / std::sqrt(longest));
         }
     }
-    gradients_.resize(firstGradient_.back());
+    gradients_.resize(12 * firstInPlanes_.back());
     constexpr double hair = 1.02;  // reserve for the bumps and gaps
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
         requiredFlatness_.push_back(hair * nearShare *
@@ -143,49 +141,61 @@ void Bvh::measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0
     });
 }
 
+GradientRows Bvh::gradientsOf(std::size_t leaf) const {
+    return {static_cast<int>(2 * leaves_[leaf].triangles.size()), gradients_.data() + 12 * firstInPlanes_[leaf]};
+}
+
 void Bvh::measureOne(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
     const BvhLeaf& leaf = leaves_[number];
-    Flatness flatness;
-    Gradient* gradients = gradients_.data() + firstGradient_[number];
-    std::size_t count = 0;
-    // F of each triangle at x0 and x1, and their sum. A leaf that lost a triangle gets no bound.
-    for (int t : leaf.triangles) {
-        const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(t)];
-        if (triangle.isGone) {
-            flatness_[number] = flatness;
-            return;
+    const std::size_t n = leaf.triangles.size();
+    const FlatnessKernels kernels = flatnessKernels();
+    const GradientRows gradients = gradientsOf(number);
+    Flatness& flatness = flatness_[number] = {};
+    // A leaf that lost a triangle gets no bound.
+    for (int t : leaf.triangles)
+        if (elements_.triangles()[static_cast<std::size_t>(t)].isGone) return;
+    // F of each triangle at x0, then at x1.
+    thread_local std::vector<double> scratch;
+    scratch.resize(6 * n);
+    const auto row = [&](std::size_t k) { return scratch.data() + k * n; };
+    const double* inverse = inverses_.data() + 4 * firstInPlanes_[number];
+    for (const std::size_t half : {0U, 1U}) {
+        const std::span<const dvec3> x = half == 0 ? x0 : x1;
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::array<int, 3>& c = elements_.triangles()[static_cast<std::size_t>(leaf.triangles[i])].points;
+            const dvec3 origin = x[static_cast<std::size_t>(c[0])];
+            const dvec3 u = x[static_cast<std::size_t>(c[1])] - origin, v = x[static_cast<std::size_t>(c[2])] - origin;
+            for (std::size_t k = 0; k < 3; ++k) {
+                row(k)[i] = u[static_cast<int>(k)];
+                row(k + 3)[i] = v[static_cast<int>(k)];
+            }
         }
-        const Inverse& inverse = inverses_[static_cast<std::size_t>(t)];
-        for (const auto& x : {x0, x1}) {
-            const dvec3 origin = x[static_cast<std::size_t>(triangle.points[0])];
-            const dvec3 u = x[static_cast<std::size_t>(triangle.points[1])] - origin;
-            const dvec3 v = x[static_cast<std::size_t>(triangle.points[2])] - origin;
-            gradients[count] = {inverse.a * u + inverse.c * v, inverse.b * u + inverse.d * v};
-            flatness.right += gradients[count].right;
-            flatness.up += gradients[count].up;
-            ++count;
-        }
+        kernels.findGradients({static_cast<int>(n),
+                               {row(0), row(1), row(2)},
+                               {row(3), row(4), row(5)},
+                               {inverse, inverse + n, inverse + 2 * n, inverse + 3 * n}},
+                              gradients_.data() + 12 * firstInPlanes_[number] + half * n, gradients.n);
     }
     // R: the mean of all F, made orthonormal.
+    for (std::size_t i = 0; i < n; ++i)
+        for (const std::size_t at : {i, n + i}) {
+            const double* own = gradients.rows + at;
+            flatness.right += dvec3(own[0], own[2 * n], own[4 * n]);
+            flatness.up += dvec3(own[6 * n], own[8 * n], own[10 * n]);
+        }
     const double size = length(flatness.right);
-    if (!(size > 0)) return void(flatness_[number] = {});
+    if (!(size > 0)) return void(flatness = {});
     flatness.right /= size;
     flatness.up -= glm::dot(flatness.up, flatness.right) * flatness.right;
     const double height = length(flatness.up);
-    if (!(height > 0)) return void(flatness_[number] = {});
+    if (!(height > 0)) return void(flatness = {});
     flatness.up /= height;
-    // Bounds over all F; `most` is the root of the larger eigenvalue of FᵀF.
-    double least = 1e300, most = 0;
-    for (std::size_t g = 0; g < count; ++g) {
-        const Gradient& f = gradients[g];
-        least = std::min(least, leastAlong(flatness.right, flatness.up, f.right, f.up));
-        const double p = glm::dot(f.right, f.right), q = glm::dot(f.up, f.up), r = glm::dot(f.right, f.up);
-        most = std::max(most, 0.5 * (p + q) + std::sqrt(0.25 * (p - q) * (p - q) + r * r));
-    }
     flatness.normal = glm::cross(flatness.right, flatness.up);
-    flatness.least = least;
-    flatness.most = std::sqrt(most);
-    flatness_[number] = flatness;
+    // Bounds over all F.
+    kernels.findLeast(gradients, &flatness.right[0], &flatness.up[0], scratch.data());
+    flatness.least = *std::min_element(scratch.data(), scratch.data() + 2 * n);
+    kernels.findMost(gradients, scratch.data());
+    flatness.most = std::sqrt(*std::max_element(scratch.data(), scratch.data() + 2 * n));
 }
 
 std::vector<int> Bvh::leavesBetween(int a, int b) const {
@@ -241,9 +251,11 @@ double Bvh::flatness(std::span<const int> leaves) const {
             continue;
         }
         // The bound is too weak: test each gradient.
-        const std::size_t last = firstGradient_[static_cast<std::size_t>(p) + 1];
-        for (std::size_t g = firstGradient_[static_cast<std::size_t>(p)]; g < last; ++g)
-            flattest = std::min(flattest, leastAlong(right, up, gradients_[g].right, gradients_[g].up));
+        thread_local std::vector<double> leasts;
+        const GradientRows gradients = gradientsOf(static_cast<std::size_t>(p));
+        leasts.resize(static_cast<std::size_t>(gradients.n));
+        flatnessKernels().findLeast(gradients, &right[0], &up[0], leasts.data());
+        flattest = std::min(flattest, *std::min_element(leasts.begin(), leasts.end()));
         if (flattest < least) return -1.0;
     }
     return flattest;

@@ -1,4 +1,6 @@
+// The kernels of the instruction set in use.
 #include "taut/contact/closest_kernel.h"
+#include "taut/contact/flatness_kernel.h"
 #include "taut/core/private/instruction_set.h"
 
 namespace taut::contact {
@@ -9,6 +11,9 @@ namespace taut::contact {
     void onSegments(ClosestLanes&, int);                                              \
     bool findOverlapping(const BoxLanes&, const float*, const float*, std::uint64_t*); \
     int findDue(CandidateRows&);                                                      \
+    void findGradients(const EdgeRows&, double*, int);                                \
+    void findLeast(const GradientRows&, const double*, const double*, double*);       \
+    void findMost(const GradientRows&, double*);                                      \
     }
 TAUT_DECLARE(sse2)
 TAUT_DECLARE(avx2)
@@ -24,6 +29,15 @@ ClosestKernels closestKernels() {
         case core::InstructionSet::sse2: break;
     }
     return {sse2::onTriangles, sse2::onSegments, sse2::findOverlapping, sse2::findDue};
+}
+
+FlatnessKernels flatnessKernels() {
+    switch (core::instructionSet()) {
+        case core::InstructionSet::avx512: return {avx512::findGradients, avx512::findLeast, avx512::findMost};
+        case core::InstructionSet::avx2: return {avx2::findGradients, avx2::findLeast, avx2::findMost};
+        case core::InstructionSet::sse2: break;
+    }
+    return {sse2::findGradients, sse2::findLeast, sse2::findMost};
 }
 
 }  // namespace taut::contact

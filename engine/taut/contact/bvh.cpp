@@ -110,7 +110,11 @@ Bvh::Bvh(const Elements& elements)
         for (int t = elements.firstTriangleOf(s); t < elements.firstTriangleOf(s + 1); ++t) triangles.push_back(t);
         for (int e = elements.firstEdgeOf(s); e < elements.firstEdgeOf(s + 1); ++e)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
-        if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
+        planeRoots_.push_back(-1);
+        if (!triangles.empty()) {
+            planeRoots_.back() = addTree(std::move(triangles), triangleCentres, s, axes, true);
+            roots.push_back(planeRoots_.back());
+        }
         if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, axes, false));
         // Points of no triangle and no line. Damage has made them balls, or may do so later.
         std::vector<int> others;

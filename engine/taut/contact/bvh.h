@@ -134,6 +134,10 @@ class Bvh {
     using Rest2 = glm::dvec2;
     struct RestBox {
         Rest2 low{1e300}, high{-1e300};
+        bool overlaps(const RestBox& other) const {
+            return low.x <= other.high.x && low.y <= other.high.y && other.low.x <= high.x && other.low.y <= high.y;
+        }
+        RestBox joined(const RestBox& other) const { return {glm::min(low, other.low), glm::max(high, other.high)}; }
     };
 
     int addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, const Axes& axes,
@@ -148,6 +152,8 @@ class Bvh {
     void prepareFlatness();
     void measureOne(std::size_t leaf, std::span<const dvec3> x0, std::span<const dvec3> x1);
     GradientRows gradientsOf(std::size_t leaf) const;
+    RestBox restBoxOf(int leaf) const;
+    void findLeavesIn(const RestBox& box, int node, std::vector<int>& leaves) const;
     void findPairsWithin(int node, double more, std::vector<LeafPair>& pairs) const;
     void findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pairs) const;
 
@@ -175,7 +181,8 @@ class Bvh {
     std::vector<std::optional<Plane>> planes_;  // (surfaces)
     std::vector<double> altitudes_;             // (surfaces) [m] see leastAltitude()
     std::vector<double> requiredFlatness_;      // (surfaces)
-    std::vector<RestBox> restBoxes_;            // (leaves) likewise
+    std::vector<RestBox> restBoxes_;            // (nodes) of triangles in planes
+    std::vector<int> planeRoots_;               // (surfaces) node of all triangles; -1: it has none
     std::vector<Flatness> flatness_;            // (leaves)
     // Of the triangles of leaves in planes, leaf by leaf in rows: see EdgeRows, and GradientRows at x0 and then at x1.
     std::vector<double> inverses_, gradients_;

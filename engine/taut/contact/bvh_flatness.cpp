@@ -84,7 +84,6 @@ void Bvh::findPlane(int number, const dvec3& along) {
 }
 
 void Bvh::prepareFlatness() {
-    restBoxes_.resize(leaves_.size());
     altitudes_.assign(elements_.surfaces().size(), 1e300);
     firstInPlanes_.assign(1, 0);
     for (std::size_t p = 0; p < leaves_.size(); ++p) {
@@ -98,11 +97,6 @@ void Bvh::prepareFlatness() {
             const dvec3& x = elements_.rest()[static_cast<std::size_t>(i)];
             return Rest2(glm::dot(x, plane->right), glm::dot(x, plane->up));
         };
-        // The leaf's box in the plane at rest.
-        for (int i : leaves_[p].corners) {
-            restBoxes_[p].low = glm::min(restBoxes_[p].low, flat(i));
-            restBoxes_[p].high = glm::max(restBoxes_[p].high, flat(i));
-        }
         // The inverse edge matrix of each triangle, and the smallest altitude of the surface's triangles.
         for (int t : leaves_[p].triangles) {
             const std::array<int, 3>& corners = elements_.triangles()[static_cast<std::size_t>(t)].points;
@@ -120,10 +114,34 @@ void Bvh::prepareFlatness() {
         }
     }
     gradients_.resize(12 * firstInPlanes_.back());
+    // The boxes at rest of leaves and what is above them; children come before parents.
+    restBoxes_.resize(nodes_.size());
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        const Node& node = nodes_[n];
+        if (node.surface < 0 || !planes_[static_cast<std::size_t>(node.surface)]) continue;
+        RestBox& box = restBoxes_[n];
+        if (node.leaf < 0)
+            box = restBoxes_[static_cast<std::size_t>(node.left)].joined(restBoxes_[static_cast<std::size_t>(node.right)]);
+        else
+            box = restBoxOf(node.leaf);
+    }
     constexpr double hair = 1.02;  // reserve for the bumps and gaps
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
         requiredFlatness_.push_back(hair * nearShare *
                                     std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
+}
+
+// In the plane of its surface, which has one.
+Bvh::RestBox Bvh::restBoxOf(int leaf) const {
+    const BvhLeaf& own = leaves_[static_cast<std::size_t>(leaf)];
+    const Plane& plane = *planes_[static_cast<std::size_t>(own.surface)];
+    RestBox box;
+    for (int i : own.corners) {
+        const dvec3& x = elements_.rest()[static_cast<std::size_t>(i)];
+        const Rest2 at(glm::dot(x, plane.right), glm::dot(x, plane.up));
+        box = box.joined({at, at});
+    }
+    return box;
 }
 
 void Bvh::measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -203,19 +221,22 @@ std::vector<int> Bvh::leavesBetween(int a, int b) const {
     std::vector<int> found;
     if (surface != leaves_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
         return found;
-    const RestBox &boxA = restBoxes_[static_cast<std::size_t>(a)], &boxB = restBoxes_[static_cast<std::size_t>(b)];
+    const RestBox boxA = restBoxOf(a), boxB = restBoxOf(b);
     // A straight line between the two leaves stays in this box. Leaves that reach into it by a hair are left out.
     const double in = reachIn * elements_.shortestEdge(surface);
     const RestBox box{glm::min(boxA.low, boxB.low) + in, glm::max(boxA.high, boxB.high) - in};
-    for (std::size_t p = 0; p < leaves_.size(); ++p) {
-        if (leaves_[p].surface != surface) continue;
-        const RestBox& own = restBoxes_[p];
-        if (own.low.x > box.high.x || own.low.y > box.high.y || box.low.x > own.high.x || box.low.y > own.high.y)
-            continue;
-        if (found.size() == mostBetween) return {};
-        found.push_back(static_cast<int>(p));
-    }
+    findLeavesIn(box, planeRoots_[static_cast<std::size_t>(surface)], found);
+    if (found.size() > mostBetween) return {};
+    std::sort(found.begin(), found.end());
     return found;
+}
+
+void Bvh::findLeavesIn(const RestBox& box, int number, std::vector<int>& leaves) const {
+    if (leaves.size() > mostBetween || !restBoxes_[static_cast<std::size_t>(number)].overlaps(box)) return;
+    const Node& node = nodes_[static_cast<std::size_t>(number)];
+    if (node.leaf >= 0) return leaves.push_back(node.leaf);
+    findLeavesIn(box, node.left, leaves);
+    findLeavesIn(box, node.right, leaves);
 }
 
 double Bvh::flatness(std::span<const int> leaves) const {

@@ -10,7 +10,7 @@
 namespace taut::contact {
 namespace {
 
-constexpr int atOnce = 8;  // lists per task
+constexpr int checkedAtOnce = 64, madeAtOnce = 8;  // lists per task
 // Shares of the largest thickness.
 constexpr double referenceShare = 0.4;  // a leaf that has deformed further takes a new reference shape
 constexpr double boxMarginShare = 0.5;  // margin of fat boxes
@@ -265,11 +265,8 @@ void BroadPhase::selectForCheck(const MayHaveMoved& mayHaveMoved) {
 // Checks the selected pairs. The lists of those that have used up a budget are due.
 void BroadPhase::checkSelected(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     bvh_.follow(leafList_, x0, x1, mostDeformed_);
-    const int count = static_cast<int>(selected_.size());
-    core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
-        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k)
-            check(*selected_[static_cast<std::size_t>(k)], x0, x1);
-    });
+    core::parallelFor(static_cast<int>(selected_.size()), checkedAtOnce,
+                      [&](int k) { check(*selected_[static_cast<std::size_t>(k)], x0, x1); });
     selectDue();
     bvh_.measureFlatness(between_, x0, x1);
     findBoxes(x0);
@@ -295,24 +292,19 @@ void BroadPhase::selectDue() {
 // Makes expired lists anew. Those of flat leaves stay empty.
 void BroadPhase::refreshDue(std::span<const dvec3> x0) {
     std::atomic<std::size_t> made{0};
-    const int count = static_cast<int>(due_.size());
-    core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
-        std::size_t own = 0;
-        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            CandidateList& list = *due_[static_cast<std::size_t>(k)];
-            if (!list.isExpired) continue;
-            const int surface = bvh_[list.a].surface;
-            // How much flatness is left: no two parts are in contact until they have approached by `spare`.
-            const double spareShare = bvh_.flatness(list.between) - bvh_.requiredFlatness(surface);
-            const double spare = spareShare * bvh_.leastAltitude(surface);
-            if (spare >= flatShare * elements_.surface(surface).thickness) {
-                restart(list, spare);
-                continue;
-            }
+    core::parallelFor(static_cast<int>(due_.size()), madeAtOnce, [&](int k) {
+        CandidateList& list = *due_[static_cast<std::size_t>(k)];
+        if (!list.isExpired) return;
+        // How much flatness is left: no two parts are in contact until they have approached by `spare`.
+        const int surface = bvh_[list.a].surface;
+        const double spare =
+            (bvh_.flatness(list.between) - bvh_.requiredFlatness(surface)) * bvh_.leastAltitude(surface);
+        if (spare >= flatShare * elements_.surface(surface).thickness) {
+            restart(list, spare);
+        } else {
             makeList(list, x0);
-            ++own;
+            ++made;
         }
-        made += own;
     });
     listsMade_ += made;
 }

@@ -10,21 +10,11 @@
 namespace taut::contact {
 namespace {
 
-constexpr int atOnce = 16;  // leaves per task
+constexpr int atOnce = 32, travelAtOnce = 256;  // leaves per task
 
 constexpr double alike = 1e-6;       // sizes that differ by less than this share count as equal
 constexpr double middleShare = 0.2;  // of the items: a node may be split this far from the middle
 constexpr double wideShare = 0.6;    // of the widest gap there: the least gap to split at
-
-// Calls each(leaf) in parallel.
-template <class Each>
-void forEachLeaf(std::size_t count, Each&& each) {
-    constexpr std::size_t chunk = 32;
-    core::parallelFor(static_cast<int>((count + chunk - 1) / chunk), [&](int task) {
-        const std::size_t from = static_cast<std::size_t>(task) * chunk;
-        for (std::size_t p = from; p < std::min(from + chunk, count); ++p) each(p);
-    });
-}
 
 dvec3 unitAcross(const dvec3& along) {
     const dvec3 size = glm::abs(along);
@@ -294,7 +284,8 @@ void Bvh::correct(std::span<const int> points, std::span<const dvec3> x0, std::s
             isCorrected_[static_cast<std::size_t>(leavesAt_[at])] = 1;
         ways_[k] = glm::dot(x1[k] - x0[k], x1[k] - x0[k]);
     }
-    forEachLeaf(leaves_.size(), [&](std::size_t p) {
+    core::parallelFor(count(), atOnce, [&](int leaf) {
+        const auto p = static_cast<std::size_t>(leaf);
         if (isCorrected_[p] == 0) return;
         findTravel(p);
         if (isFollowed_[p] != 0) findWay(p, x0, x1);
@@ -323,7 +314,7 @@ void Bvh::findTravel(std::size_t number) {
 void Bvh::start(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     ways_.resize(x0.size());
     for (std::size_t i = 0; i < x0.size(); ++i) ways_[i] = glm::dot(x1[i] - x0[i], x1[i] - x0[i]);
-    forEachLeaf(leaves_.size(), [&](std::size_t p) { findTravel(p); });
+    core::parallelFor(count(), travelAtOnce, [&](int p) { findTravel(static_cast<std::size_t>(p)); });
     std::fill(isMeasured_.begin(), isMeasured_.end(), 0);
     std::fill(isFollowed_.begin(), isFollowed_.end(), 0);
 }
@@ -335,23 +326,20 @@ void Bvh::follow(std::span<const int> leaves, std::span<const dvec3> x0, std::sp
         if (isFollowed == 0) toFollow_.push_back(p);
         isFollowed = 1;
     }
-    const int count = static_cast<int>(toFollow_.size());
-    core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
-        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            const auto p = static_cast<std::size_t>(toFollow_[static_cast<std::size_t>(k)]);
-            const bool isStill = elements_.isStill(leaves_[p].surface);
-            char& isStillFollowed = isStillFollowed_[p];
-            if (isStill && isStillFollowed != 0) continue;
-            isStillFollowed = isStill ? 1 : 0;
-            LeafMotion& motion = motions_[p];
-            motion.box = {};
-            findWay(p, x0, x1);
-            if (most > 0 && !(motion.deformation <= most)) {
-                takeReference(p, x0);
-                motion.deformation = motion.deviation;
-            }
-            motion.reference = references_[p];
+    core::parallelFor(static_cast<int>(toFollow_.size()), atOnce, [&](int k) {
+        const auto p = static_cast<std::size_t>(toFollow_[static_cast<std::size_t>(k)]);
+        const bool isStill = elements_.isStill(leaves_[p].surface);
+        char& isStillFollowed = isStillFollowed_[p];
+        if (isStill && isStillFollowed != 0) return;
+        isStillFollowed = isStill ? 1 : 0;
+        LeafMotion& motion = motions_[p];
+        motion.box = {};
+        findWay(p, x0, x1);
+        if (most > 0 && !(motion.deformation <= most)) {
+            takeReference(p, x0);
+            motion.deformation = motion.deviation;
         }
+        motion.reference = references_[p];
     });
 }
 

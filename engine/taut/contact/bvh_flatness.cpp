@@ -23,7 +23,7 @@ constexpr double gaps = 2e-3;            // of the hull's area: a surface that l
 constexpr double plenty = 1.15;          // of the required flatness: a bound above it needs no closer look
 constexpr double reachIn = 1e-3;         // of an edge
 constexpr std::size_t mostBetween = 48;  // leaves
-constexpr int measuredAtOnce = 16;       // leaves per task
+constexpr int flatAtOnce = 16;           // leaves per task
 
 double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -152,11 +152,8 @@ void Bvh::measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0
         isMeasured = 1;
         toMeasure_.push_back(p);
     }
-    const int count = static_cast<int>(toMeasure_.size());
-    core::parallelFor((count + measuredAtOnce - 1) / measuredAtOnce, [&](int task) {
-        for (int k = task * measuredAtOnce; k < std::min((task + 1) * measuredAtOnce, count); ++k)
-            measureOne(static_cast<std::size_t>(toMeasure_[static_cast<std::size_t>(k)]), x0, x1);
-    });
+    core::parallelFor(static_cast<int>(toMeasure_.size()), flatAtOnce,
+                      [&](int k) { measureOne(static_cast<std::size_t>(toMeasure_[static_cast<std::size_t>(k)]), x0, x1); });
 }
 
 GradientRows Bvh::gradientsOf(std::size_t leaf) const {

@@ -15,6 +15,7 @@ namespace taut::contact {
 namespace {
 
 constexpr double leastMargin = 0.4;    // of the thickness
+constexpr int boxedAtOnce = 16;        // leaves per task
 constexpr double instantsAhead = 4.0;  // a list should last for so many instants like this one
 
 struct MeasuredPair {
@@ -103,7 +104,7 @@ void BroadPhase::findBoxes(std::span<const dvec3> x0) {
     std::erase_if(leafList_, [&](int p) { return std::exchange(hasBoxes_[static_cast<std::size_t>(p)], 1) != 0; });
     if (leafList_.empty()) return;
     if (pointBoxes_.empty()) findPointBoxes(x0, pointBoxes_);
-    core::parallelFor(static_cast<int>(leafList_.size()), [&](int k) {
+    core::parallelFor(static_cast<int>(leafList_.size()), boxedAtOnce, [&](int k) {
         const int number = leafList_[static_cast<std::size_t>(k)];
         boxes_[static_cast<std::size_t>(number)].find(elements_, bvh_[number], pointBoxes_);
     });

@@ -7,10 +7,13 @@
 
 #include "taut/contact/closest_points.h"
 #include "taut/contact/leaf_boxes.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::contact {
 namespace {
 
+constexpr int boxedAtOnce = 16;       // leaves per task
+constexpr int pairsAtOnce = 64;       // of leaves per task
 constexpr double leastSlope = 0.05;  // sine of the angle of edge and triangle; a flatter edge has no direction
 
 dvec3 unit(const dvec3& v) {
@@ -229,41 +232,49 @@ dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec
 }
 
 std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x) {
-    std::vector<Crossing> crossings;
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
-    // Edges that may pierce anything. A rigid edge with fewer than two faces has no outer side.
+    // A rigid edge with fewer than two faces has no outer side.
     const auto mayPierce = [&](const Edge& edge) {
         return edge.a != edge.b && (!elements.isRigid(edge.surface) || (edge.wings[0] >= 0 && edge.wings[1] >= 0));
     };
-    const auto test = [&](int e, int t) {
+    const auto test = [&](int e, int t, std::vector<Crossing>& found) {
         const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
         const std::array<int, 3>& c = elements.triangles()[static_cast<std::size_t>(t)].points;
         const auto isCorner = [&](int i) { return i == c[0] || i == c[1] || i == c[2]; };
         Piercing p;
         if (isCorner(edge.a) || isCorner(edge.b) || !mayPierce(edge)) return;
         if (!pierces(at(edge.a), at(edge.b), at(c[0]), at(c[1]), at(c[2]), p)) return;
-        crossings.push_back({e,
-                             t,
-                             at(edge.a) + p.s * (at(edge.b) - at(edge.a)),
-                             {edge.a, edge.b, c[0], c[1], c[2]},
-                             {1 - p.s, p.s, -p.weights[0], -p.weights[1], -p.weights[2]},
-                             dvec3(0.0),
-                             {}});
+        found.push_back({e,
+                         t,
+                         at(edge.a) + p.s * (at(edge.b) - at(edge.a)),
+                         {edge.a, edge.b, c[0], c[1], c[2]},
+                         {1 - p.s, p.s, -p.weights[0], -p.weights[1], -p.weights[2]},
+                         dvec3(0.0),
+                         {}});
     };
-    // All pairs of leaves, then sorted so that the order does not depend on the tree.
+    // All pairs of leaves, then sorted so that the order does not depend on the tree, nor on threads.
     std::vector<FloatBox> ofPoints;
     findPointBoxes(x, ofPoints);
     std::vector<LeafBoxes> boxes(static_cast<std::size_t>(leaves.count()));
-    for (int p = 0; p < leaves.count(); ++p) boxes[static_cast<std::size_t>(p)].find(elements, leaves[p], ofPoints);
+    core::parallelFor(leaves.count(), boxedAtOnce,
+                      [&](int p) { boxes[static_cast<std::size_t>(p)].find(elements, leaves[p], ofPoints); });
     const ClosestKernels kernels = closestKernels();
-    BoxQuery query(kernels, 0.0);
-    for (LeafPair pair : overlapping(leaves, x)) {
-        const int a = lowOf(pair), b = highOf(pair);
-        const core::Aabb &boxA = leaves.motion(a).box, &boxB = leaves.motion(b).box;
-        const LeafBoxes &ofA = boxes[static_cast<std::size_t>(a)], &ofB = boxes[static_cast<std::size_t>(b)];
-        query.forEach(ofA.edges, boxA, ofB.triangles, boxB, test);
-        if (a != b) query.forEach(ofB.edges, boxB, ofA.triangles, boxA, test);
-    }
+    const std::vector<LeafPair> near = overlapping(leaves, x);
+    std::vector<std::vector<Crossing>> perPair(near.size());
+    core::parallelFor(static_cast<int>(near.size()), pairsAtOnce, [&](int k) {
+        std::vector<Crossing>& found = perPair[static_cast<std::size_t>(k)];
+        BoxQuery query(kernels, 0.0);
+        const int a = lowOf(near[static_cast<std::size_t>(k)]), b = highOf(near[static_cast<std::size_t>(k)]);
+        const auto pierce = [&](int ofEdges, int ofTriangles) {
+            query.forEach(boxes[static_cast<std::size_t>(ofEdges)].edges, leaves.motion(ofEdges).box,
+                          boxes[static_cast<std::size_t>(ofTriangles)].triangles, leaves.motion(ofTriangles).box,
+                          [&](int e, int t) { test(e, t, found); });
+        };
+        pierce(a, b);
+        if (a != b) pierce(b, a);
+    });
+    std::vector<Crossing> crossings;
+    for (const std::vector<Crossing>& found : perPair) crossings.insert(crossings.end(), found.begin(), found.end());
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
         return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
     });

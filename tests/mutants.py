@@ -63,10 +63,10 @@ MUTANTS = {
         "        handOver(instant, moved);\n        break;\n    }\n\n    // The lists"),
     "slides-undetected": (
         "pairs that slides bring into reach are not detected", GROUP,
-        "if (!moved_.empty()) detectAgain(instant);", "if (!moved_.empty() && round == 0) detectAgain(instant);"),
+        "if (!pending_.empty()) detectAgain(instant);", "if (!pending_.empty() && round == 0) detectAgain(instant);"),
     "impulses-undetected": (
         "pairs that impulses bring into reach are not detected", GROUP,
-        "if (!moved_.empty()) detectAgain(instant);", "if (!moved_.empty() && round > 0) detectAgain(instant);"),
+        "if (!pending_.empty()) detectAgain(instant);", "if (!pending_.empty() && round > 0) detectAgain(instant);"),
     "held-yields": (
         "what nothing moves may yield", RIGID,
         "return free > leastFree * all;", "return free > leastFree * all || all >= 0;"),
@@ -133,11 +133,11 @@ MUTANTS = {
         "row.gains[i] = (pair.weights[i] < 0 ? -inverseMass : inverseMass) / pair.firstSide();"),
     "pull": (
         "impulses may pull", GAUSS_SEIDEL,
-        "next[3] = wanted > 0 ? wanted : 0;", "next[3] = wanted;"),
+        "pressing = wanted > none ? wanted : none;", "pressing = wanted;"),
     "rub-unbounded": (
         "friction knows no limit", GAUSS_SEIDEL,
-        "if (square > limit * limit)",
-        "if (square > 1e300)"),
+        "isBeyond = square > limit * limit",
+        "isBeyond = square > none + 1e300"),
     "rub-with-normal": (
         "friction acts along the normal too", GAUSS_SEIDEL,
         "row.mass * (velocity - parting * normal)",

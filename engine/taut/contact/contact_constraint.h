@@ -21,7 +21,7 @@ struct ContactConstraint {
     int a, b;               // as CandidatePair
     bool isPoint;           // a point and a triangle; else two edges
     bool isActive;          // the solver gets it; else it only needs a certificate
-    std::uint64_t leaves;   // the LeafPair that it was found for
+    std::uint64_t leaves = 0;  // the LeafPair that it was found for
     double recovery = 1.0;  // 0 … 1: share by which an overlap is taken back, see convexityOf()
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]

@@ -144,8 +144,8 @@ MUTANTS = {
         "row.mass * velocity"),
     "step-on-double": (
         "the step on between sweeps is twice as long", GAUSS_SEIDEL,
-        "const double share = squareBefore > 0 ? square / squareBefore : 0.0;",
-        "const double share = squareBefore > 0 ? 2.0 * square / squareBefore : 0.0;"),
+        "share = squareBefore > 0 ? square / squareBefore : 0.0;",
+        "share = squareBefore > 0 ? 2.0 * square / squareBefore : 0.0;"),
     "sweeps-one": (
         "there is one sweep", GAUSS_SEIDEL,
         "if (sweep == batch.most ||",

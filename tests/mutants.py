@@ -140,8 +140,8 @@ MUTANTS = {
         "isBeyond = square > none + 1e300"),
     "rub-with-normal": (
         "friction acts along the normal too", GAUSS_SEIDEL,
-        "row.mass * (velocity - parting * normal)",
-        "row.mass * velocity"),
+        "(velocity.x - parting * normal.x)",
+        "velocity.x"),
     "step-on-double": (
         "the step on between sweeps is twice as long", GAUSS_SEIDEL,
         "share = squareBefore > 0 ? square / squareBefore : 0.0;",

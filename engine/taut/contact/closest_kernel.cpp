@@ -43,15 +43,15 @@ inline unsigned bitsAtLeast(const float* numbers, float limit) {
     return static_cast<unsigned>(_mm_movemask_ps(_mm_cmpge_ps(_mm_loadu_ps(numbers), _mm_set1_ps(limit))));
 }
 #endif
-constexpr int width = core::TAUT_ISA::vectorBytes / static_cast<int>(sizeof(float));
+constexpr int floatsAtOnce = core::TAUT_ISA::vectorBytes / static_cast<int>(sizeof(float));
 inline unsigned atMost(const float* numbers, float limit) {
     unsigned bits = 0;
-    for (int i = 0; i < sixteen; i += width) bits |= bitsAtMost(numbers + i, limit) << static_cast<unsigned>(i);
+    for (int i = 0; i < sixteen; i += floatsAtOnce) bits |= bitsAtMost(numbers + i, limit) << static_cast<unsigned>(i);
     return bits;
 }
 inline unsigned atLeast(const float* numbers, float limit) {
     unsigned bits = 0;
-    for (int i = 0; i < sixteen; i += width) bits |= bitsAtLeast(numbers + i, limit) << static_cast<unsigned>(i);
+    for (int i = 0; i < sixteen; i += floatsAtOnce) bits |= bitsAtLeast(numbers + i, limit) << static_cast<unsigned>(i);
     return bits;
 }
 #endif

@@ -6,7 +6,6 @@
 
 #include "taut/bodies/private/ties.h"
 #include "taut/island/private/island_report.h"
-#include "taut/island/private/rest_bound.h"
 #include "taut/spec/private/motion.h"
 
 namespace taut::world {
@@ -361,105 +360,6 @@ void Island::watchVolumes(double t) {
             collapseWarning_ = plan_.bodies.front()->fullName() + text;
         }
     }
-}
-
-// Sleep.
-
-void Island::beginRestWindow(std::int64_t number) {
-    dynamics_->positions(x_);
-    rest_.begin(number, x_);
-}
-
-void Island::watchRest(bool isMiddle) {
-    if (!rest_.isWatching()) return;
-    dynamics_->positions(x_);
-    rest_.look(x_, plan_.solver.sleepError / 3, isMiddle);
-}
-
-// What constraints hold has no stiffness, so their islands stay awake. So does what a hand or a collider moves.
-bool Island::isCalm() {
-    const auto moves = [](const Grip& grip) { return grip.path.moves(); };
-    return rest_.isCalm() && plan_.constraints.empty() && now_.inside.empty() && !isOpen_ &&
-           std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) && dynamics_->isSteady(forces_);
-}
-
-bool Island::rests(double seconds, std::vector<Support> supports) {
-    constexpr double stillShare = 0.01;  // of the error: how far a point may go in a window that friction holds
-    const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
-    const std::size_t n = plan_.points.size();
-    dynamics_->positions(x_);
-    supports.resize(n);
-    for (const collision::Contact& contact : now_.contacts) {
-        Support& support = supports[static_cast<std::size_t>(contact.point)];
-        support.mayStick = (support.push == dvec3(0.0) || support.mayStick) && contact.friction > 0;
-        support.push = contact.normal;
-    }
-    std::vector<dvec3> v(n), r(n), normals(n, dvec3(0.0));
-    std::vector<double> inverseMasses = inverseMassesOf(plan_);
-    const std::vector<bool> isHeld = heldPointsOf(plan_);
-    for (std::size_t i = 0; i < n; ++i) {
-        const mechanics::PointMass& point = plan_.points[i];
-        v[i] = rest_.velocity(i, x_[i], seconds);
-        r[i] = point.mass * (rest_.acceleration(i, x_[i], seconds) + point.dragRate * v[i]);
-        const bool sticks = supports[i].mayStick && glm::dot(v[i], v[i]) <= still * still;
-        if (isHeld[i] || !isFree(plan_, static_cast<int>(i)) || sticks) inverseMasses[i] = 0;
-        const double push = std::sqrt(glm::dot(supports[i].push, supports[i].push));
-        if (push > 0) normals[i] = supports[i].push / push;
-    }
-    return restBound(inverseMasses, normals, v, r, still, stiffnessAt(x_)) <= error / 3;
-}
-
-void Island::fallAsleep(const TickTime& time, std::int64_t company) {
-    open(time);
-    const std::vector<dvec3> v = dynamics_->velocities();
-    for (std::size_t i = 0; i < v.size(); ++i) {
-        if (isFree(plan_, static_cast<int>(i))) {
-            const double m = plan_.points[i].mass;
-            sleep_.taken.energy += 0.5 * m * glm::dot(v[i], v[i]);
-            sleep_.taken.momentum += m * v[i];
-        }
-        dynamics_->setVelocity(static_cast<int>(i), dvec3(0.0));
-    }
-    isOpen_ = false;
-    now_.pressed.clear();
-    rest_.stop();
-    rest_.forgive();
-    sleep_.company = company;
-}
-
-void Island::wake() {
-    sleep_.company = 0;
-    sleep_.box.reset();
-    sleep_.hashes.clear();
-    isOpen_ = true;
-}
-
-bool Island::isReachedBy(std::span<const ColliderMotion> moving) {
-    if (!mayCollide_ || moving.empty()) return false;
-    if (!sleep_.box) {
-        sleep_.box.emplace();
-        for (int i = 0; i < static_cast<int>(plan_.points.size()); ++i) sleep_.box->add(position(i));
-        double thickness = 0;
-        for (const Body* body : plan_.bodies) thickness = std::max(thickness, body->spec->thickness);
-        sleep_.box->grow(2 * thickness + plan_.solver.sleepError);
-    }
-    bool isReached = false;
-    for (const ColliderMotion& m : moving)
-        for (const collision::Pose& start : {m.from, m.to}) {
-            // At its start, then on its way: a collider that jumps has no way.
-            colliders_.move(m.collider, m.from, start);
-            isReached = isReached || colliders_.isNear(m.collider, *sleep_.box);
-        }
-    return isReached;
-}
-
-std::uint64_t Island::hashAsleep(const Body& body) {
-    for (const auto& [known, hash] : sleep_.hashes)
-        if (known == &body) return hash;
-    core::Hash hash;
-    addToHash(body, hash);
-    sleep_.hashes.emplace_back(&body, hash.value());
-    return hash.value();
 }
 
 // Changes between two ticks.

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,11 @@ namespace taut::contact {
 struct alignas(32) FloatBox {
     float low[4], high[4];
 
+    // It overlaps nothing.
+    static FloatBox none() {
+        constexpr float far = std::numeric_limits<float>::infinity();
+        return {{far, far, far, far}, {-far, -far, -far, -far}};
+    }
     FloatBox joined(const FloatBox& other) const {
         FloatBox both;
         for (int k = 0; k < 4; ++k) {
@@ -34,25 +40,37 @@ void findPointBoxes(std::span<const dvec3> x, std::vector<FloatBox>& boxes);
 // Boxes of some elements of a leaf, in rows: all lower x, all lower y, …
 class ElementBoxes {
   public:
-    // Room for `most` boxes.
-    void clear(std::size_t most);
-    void add(int number, const FloatBox& box);
+    // boxOf(item): what it gets. Keeps a reference to the items.
+    template <class BoxOf>
+    void fill(const std::vector<int>& items, const BoxOf& boxOf) {
+        items_ = items;
+        stride_ = (items.size() + boxesAtOnce - 1) / boxesAtOnce * boxesAtOnce;
+        rows_.resize(6 * stride_);
+        for (std::size_t i = 0; i < stride_; ++i) set(i, i < items.size() ? boxOf(items[i]) : FloatBox::none());
+    }
     int item(int i) const { return items_[static_cast<std::size_t>(i)]; }
     FloatBox box(int i, float reach) const;  // grown by the reach [m] on all sides
     // A bit for each box that overlaps this one -> hits. Returns whether there is any.
     bool findHits(const FloatBox& box, const ClosestKernels& kernels, std::vector<std::uint64_t>& hits) const;
 
   private:
+    void set(std::size_t i, const FloatBox& box) {
+        float* at = rows_.data() + i;
+        for (std::size_t k = 0; k < 3; ++k) {
+            at[k * stride_] = box.low[k];
+            at[(k + 3) * stride_] = box.high[k];
+        }
+    }
     const float* row(std::size_t k) const { return rows_.data() + k * stride_; }
 
-    std::vector<int> items_;
+    std::span<const int> items_;
     std::vector<float> rows_;  // (6, stride)
     std::size_t stride_ = 0;   // a multiple of boxesAtOnce; the boxes after the last overlap nothing
 };
 
-// Of what is not gone.
 struct LeafBoxes {
     ElementBoxes points, triangles, edges;
+    // Keeps references to the leaf.
     void find(const Elements& elements, const BvhLeaf& leaf, std::span<const FloatBox> ofPoints);
 };
 

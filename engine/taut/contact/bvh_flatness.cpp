@@ -119,11 +119,8 @@ void Bvh::prepareFlatness() {
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
         const Node& node = nodes_[n];
         if (node.surface < 0 || !planes_[static_cast<std::size_t>(node.surface)]) continue;
-        RestBox& box = restBoxes_[n];
-        if (node.leaf < 0)
-            box = restBoxes_[static_cast<std::size_t>(node.left)].joined(restBoxes_[static_cast<std::size_t>(node.right)]);
-        else
-            box = restBoxOf(node.leaf);
+        const auto of = [&](int child) -> const RestBox& { return restBoxes_[static_cast<std::size_t>(child)]; };
+        restBoxes_[n] = node.leaf < 0 ? of(node.left).joined(of(node.right)) : restBoxOf(node.leaf);
     }
     constexpr double hair = 1.02;  // reserve for the bumps and gaps
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
@@ -152,8 +149,9 @@ void Bvh::measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0
         isMeasured = 1;
         toMeasure_.push_back(p);
     }
-    core::parallelFor(static_cast<int>(toMeasure_.size()), flatAtOnce,
-                      [&](int k) { measureOne(static_cast<std::size_t>(toMeasure_[static_cast<std::size_t>(k)]), x0, x1); });
+    core::parallelFor(static_cast<int>(toMeasure_.size()), flatAtOnce, [&](int k) {
+        measureOne(static_cast<std::size_t>(toMeasure_[static_cast<std::size_t>(k)]), x0, x1);
+    });
 }
 
 GradientRows Bvh::gradientsOf(std::size_t leaf) const {

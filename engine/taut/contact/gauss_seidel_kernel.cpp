@@ -61,7 +61,8 @@ inline void apply(const Pack& pack, const Lanes (&impulse)[4], Four* velocities)
     const Lanes x = impulse[0] + impulse[3] * normal.x, y = impulse[1] + impulse[3] * normal.y,
                 z = impulse[2] + impulse[3] * normal.z, none{};
     const Lanes xyEven = __builtin_shufflevector(x, y, 0, 4, 2, 6), xyOdd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
-    const Lanes zEven = __builtin_shufflevector(z, none, 0, 4, 2, 6), zOdd = __builtin_shufflevector(z, none, 1, 5, 3, 7);
+    const Lanes zEven = __builtin_shufflevector(z, none, 0, 4, 2, 6);
+    const Lanes zOdd = __builtin_shufflevector(z, none, 1, 5, 3, 7);
     const Lanes rows[4] = {
         __builtin_shufflevector(xyEven, zEven, 0, 1, 4, 5), __builtin_shufflevector(xyOdd, zOdd, 0, 1, 4, 5),
         __builtin_shufflevector(xyEven, zEven, 2, 3, 6, 7), __builtin_shufflevector(xyOdd, zOdd, 2, 3, 6, 7)};

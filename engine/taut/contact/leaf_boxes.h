@@ -13,7 +13,7 @@
 
 namespace taut::contact {
 
-// [m] The last number of each is 0.
+// [m] Four numbers, so that they fill a register; the last counts for nothing.
 struct alignas(32) FloatBox {
     float low[4], high[4];
 

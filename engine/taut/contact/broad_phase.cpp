@@ -215,8 +215,7 @@ void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     bvh_.start(x0, x1);
     pointBoxes_.clear();
     hasBoxes_.assign(static_cast<std::size_t>(bvh_.count()), 0);
-    for (TrackedPair* tracked : checked_) tracked->isChecked = false;
-    checked_.clear();
+    forgetChecked();
     if (!areInFatBoxes(x0, x1)) {
         bvh_.followAll(x0, x1, mostDeformed_);
         searchTree(boxMarginShare * thickest);
@@ -311,8 +310,7 @@ void BroadPhase::refreshDue(std::span<const dvec3> x0) {
 
 void BroadPhase::advance(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     bvh_.start(x0, x1);
-    for (TrackedPair* tracked : checked_) tracked->isChecked = false;
-    checked_.clear();
+    forgetChecked();
     accumulateTravel();
 }
 
@@ -340,8 +338,12 @@ void BroadPhase::accumulateTravel() {
     for (TrackedPair* tracked : checked_) {
         tracked->list->travelledBefore += relativeMotionOf(*tracked->list);
         tracked->countedTravel = travelOf(tracked->pair);
-        tracked->isChecked = false;
     }
+    forgetChecked();
+}
+
+void BroadPhase::forgetChecked() {
+    for (TrackedPair* tracked : checked_) tracked->isChecked = false;
     checked_.clear();
 }
 

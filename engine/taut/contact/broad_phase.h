@@ -135,6 +135,7 @@ class BroadPhase {
     double travelOf(LeafPair pair) const;
     double freeShiftOf(LeafPair pair) const;
     void accumulateTravel();
+    void forgetChecked();
 
     const Elements& elements_;
     Bvh bvh_;

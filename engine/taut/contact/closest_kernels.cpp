@@ -21,23 +21,16 @@ TAUT_DECLARE(avx512)
 #undef TAUT_DECLARE
 
 ClosestKernels closestKernels() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512:
-            return {avx512::onTriangles, avx512::onSegments, avx512::findOverlapping, avx512::findDue};
-        case core::InstructionSet::avx2:
-            return {avx2::onTriangles, avx2::onSegments, avx2::findOverlapping, avx2::findDue};
-        case core::InstructionSet::sse2: break;
-    }
-    return {sse2::onTriangles, sse2::onSegments, sse2::findOverlapping, sse2::findDue};
+    return core::inUse<ClosestKernels>({sse2::onTriangles, sse2::onSegments, sse2::findOverlapping, sse2::findDue},
+                                       {avx2::onTriangles, avx2::onSegments, avx2::findOverlapping, avx2::findDue},
+                                       {avx512::onTriangles, avx512::onSegments, avx512::findOverlapping,
+                                        avx512::findDue});
 }
 
 FlatnessKernels flatnessKernels() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return {avx512::findGradients, avx512::findLeast, avx512::findMost};
-        case core::InstructionSet::avx2: return {avx2::findGradients, avx2::findLeast, avx2::findMost};
-        case core::InstructionSet::sse2: break;
-    }
-    return {sse2::findGradients, sse2::findLeast, sse2::findMost};
+    return core::inUse<FlatnessKernels>({sse2::findGradients, sse2::findLeast, sse2::findMost},
+                                        {avx2::findGradients, avx2::findLeast, avx2::findMost},
+                                        {avx512::findGradients, avx512::findLeast, avx512::findMost});
 }
 
 }  // namespace taut::contact

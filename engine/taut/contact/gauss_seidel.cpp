@@ -79,15 +79,7 @@ int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std:
     scratch.perRow.assign(rows.size() + 1, 0.0);
     const Sweeps batch{scratch.packs.data(), packCount, count, scratch.perRow.data(), velocities.data(),
                        sweeps,               tolerance};
-    const auto solve = [&] {
-        switch (core::instructionSet()) {
-            case core::InstructionSet::avx512: return avx512::sweep(batch);
-            case core::InstructionSet::avx2: return avx2::sweep(batch);
-            case core::InstructionSet::sse2: break;
-        }
-        return sse2::sweep(batch);
-    };
-    const int taken = solve();
+    const int taken = core::inUse(sse2::sweep, avx2::sweep, avx512::sweep)(batch);
     for (const Pack& pack : scratch.packs)
         for (int lane = 0; lane < 4; ++lane)
             if (pack.rows[lane] < count)

@@ -20,6 +20,17 @@ bool isSupported(InstructionSet set);
 // ask.
 InstructionSet instructionSet();
 
+// Of the copies of a kernel, that of the set in use.
+template <class Kernels>
+Kernels inUse(Kernels sse2, Kernels avx2, Kernels avx512) {
+    switch (instructionSet()) {
+        case InstructionSet::avx512: return avx512;
+        case InstructionSet::avx2: return avx2;
+        case InstructionSet::sse2: break;
+    }
+    return sse2;
+}
+
 // How that was decided: "TAUT_SIMD", "--isa", or what springs took in the trial: "trial: sse2 2.1, avx2 1.0 ns".
 std::string instructionSetReason();
 

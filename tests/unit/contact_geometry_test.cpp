@@ -26,8 +26,8 @@ TEST(ContactNearest, OnATriangleNoSampleIsNearer) {
     constexpr int grid = 40;
     for (int n = 0; n < 500; ++n) {
         const auto p = fourPoints(dice, n);
-        const OnTriangle on = closestOnTriangle(p[0], p[1], p[2], p[3]);
-        const auto& w = on.weights;
+        const Closest on = closestPoints(p, true);
+        const std::array<double, 3> w{-on.weights[1], -on.weights[2], -on.weights[3]};
         for (double weight : w) EXPECT_GE(weight, -1e-15) << n;
         EXPECT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-14);
         const double found = glm::distance(p[0], w[0] * p[1] + w[1] * p[2] + w[2] * p[3]);
@@ -40,7 +40,8 @@ TEST(ContactNearest, OnATriangleNoSampleIsNearer) {
         EXPECT_LE(found, least + 1e-12) << n;
         // Its feature is the one that the weights name.
         const int zeros = (w[0] == 0 ? 1 : 0) + (w[1] == 0 ? 1 : 0) + (w[2] == 0 ? 1 : 0);
-        const int kind = on.feature == Feature::face ? 0 : (on.feature < Feature::corner0 ? 1 : 2);
+        const auto feature = static_cast<Feature>(on.where);
+        const int kind = feature == Feature::face ? 0 : (feature < Feature::corner0 ? 1 : 2);
         EXPECT_GE(zeros, kind) << n;
     }
 }
@@ -64,14 +65,13 @@ TEST(ContactNearest, KernelsGiveTheBitsOfOnePairOnEveryInstructionSet) {
         segments.solve(closestKernels().onSegments);
         for (int n = 0; n < triangles.count(); ++n) {
             const auto& p = places[static_cast<std::size_t>(n)];
-            const OnTriangle on = closestOnTriangle(p[0], p[1], p[2], p[3]);
-            const std::array<double, 4> weights{1, -on.weights[0], -on.weights[1], -on.weights[2]};
-            EXPECT_EQ(triangles.weights(n), weights) << n;
-            EXPECT_EQ(triangles.where(n), static_cast<long>(on.feature)) << n;
-            const OnSegments beside = closestOnSegments(p[0], p[1], p[2], p[3]);
-            const std::array<double, 4> shares{1 - beside.s, beside.s, beside.t - 1, -beside.t};
-            EXPECT_EQ(segments.weights(n), shares) << n;
-            EXPECT_EQ(segments.where(n), beside.areInside ? 1 : 0) << n;
+            const Closest on = closestPoints(p, true), beside = closestPoints(p, false);
+            EXPECT_EQ(triangles.weights(n), on.weights) << n;
+            EXPECT_EQ(triangles.separation(n), on.separation) << n;
+            EXPECT_EQ(triangles.where(n), on.where) << n;
+            EXPECT_EQ(segments.weights(n), beside.weights) << n;
+            EXPECT_EQ(segments.separation(n), beside.separation) << n;
+            EXPECT_EQ(segments.where(n), beside.where) << n;
         }
     }
     core::useInstructionSet(before);
@@ -82,9 +82,9 @@ TEST(ContactNearest, OnSegmentsNoSampleIsNearer) {
     constexpr int grid = 60;
     for (int n = 0; n < 500; ++n) {
         const auto p = fourPoints(dice, n);
-        const OnSegments on = closestOnSegments(p[0], p[1], p[2], p[3]);
-        EXPECT_EQ(on.s, clampShare(on.s));
-        EXPECT_EQ(on.t, clampShare(on.t));
+        const Closest on = closestPoints(p, false);
+        const double ownS = on.weights[1], ownT = -on.weights[3];
+        for (const double share : {ownS, ownT}) EXPECT_TRUE(share >= 0 && share <= 1) << share;
         const auto distance = [&](double s, double t) {
             return glm::distance(p[0] + s * (p[1] - p[0]), p[2] + t * (p[3] - p[2]));
         };
@@ -92,7 +92,7 @@ TEST(ContactNearest, OnSegmentsNoSampleIsNearer) {
         for (int i = 0; i <= grid; ++i)
             for (int j = 0; j <= grid; ++j)
                 least = std::min(least, distance(static_cast<double>(i) / grid, static_cast<double>(j) / grid));
-        EXPECT_LE(distance(on.s, on.t), least + 1e-12) << n;
+        EXPECT_LE(distance(ownS, ownT), least + 1e-12) << n;
     }
 }
 
@@ -101,15 +101,9 @@ ContactConstraint pairAt(const std::array<dvec3, 4>& p, bool isPoint) {
     ContactConstraint pair{};
     pair.points = {0, 1, 2, 3};
     pair.isPoint = isPoint;
-    if (isPoint) {
-        const OnTriangle on = closestOnTriangle(p[0], p[1], p[2], p[3]);
-        pair.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
-    } else {
-        const OnSegments on = closestOnSegments(p[0], p[1], p[2], p[3]);
-        pair.weights = {1 - on.s, on.s, on.t - 1, -on.t};
-    }
-    dvec3 apart(0.0);
-    for (std::size_t k = 0; k < 4; ++k) apart += pair.weights[k] * p[k];
+    const Closest on = closestPoints(p, isPoint);
+    pair.weights = on.weights;
+    const dvec3 apart = on.separation;
     pair.distance = glm::length(apart);
     pair.normal = apart / pair.distance;
     return pair;

@@ -67,9 +67,7 @@ double distanceTo(World& world, const dvec3& place) {
     double least = 1e300;
     for (const std::array<int, 3>& t : world.registry().find<BodyPart>(entity)->body->model.triangles) {
         const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(t[k])]; };
-        const contact::OnTriangle on = contact::closestOnTriangle(place, at(0), at(1), at(2));
-        least =
-            std::min(least, glm::length(place - on.weights[0] * at(0) - on.weights[1] * at(1) - on.weights[2] * at(2)));
+        least = std::min(least, glm::length(contact::closestPoints({place, at(0), at(1), at(2)}, true).separation));
     }
     return least;
 }

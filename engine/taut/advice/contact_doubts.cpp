@@ -137,18 +137,17 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
         const Body &own = stage.bodyOf(a.surface), &other = stage.bodyOf(b.surface);
         const double within = samePlace * (own.spec->thickness + other.spec->thickness);
         const auto isIn = [&](const dvec3& point) {
-            const auto isNear = [&](const dvec3& place) {
-                return glm::dot(point - place, point - place) <= within * within;
+            const auto isNear = [&](const contact::Corners& corners, bool isTriangle) {
+                const dvec3 apart = contact::closestPoints(corners, isTriangle).separation;
+                return glm::dot(apart, apart) <= within * within;
             };
             for (int t : b.triangles) {
                 const std::array<int, 3>& c = elements.triangles()[static_cast<std::size_t>(t)].points;
-                const auto [u, v, w] = contact::closestOnTriangle(point, at(c[0]), at(c[1]), at(c[2])).weights;
-                if (isNear(u * at(c[0]) + v * at(c[1]) + w * at(c[2]))) return true;
+                if (isNear({point, at(c[0]), at(c[1]), at(c[2])}, true)) return true;
             }
             for (int e : b.edges) {
                 const contact::Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
-                const double s = contact::closestOnSegments(point, point, at(edge.a), at(edge.b)).t;
-                if (isNear((1 - s) * at(edge.a) + s * at(edge.b))) return true;
+                if (isNear({point, point, at(edge.a), at(edge.b)}, false)) return true;
             }
             return false;
         };

@@ -15,8 +15,6 @@ constexpr double leftApart = 0.2;    // sliding apart leaves this share of the d
 constexpr double leastApart = 0.02;  // sliding apart leaves at least this share of the thickness
 constexpr double into = -0.5;        // cosine of a way with a collider's normal: below it the way leads into it
 
-using Corners = std::array<dvec3, 4>;
-
 Corners cornersOf(const ContactConstraint& pair, std::span<const dvec3> x) {
     Corners corners;
     for (std::size_t k = 0; k < 4; ++k) corners[k] = x[static_cast<std::size_t>(pair.points[k])];
@@ -45,35 +43,6 @@ bool separates(const Corners& before, const Corners& after, int firstSide, const
 // The normal of the triangle, or the common normal of both edges. Not unit.
 dvec3 normalOf(const Corners& c, bool isPoint) {
     return isPoint ? glm::cross(c[2] - c[1], c[3] - c[1]) : glm::cross(c[1] - c[0], c[3] - c[2]);
-}
-
-// The vector between the closest points of both sides, towards the first.
-dvec3 separationOf(const Corners& c, bool isPoint) {
-    if (isPoint) {
-        const OnTriangle on = closestOnTriangle(c[0], c[1], c[2], c[3]);
-        return c[0] - (on.weights[0] * c[1] + on.weights[1] * c[2] + on.weights[2] * c[3]);
-    }
-    const OnSegments on = closestOnSegments(c[0], c[1], c[2], c[3]);
-    return c[0] + on.s * (c[1] - c[0]) - (c[2] + on.t * (c[3] - c[2]));
-}
-
-// The closest points of both sides, as weights, and the vector between them.
-struct Closest {
-    std::array<double, 4> weights;
-    dvec3 separation;
-};
-
-Closest closestPoints(const Corners& c, bool isPoint) {
-    Closest found{{}, dvec3(0.0)};
-    if (isPoint) {
-        const OnTriangle on = closestOnTriangle(c[0], c[1], c[2], c[3]);
-        found.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
-    } else {
-        const OnSegments on = closestOnSegments(c[0], c[1], c[2], c[3]);
-        found.weights = {1 - on.s, on.s, on.t - 1, -on.t};
-    }
-    for (std::size_t k = 0; k < 4; ++k) found.separation += found.weights[k] * c[k];
-    return found;
 }
 
 // Finds the time of closest approach by bisection. At each time it tries the direction between the closest points as an
@@ -127,7 +96,7 @@ bool isCertified(const ContactConstraint& pair, std::span<const dvec3> x0, std::
     if (separates(before, after, side, pair.normal)) return true;
     if (separates(before, after, side, normalOf(before, pair.isPoint))) return true;
     if (separates(before, after, side, normalOf(after, pair.isPoint))) return true;
-    const dvec3 last = separationOf(after, pair.isPoint);
+    const dvec3 last = closestPoints(after, pair.isPoint).separation;
     if (separates(before, after, side, last)) return true;
     const double size = length(last);
     if (size > 0 && separates(before, after, side, pair.normal + last / size)) return true;

@@ -1,5 +1,5 @@
 // Kernels that work on many pairs at once: closest points of points and triangles, or of segments; overlap of boxes;
-// budgets of candidates. One copy for each instruction set. Every copy gives the bits that closest_points.h gives.
+// budgets of candidates. One copy for each instruction set. All copies give the same bits.
 // Plain data only.
 #pragma once
 

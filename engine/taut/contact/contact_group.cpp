@@ -312,17 +312,18 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
             }
         }
     };
+    const auto take = [&](const Corners& corners, bool isPoint) {
+        const dvec3 d = closestPoints(corners, isPoint).separation;
+        least = std::min(least, glm::dot(d, d));
+    };
     // Points of one leaf against triangles of the other.
     const auto measurePoints = [&](const BvhLeaf& of, const BvhLeaf& triangles) {
         for (int i : of.points)
             for (int t : triangles.triangles) {
                 const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
                 const std::array<int, 3>& c = triangle.points;
-                if (triangle.isGone || i == c[0] || i == c[1] || i == c[2]) continue;
-                const OnTriangle on = closestOnTriangle(at(i), at(c[0]), at(c[1]), at(c[2]));
-                const dvec3 d =
-                    at(i) - (on.weights[0] * at(c[0]) + on.weights[1] * at(c[1]) + on.weights[2] * at(c[2]));
-                least = std::min(least, glm::dot(d, d));
+                if (!triangle.isGone && i != c[0] && i != c[1] && i != c[2])
+                    take({at(i), at(c[0]), at(c[1]), at(c[2])}, true);
             }
     };
     // All pairs of elements of two leaves.
@@ -334,11 +335,7 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
             for (int f : b.edges) {
                 const Edge &own = elements.edges()[static_cast<std::size_t>(e)],
                            &other = elements.edges()[static_cast<std::size_t>(f)];
-                if (own.isGone || other.isGone) continue;
-                const OnSegments on = closestOnSegments(at(own.a), at(own.b), at(other.a), at(other.b));
-                const dvec3 d =
-                    at(own.a) + on.s * (at(own.b) - at(own.a)) - (at(other.a) + on.t * (at(other.b) - at(other.a)));
-                least = std::min(least, glm::dot(d, d));
+                if (!own.isGone && !other.isGone) take({at(own.a), at(own.b), at(other.a), at(other.b)}, false);
             }
     };
     // First the two leaves whose boxes are closest, for a good bound. Then all pairs that may still be closer.

@@ -226,6 +226,22 @@ TEST(ContactGroup, LeadsTheSmallerPartOfASheetBack) {
     }
 }
 
+// After a certified tick no crossing is looked for where the points still are where it left them. One that was moved since
+// may cross, whoever moved it.
+TEST(ContactGroup, LooksForCrossingsWherePointsWereMovedFromOutside) {
+    Flight flight;
+    flight.addTriangle({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0, 0, 2)}, dvec3(0.0), 1.0, 0.005);
+    flight.addTriangle({dvec3(0.0, 0.1, 0.5), dvec3(0.02, 1.0, 0.51), dvec3(-0.02, 1.0, 0.5)}, dvec3(0.0), 1.0, 0.005);
+    EXPECT_EQ(flight.fly(1e-4).uncertified, 0);
+    flight.group->begin(flight.x);
+    EXPECT_TRUE(flight.group->crossings().empty());
+    flight.x[3].y = -0.1;
+    for (int again = 0; again < 2; ++again) {
+        flight.group->begin(flight.x);
+        EXPECT_EQ(flight.group->crossings().size(), 2U);
+    }
+}
+
 // A held edge through a triangle: of which one corner is free, far from where the edge goes through, or all are and
 // come at it at 50 m/s. In an instant a crossing makes no point faster by more than 0.3 m/s.
 TEST(ContactGroup, LeadsNoPointApartFasterThanFromRest) {

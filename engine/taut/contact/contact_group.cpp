@@ -42,18 +42,24 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
 void ContactGroup::drop() {
     broadPhase_.drop();
     active_.clear();
+    isCertified_ = false;
 }
 
 void ContactGroup::rewind(std::span<const dvec3> from, std::span<const dvec3> to) {
     broadPhase_.advance(from, to);
     solver_.forget();
+    isCertified_ = crossings_.empty();
 }
 
 void ContactGroup::begin(std::span<const dvec3> x) {
     solver_.forget();
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) marks_[static_cast<std::size_t>(i)] = unmarked;
-    crossings_ = crossingsAt(x);
+    if (isCertified_ && std::equal(x.begin(), x.end(), xCertified_.begin(), xCertified_.end()))
+        crossings_.clear();
+    else
+        crossings_ = crossingsAt(x);
+    isCertified_ = crossings_.empty();
     if (!options_.untangles) return;
     // The narrow phase leaves out pairs with points on the wrong side: see isTangled().
     for (const Crossing& crossing : crossings_)
@@ -133,6 +139,8 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
     makeAscending(moved_);
     broadPhase_.finish(pending_, instant.x0, instant.x1);
     result_.moved = moved_;
+    isCertified_ = isCertified_ && options_.certifies && result_.uncertified == 0;
+    if (isCertified_) xCertified_.assign(instant.x1.begin(), instant.x1.end());
     return result_;
 }
 
@@ -288,7 +296,7 @@ std::vector<ContactPoint> ContactGroup::contactPoints(std::span<const dvec3> x) 
 
 std::uint64_t ContactGroup::bytes() const {
     return elements_.bytes() + broadPhase_.bytes() + tested_.capacity() * sizeof(ContactConstraint) +
-           u_.size() * 5 * sizeof(dvec3);
+           u_.size() * 6 * sizeof(dvec3);
 }
 
 // Over 60 lines: its steps share the least distance so far, and each is short.

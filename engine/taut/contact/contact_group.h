@@ -101,7 +101,8 @@ class ContactGroup {
     // Call it before instants of the tick are repeated: the points went back from `from` to `to`, without contact.
     void rewind(std::span<const dvec3> from, std::span<const dvec3> to);
     // Call it before the instants of a tick. It finds the edges that pierce triangles; their pairs are untangled in
-    // this tick, not solved.
+    // this tick, not solved. Where the last tick began without any and was certified, there are none while the points
+    // are where it left them.
     void begin(std::span<const dvec3> x);
     // Expects that all points fly on at v for `seconds` [s].
     Forecast forecast(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
@@ -155,6 +156,8 @@ class ContactGroup {
     Elements elements_;
     BroadPhase broadPhase_;
     std::vector<Crossing> crossings_;
+    bool isCertified_ = false;         // since begin(), which found no crossings
+    std::vector<dvec3> xCertified_;    // (points) [m] at the last instant
     enum Mark : char { unmarked, anySide, wrongSide };
     std::vector<char> marks_;                              // (points) of crossings_
     std::vector<ContactConstraint> tested_;                // pairs that need a certificate, in their order

@@ -47,7 +47,7 @@ taut_deb(engine NAME libtaut-dev SECTION libdevel
     "their headers and what CMake and pkg-config need to find them: taut::engine,"
     "which simulates, and taut::render, which draws without a display."
   DEPENDS "taut (= ${PROJECT_VERSION})" libbullet-dev libdeflate-dev libegl-dev libfmt-dev libglm-dev libosmesa6-dev
-    libtbb-dev
+    libspng-dev libtbb-dev libturbojpeg0-dev
   SUGGESTS cmake g++ pkg-config)
 if(TAUT_PYTHON)
   string(REGEX MATCH "[0-9]+\\.[0-9]+" python "${TAUT_PYTHON_FOLDER}")

@@ -48,7 +48,7 @@ std::string pictureFault(const std::filesystem::path& picture, bool isAround) {
         if (isAround)
             image::expectAllAround(picture, image::lightImageSize(picture));
         else
-            image::imageSize(picture);
+            image::readImage(picture);
         return "";
     } catch (const core::Error& error) {
         return error.what();

@@ -102,7 +102,8 @@ TEST(House, TheEngineDoesNotKnowTheProgram) {
 // Bullet, GL, TOML and the pictures' codecs are seen by sources only, so that they can be replaced in one place.
 TEST(House, ThirdPartyHeadersStayOutOfPublicOnes) {
     static constexpr const char* inside[] = {"bt",   "Bullet",     "LinearMath", "toml",   "GL/",      "EGL/", "glad",
-                                             "stb_", "libdeflate", "tbb",        "oneapi", "nlohmann", "CLI"};
+                                             "stb_", "libdeflate", "tbb",        "oneapi", "nlohmann", "CLI",  "spng",
+                                             "turbojpeg"};
     const Folders inner = {"gl.h"};  // private to one folder, behind its pimpl
     for (const Include& include : includesBelow(source / "engine"))
         if (include.file.extension() == ".h" &&

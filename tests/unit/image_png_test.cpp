@@ -128,7 +128,7 @@ TEST(Png, OfMorePixelsThanMayBeIsRefusedBeforeItIsDecoded) {
     EXPECT_NE(message.find("this picture has 5 x 4 pixels"), std::string::npos) << message;
 }
 
-// Sixteen counts of 17 are 272 symbols, where 256 are possible: stb_image 2.27 writes behind its table.
+// Sixteen counts of 17 are 272 symbols, where 256 are possible.
 std::string impossibleTable() {
     return std::string("\xFF\xC4\x01\x23\x00", 5) + std::string(16, '\x11') + std::string(272, '\0');
 }
@@ -140,10 +140,10 @@ TEST(Jpeg, WithAHuffmanTableThatCannotBeIsRefused) {
               std::string::npos);
 }
 
-// stb_image 2.27 decodes with what happens to be where the table would stand.
+// Tables 0 and 1 have standard contents, which Motion JPEG leaves out.
 TEST(Jpeg, WithoutATableThatItsScanNamesIsRefused) {
     const TemporaryFolder folder;
-    for (const char* other : {"\x10", "\x01"}) {
+    for (const char* other : {"\x20", "\x02"}) {
         std::string jpeg = smallestJpeg();
         test::writeText(folder / "a.jpg", jpeg.replace(jpeg.find("\xFF\xDA") + 6, 1, other));
         EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.jpg"); }).find("damaged"),
@@ -161,12 +161,21 @@ TEST(Jpeg, BehindBytesThatFillUpNoTableIsOverlooked) {
               std::string::npos);
 }
 
-// stb_image would read it, past all that is looked at before.
 TEST(Jpeg, ThatBeginsWithBytesThatFillUpIsRefused) {
     const TemporaryFolder folder;
     test::writeText(folder / "a.jpg", "\xFF" + smallestJpeg());
     EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.jpg"); }).find("begins as neither"),
               std::string::npos);
+}
+
+TEST(Jpeg, OfFourInksIsRefusedByName) {
+    const TemporaryFolder folder;
+    std::string jpeg = smallestJpeg();
+    const std::string one("\x00\x0B\x08\x00\x01\x00\x01\x01\x01\x11\x00", 11);
+    const std::string four("\x00\x14\x08\x00\x01\x00\x01\x04\x01\x11\x00\x02\x11\x00\x03\x11\x00\x04\x11\x00", 20);
+    jpeg.replace(jpeg.find(one), one.size(), four);
+    test::writeText(folder / "a.jpg", jpeg);
+    EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.jpg"); }).find("CMYK"), std::string::npos);
 }
 
 TEST(Jpeg, IsReadAndBrokenOffIsAnError) {

@@ -1,9 +1,8 @@
 #include "taut/geometry/points_writer.h"
 
 #include <fmt/format.h>
+#include <libdeflate.h>
 
-#include <array>
-#include <cstring>
 #include <limits>
 
 #include "taut/core/error.h"
@@ -55,42 +54,6 @@ class CsvPoints : public PointsWriter {
     core::WholeFile file_;
     std::vector<std::string> targets_;
     std::string text_;
-};
-
-// The CRC of ZIP files (ISO 3309), eight bytes at a time: table k has what a byte does k bytes later (Kounavis and
-// Berry, A systematic approach to building high performance, software-based, CRC generators, 2005).
-class Crc {
-  public:
-    Crc() {
-        for (std::uint32_t i = 0; i < 256; ++i) {
-            std::uint32_t c = i;
-            for (int k = 0; k < 8; ++k) c = (c & 1U) != 0 ? 0xEDB88320U ^ (c >> 1U) : c >> 1U;
-            tables_[0][i] = c;
-        }
-        for (std::size_t k = 1; k < 8; ++k)
-            for (std::size_t i = 0; i < 256; ++i) tables_[k][i] = after(tables_[k - 1][i], 0);
-    }
-
-    // Goes on from `crc`, 0 at first.
-    std::uint32_t of(std::span<const std::byte> bytes, std::uint32_t crc) const {
-        crc = ~crc;
-        for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
-            std::uint32_t words[2];
-            std::memcpy(words, bytes.data(), 8);
-            words[0] ^= crc;
-            crc = 0;
-            for (std::size_t k = 0; k < 8; ++k) crc ^= tables_[7 - k][(words[k / 4] >> (8 * (k % 4))) & 0xFFU];
-        }
-        for (const std::byte byte : bytes) crc = after(crc, static_cast<std::uint32_t>(byte));
-        return ~crc;
-    }
-
-  private:
-    std::uint32_t after(std::uint32_t crc, std::uint32_t byte) const {
-        return tables_[0][(crc ^ byte) & 0xFFU] ^ (crc >> 8U);
-    }
-
-    std::array<std::array<std::uint32_t, 256>, 8> tables_{};
 };
 
 // Numbers of a ZIP header, little-endian.
@@ -192,9 +155,11 @@ class NpzPoints : public PointsWriter {
                               path_.string() +
                                   ": more than 4 GB, the most that this format holds: leave frames out "
                                   "with --every or take some with --frames, or name fewer targets with --of");
-        std::uint32_t crc = crc_.of(std::as_bytes(std::span(head.data(), head.size())), 0);
+        std::uint32_t crc = libdeflate_crc32(0, head.data(), head.size());
         for (const ScratchFile::Piece& piece : series.pieces)
-            scratch_.visit(piece, [&](std::span<const std::byte> bytes) { crc = crc_.of(bytes, crc); });
+            scratch_.visit(piece, [&](std::span<const std::byte> bytes) {
+                crc = libdeflate_crc32(crc, bytes.data(), bytes.size());
+            });
 
         std::string common;  // of both headers
         append(common, 20, 2);
@@ -226,7 +191,6 @@ class NpzPoints : public PointsWriter {
 
     std::filesystem::path path_;
     ScratchFile scratch_;
-    Crc crc_;
     std::vector<Arrays> arrays_;
     std::vector<std::int64_t> frames_;
     std::vector<double> times_;

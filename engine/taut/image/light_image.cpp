@@ -18,9 +18,6 @@
 namespace taut::image {
 namespace {
 
-constexpr std::uint64_t maxBytes = std::uint64_t{1} << 30U;  // of a file
-constexpr int maxEdge = 16384;                               // [px]
-
 using Rgbe = std::array<std::uint8_t, 4>;  // red, green, blue over 256 · 2^(128 - last)
 
 // Reads a Radiance file from front to back; whatever is not as the format has it is an error.
@@ -92,12 +89,12 @@ void RadianceFile::readSize(ImageSize& size) const {
         if (!std::string_view(at, static_cast<std::size_t>(end - at)).starts_with(before)) return false;
         const auto [after, error] = std::from_chars(at + before.size(), end, value);
         at = after;
-        return error == std::errc() && value > 0 && value <= maxEdge;
+        return error == std::errc() && value > 0 && value <= mostEdge;
     };
     if (!number("-Y ", size.height) || !number(" +X ", size.width) || at != end)
         fail(fmt::format(
             "its size is \"{}\", not \"-Y height +X width\" of up to {} pixels, which is from the top, left to right",
-            size_, maxEdge));
+            size_, mostEdge));
 }
 
 // A line of 8 to 32767 pixels may begin with 2, 2 and its length, and then has its four planes one after another.
@@ -145,13 +142,6 @@ void RadianceFile::readPixels(std::span<Rgbe> line, Rgbe first) {
     }
 }
 
-void expectFits(const std::filesystem::path& path, ImageSize size, std::int64_t maxPixels) {
-    if (std::int64_t{size.width} * size.height <= maxPixels) return;
-    throw core::Error(core::ErrorKind::badContent,
-                      fmt::format("{}: this picture has {} x {} pixels; up to {} million are read", path.string(),
-                                  size.width, size.height, maxPixels / 1000000));
-}
-
 ImageSize RadianceFile::size(std::int64_t maxPixels) {
     readHead();
     ImageSize size;
@@ -195,7 +185,7 @@ void expectKnown(const std::filesystem::path& path, std::string_view content) {
 }  // namespace
 
 ImageSize lightImageSize(const std::filesystem::path& path, std::int64_t maxPixels) {
-    const std::string content = core::fileContent(path, maxBytes);
+    const std::string content = core::fileContent(path, mostFileBytes);
     if (isRadiance(content)) {
         RadianceFile file(path, content);
         const ImageSize size = file.size(maxPixels);
@@ -203,7 +193,8 @@ ImageSize lightImageSize(const std::filesystem::path& path, std::int64_t maxPixe
         return size;
     }
     expectKnown(path, content);
-    return imageSize(path, maxPixels);
+    const Image picture = readImage(path, maxPixels);
+    return {picture.width, picture.height};
 }
 
 void expectAllAround(const std::filesystem::path& path, ImageSize size) {
@@ -215,7 +206,7 @@ void expectAllAround(const std::filesystem::path& path, ImageSize size) {
 }
 
 LightImage readLightImage(const std::filesystem::path& path, std::int64_t maxPixels) {
-    const std::string content = core::fileContent(path, maxBytes);
+    const std::string content = core::fileContent(path, mostFileBytes);
     if (isRadiance(content)) return RadianceFile(path, content).read(maxPixels);
     expectKnown(path, content);
     const Image bytes = readImage(path, maxPixels);

@@ -8,6 +8,8 @@
 
 namespace taut::image {
 
+inline constexpr std::uint64_t mostFileBytes = std::uint64_t{1} << 30U;
+inline constexpr int mostEdge = 16384;                              // [px]
 inline constexpr std::int64_t mostPixels = std::int64_t{1} << 26U;  // 8192 x 8192: 200 MB, and thrice that to decode
 
 // The picture in a file, as 8-bit RGB; transparency is dropped. Throws core::Error: inputOutput when the file cannot
@@ -22,7 +24,7 @@ struct ImageSize {
     int width = 0, height = 0;
 };
 
-// Of the picture in a file, looked through as readImage() does, but not decoded. Throws the same.
-ImageSize imageSize(const std::filesystem::path& path, std::int64_t maxPixels = mostPixels);
+// Throws core::Error(badContent) for a picture of more pixels than that.
+void expectFits(const std::filesystem::path& path, ImageSize size, std::int64_t maxPixels);
 
 }  // namespace taut::image

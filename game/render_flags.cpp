@@ -54,18 +54,10 @@ void checkShard(const RenderFlags& flags) {
                         states, states));
 }
 
-void checkJobs(const RenderFlags& flags) {
-    if (!flags.shard.empty()) failRender("--jobs starts the shards itself: leave --shard out");
-    if (flags.noPictures) failRender("--jobs shares out what is drawn: leave --no-pictures out");
-    if (flags.continuation.isWanted() || !flags.continuation.folder.empty())
-        failRender("--jobs keeps states of its own: leave --checkpoint-every, --checkpoints, --resume and --from out");
-}
-
 void checkStills(const RenderFlags& flags) {
     const std::pair<bool, const char*> ofRuns[] = {
         {!flags.frames.empty(), "--frames"},
         {!flags.shard.empty(), "--shard"},
-        {flags.jobs > 0, "--jobs"},
         {!flags.video.empty(), "--video"},
         {flags.noPictures, "--no-pictures"},
         {flags.writesMetrics(), "--metrics"},
@@ -112,7 +104,6 @@ void checkFlags(const RenderFlags& flags) {
     if (flags.continuation.resume && flags.no) fail("--resume replaces frames: it does not go with -n");
     if (flags.continuation.from && !flags.frames.empty()) fail("--from and --frames exclude each other");
     if (!flags.shard.empty()) checkShard(flags);
-    if (flags.jobs > 0) checkJobs(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
 }
 
@@ -152,11 +143,9 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
         .value("--shard", flags.shard,
                "Draw this of N pieces of the frames, 0/N to N-1/N, into a folder that they share; then taut join")
         .typeName("K/N");
-    options
-        .value("--jobs", flags.jobs,
-               "Draw by so many processes, each a piece of the frames; the same pictures and video")
-        .typeName("N")
-        .within(1, 1024);
+    options.gone("--jobs",
+                 "threads draw several pictures at once, and processes share them out by --shard: for k in 0 1 2 3; do "
+                 "taut render SCENE -o FOLDER --shard $k/4 & done; wait; taut join FOLDER -o x.mp4");
     addRunFlags(options, flags.fps, flags.seconds);
     options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");

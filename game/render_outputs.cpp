@@ -43,11 +43,11 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const Ru
         if (!flags.noPictures)
             permitOverwriting(output, part.frames.first, part.frames.last, overwrite,
                               image::isVideoPath(output) ? std::vector<std::string>() : filesBeside(flags.layers));
-        if (flags.jobs == 0 || image::isVideoPath(output)) sinks.push_back(makeSink(output, fps, flags.layers.alpha));
+        sinks.push_back(makeSink(output, fps, flags.layers.alpha));
     }
     if (overwrite == Overwrite::no && !flags.output.empty()) expectNoRecord(flags, part);
     if (sinks.empty()) return nullptr;
-    if (flags.jobs == 0 && !filesBeside(flags.layers).empty())
+    if (!filesBeside(flags.layers).empty())
         sinks.push_back(std::make_unique<image::LayerSequence>(image::FramePattern(flags.output)));
     return std::make_unique<image::SeveralSinks>(std::move(sinks));
 }

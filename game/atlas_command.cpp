@@ -126,9 +126,7 @@ Action declareAtlas(Options& options) {
     options.value("--cells", flags->cells, "Points of a map along either axis").within(3, 1001);
     options.value("--seconds", flags->seconds, "Length of motion in each run of a scene; else 0.5 at most")
         .check(numberWithin(leastSeconds, mostSeconds));
-    options.value("--set", flags->overrides, "Override a field of a scene; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides, "Override a field of a scene; repeatable");
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"

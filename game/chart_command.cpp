@@ -160,9 +160,7 @@ Action declareChart(Options& options) {
     options.value("--seconds", flags->seconds, "Length of motion to study")
         .check(numberWithin(leastSeconds, mostSeconds));
     options.value("--budget", flags->budget, "Wall time to aim at, in seconds").check(numberWithin(0.5, mostSeconds));
-    options.value("--set", flags->overrides, "Override a field of a scene; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides, "Override a field of a scene; repeatable");
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"

@@ -39,7 +39,8 @@ struct ExportFlags {
     int digits = 0;  // 0: not given
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
-    bool noNormals = false, yes = false, no = false, quiet = false, isConfined = false;
+    OverwriteFlags overwrite;
+    bool noNormals = false, quiet = false, isConfined = false;
 };
 
 using geometry::Format;
@@ -285,9 +286,8 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
             printNote("note: lamps and the picture around are not in the page: it is lit by sun and sky alone\n");
         *page = spec.title.empty() ? webPage(name, "", flags.viewer) : webPage(spec.title, name, flags.viewer);
     }
-    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
     for (const auto& [file, format] : destinations) {
-        permitOverwritingFile(file, overwrite);
+        permitOverwritingFile(file, flags.overwrite.answer());
         core::prepareFolderOf(file);
     }
     const std::int64_t keys = (run.lastFrame - run.firstFrame + run.every - 1) / run.every + 1;
@@ -370,8 +370,7 @@ Action declareExport(Options& options, const Formats& formats) {
                "Only these in the geometry, such as cloth.*, collider.ball or ground; * stands for any letters")
         .typeName("TARGET,…")
         .oneValue();
-    const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
-    options.flag("-n,--no", flags->no, "Never overwrite").excludes(yes);
+    addOverwriteFlags(options, flags->overwrite);
     options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
     options.value("--every", flags->every, "Every n-th frame only, and the last; tells how far off that is in between")
         .within<std::int64_t>(1, 1000000);
@@ -382,11 +381,9 @@ Action declareExport(Options& options, const Formats& formats) {
                fmt::format("Digits behind the point in {}, 5 when not given: 0.01 mm", endingsWithDigits(formats)))
         .within(1, 9);
     options.flag("--quiet", flags->quiet, "No progress; warnings and errors only");
-    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
-    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides);
     addConfinedFlag(options, flags->isConfined);
     options.footer(
         "Lengths are metres, y is up. In .usda time codes are numbers of frames; in .glb and pages time begins at the "

@@ -76,6 +76,10 @@ void addRunOverrides(double fps, double seconds, std::vector<std::string>& overr
     if (seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", seconds));
 }
 
+void addThreadsFlag(Options& options, int& threads) {
+    options.value("--threads", threads, "Threads to use; all of the machine when not given").within(1, 1024);
+}
+
 void addInstructionSetFlag(Options& options, std::string& isa) {
     const std::string name = "--isa";
     options

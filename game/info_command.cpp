@@ -399,9 +399,7 @@ int info(const InfoFlags& flags) {
 Action declareInfo(Options& options) {
     const auto flags = std::make_shared<InfoFlags>();
     options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene");
-    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides);
     options.flag("--methods", flags->methods, "List the methods of integration instead");
     options.flag("--json", flags->json, "Print it as JSON");
     return [flags] { return info(*flags); };

@@ -24,7 +24,8 @@ namespace {
 
 struct JoinFlags {
     std::string place, output, frames, junit;
-    bool anyRenderer = false, yes = false, no = false, quiet = false;
+    OverwriteFlags overwrite;
+    bool anyRenderer = false, quiet = false;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -57,10 +58,7 @@ int joinFrames(const JoinFlags& flags) {
     }
     if (join.hasAlpha() && !image::mayHaveAlpha(flags.output))
         failJoin(fmt::format("{}: these frames are transparent, which .webm and .mov can be", flags.output));
-    permitOverwriting(flags.output, join.frames.first, join.frames.last,
-                      flags.yes  ? Overwrite::yes
-                      : flags.no ? Overwrite::no
-                                 : Overwrite::ask);
+    permitOverwriting(flags.output, join.frames.first, join.frames.last, flags.overwrite.answer());
     const std::unique_ptr<image::FrameSink> sink = makeSink(flags.output, join.fps(), join.hasAlpha());
     const Interruption interruption;
     if (encodeFrames(join, *sink, flags.quiet, interruption.flag())) {
@@ -108,8 +106,7 @@ Action declareJoin(Options& options) {
     options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
     options.flag("--any-renderer", flags->anyRenderer,
                  "Join pictures also where not all were drawn by the same renderer and version of taut");
-    const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
-    options.flag("-n,--no", flags->no, "Never overwrite").excludes(yes);
+    addOverwriteFlags(options, flags->overwrite);
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"

@@ -116,7 +116,7 @@ std::vector<pipeline::RunLock> locksOf(const RenderFlags& flags, const RunPart& 
 std::optional<PartPlace> placeOf(const RenderFlags& flags, std::uint64_t key) {
     if (flags.noPictures || flags.output.empty() || image::isVideoPath(flags.output)) return std::nullopt;
     return PartPlace{image::FramePattern(flags.output), filesBeside(flags.layers), key, flags.continuation.resume,
-                     flags.yes};
+                     flags.overwrite.yes};
 }
 
 ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps,
@@ -262,7 +262,7 @@ int render(const RenderFlags& flags) {
     const PicturesThere pictures{flags.noPictures ? "" : flags.output, filesBeside(flags.layers),
                                  state == PartState::begun};
     ContinuationFlags continuation = flags.continuation;
-    continuation.mayOverwrite = flags.yes;
+    continuation.mayOverwrite = flags.overwrite.yes;
     continuation.startsLate = !part.title.empty();
     pipeline::RecordLog records = goOn(continuation, states, keys, pictures, options, world);
     const std::size_t before = records.size();

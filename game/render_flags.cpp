@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "game/flags.h"
-#include "game/outputs.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
@@ -101,7 +100,7 @@ void checkFlags(const RenderFlags& flags) {
         fail("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
     if (flags.continuation.resume && (!flags.video.empty() || image::isVideoPath(flags.output)))
         fail("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
-    if (flags.continuation.resume && flags.no) fail("--resume replaces frames: it does not go with -n");
+    if (flags.continuation.resume && flags.overwrite.no) fail("--resume replaces frames: it does not go with -n");
     if (flags.continuation.from && !flags.frames.empty()) fail("--from and --frames exclude each other");
     if (!flags.shard.empty()) checkShard(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
@@ -113,8 +112,7 @@ void addOutputFlags(Options& options, RenderFlags& flags) {
     options.value("-o,--output", flags.output,
                   "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif)");
     options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
-    const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
-    options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
+    addOverwriteFlags(options, flags.overwrite);
     options.flag("--metrics", flags.metrics,
                  "Write metrics.csv, or metrics_A-B.csv of a part: energy, momentum, strain, contacts of each frame");
     options.value("--metrics-of", flags.metricsOf, "Besides: what these expressions of checks give, to 17 digits")
@@ -168,15 +166,13 @@ void addRenderFlags(Options& options, RenderFlags& flags) {
     addOutputFlags(options, flags);
     addPictureFlags(options, flags);
     addContinuationFlags(options, flags.continuation);
-    options.value("--threads", flags.threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, flags.threads);
     options
         .value("--draw-threads", flags.drawThreads,
                "Pictures drawn at the same time, the same whatever it is; as many as pay here when not given")
         .within(1, 64);
     addInstructionSetFlag(options, flags.isa);
-    options.value("--set", flags.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags.overrides);
     addConfinedFlag(options, flags.isConfined);
     options.footer(
         "Examples:\n"

@@ -7,6 +7,7 @@
 #include "game/command_line.h"
 #include "game/continuation.h"
 #include "game/layer_flags.h"
+#include "game/outputs.h"
 #include "taut/image/frame_sequence.h"
 
 namespace taut::game {
@@ -21,7 +22,8 @@ struct RenderFlags {
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     LayerFlags layers;
-    bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
+    OverwriteFlags overwrite;
+    bool debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
     bool overlay = false, isConfined = false;
     bool writesMetrics() const { return metrics || !metricsOf.empty(); }
 };

@@ -34,9 +34,7 @@ void expectNoRecord(const RenderFlags& flags, const RunPart& part) {
 }  // namespace
 
 std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const RunPart& part, double fps) {
-    const Overwrite overwrite = flags.yes || flags.continuation.resume ? Overwrite::yes
-                                : flags.no                             ? Overwrite::no
-                                                                       : Overwrite::ask;
+    const Overwrite overwrite = flags.continuation.resume ? Overwrite::yes : flags.overwrite.answer();
     std::vector<std::unique_ptr<image::FrameSink>> sinks;
     for (const std::string& output : {flags.output, flags.video}) {
         if (output.empty()) continue;

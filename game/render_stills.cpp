@@ -41,10 +41,9 @@ std::vector<std::int64_t> ticksOf(const std::vector<std::string>& moments, const
 }
 
 void permitStills(const RenderFlags& flags, const image::FramePattern& pattern) {
-    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
     for (std::size_t i = 0; i < flags.at.size(); ++i)
         for (const image::FramePattern& files : pattern.with(filesBeside(flags.layers)))
-            permitOverwritingFile(files.pathOf(static_cast<std::int64_t>(i)), overwrite);
+            permitOverwritingFile(files.pathOf(static_cast<std::int64_t>(i)), flags.overwrite.answer());
 }
 
 // One world on its way from moment to moment.

@@ -151,7 +151,7 @@ Action declareReplay(Options& options) {
             .typeName("[OTHER]")
             .mayBeBare();
     options.value("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
-    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
     options.flag("--quiet", flags->quiet, "No progress");
     return [flags, verify] {

@@ -61,6 +61,10 @@ world::SceneSpec readScene(const std::string& argument, const std::vector<std::s
     return readSceneWithKeys(argument, overrides, isConfined).spec;
 }
 
+void addOverrideFlag(Options& options, std::vector<std::string>& overrides, const std::string& help) {
+    options.value("--set", overrides, help).typeName("KEY=VALUE").oneValue();
+}
+
 void addConfinedFlag(Options& options, bool& isConfined) {
     options.flag("--confined", isConfined, "Read files below the scene's folder and the shipped assets only");
 }

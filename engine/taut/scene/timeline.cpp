@@ -9,6 +9,7 @@
 #include "taut/scene/private/body_index.h"
 #include "taut/scene/private/ramp_key.h"
 #include "taut/spec/actions.h"
+#include "taut/spec/targets.h"
 #include "taut/spec/ticks.h"
 #include "taut/bodies/private/ties.h"
 
@@ -231,9 +232,8 @@ class Timeline {
     template <class Opposite>
     void checkHold(const Event& event, const PointsAction& own) {
         const auto selectorOf = [](const std::string& target) {
-            const std::size_t at = target.find('@');
-            const std::string selector = at == std::string::npos ? "all" : target.substr(at + 1);
-            return selector;
+            const std::string selector = world::parseTarget(target).selector;
+            return selector.empty() ? "all" : selector;
         };
         const std::string selector = selectorOf(own.target);
         const std::vector<std::string> names = bodies_.names(own.target);

@@ -16,6 +16,7 @@
 #include "game/outputs.h"
 #include "game/scene_file.h"
 #include "game/tables.h"
+#include "game/usage.h"
 #include "game/web_page.h"
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
@@ -52,10 +53,6 @@ struct Destination {
     std::string file;
     const Format* format;
 };
-
-[[noreturn]] void failUsage(const std::string& message) {
-    throw core::Error(core::ErrorKind::usage, message);
-}
 
 // What stands between commas, but for those of places such as cloth.flag@(0.5,0.5); each once.
 std::vector<std::string> targetsIn(const std::vector<std::string>& texts) {
@@ -130,11 +127,11 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
     std::vector<Destination> all;
     const auto add = [&](const std::string& file, const Format* format, const auto& fault) {
         if (file.empty()) return;
-        if (format == nullptr) failUsage(file + ": " + fault());
+        if (format == nullptr) failUsage("{}: {}", file, fault());
         all.push_back({file, format});
     };
     if (flags.output.empty() && flags.points.empty() && flags.web.empty())
-        failUsage("say where the geometry goes: " + allKindsOfFiles(formats, page));
+        failUsage("say where the geometry goes: {}", allKindsOfFiles(formats, page));
     add(
         flags.output, geometry::formatOf(formats, Holds::surfaces, flags.output),
         [&] {
@@ -146,13 +143,12 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
         [&] { return "--web writes a page, " + endingOf(page); });
     if (flags.web.empty() && !flags.viewer.empty()) failUsage("--viewer is what draws in a page: add --web out.html");
     for (const auto& [file, format] : all)
-        if (flags.noNormals && !format->needsNormals.empty()) failUsage("--no-normals: " + format->needsNormals);
+        if (flags.noNormals && !format->needsNormals.empty()) failUsage("--no-normals: {}", format->needsNormals);
     add(flags.points, geometry::formatOf(formats, Holds::points, flags.points),
         [&] { return "points go to " + oneOf(ofEach(formats, Holds::points, endingAndReaders)); });
     if (flags.points.empty() && !flags.of.empty()) failUsage("--of says whose points: add --points out.npz");
     if (flags.digits > 0 && std::none_of(all.begin(), all.end(), [](const auto& to) { return to.format->hasDigits; }))
-        failUsage(
-            fmt::format("--digits are those of {}; other formats hold all of a number", endingsWithDigits(formats)));
+        failUsage("--digits are those of {}; other formats hold all of a number", endingsWithDigits(formats));
     if (flags.output.empty() && flags.web.empty() && (flags.noNormals || !flags.only.empty()))
         failUsage("--only and --no-normals are for geometry: add -o, or name points with --of");
     return all;
@@ -201,8 +197,7 @@ pipeline::GeometryRun runOf(const ExportFlags& flags, const world::SceneSpec& sp
     run.lastFrame = range.last.value_or(count - 1);
     run.every = flags.every;
     if (run.firstFrame >= count || run.lastFrame >= count)
-        failUsage(
-            fmt::format("--frames {}: the scene has frames 0-{}; --seconds makes it longer", flags.frames, count - 1));
+        failUsage("--frames {}: the scene has frames 0-{}; --seconds makes it longer", flags.frames, count - 1);
     if (flags.points.empty()) return run;
     run.targets = targetsIn(flags.of);
     if (run.targets.empty())
@@ -273,10 +268,10 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
     const std::vector<Destination> destinations = destinationsOf(flags, formats, pages);
     const world::SceneSpec spec = readScene(flags.scene, allOverrides(flags), flags.isConfined);
     for (const std::string& target : targetsIn(flags.only))
-        if (const std::string fault = onlyFault(spec, target); !fault.empty()) failUsage("--only: " + fault);
+        if (const std::string fault = onlyFault(spec, target); !fault.empty()) failUsage("--only: {}", fault);
     for (const std::string& target : targetsIn(flags.of))
         if (const std::string fault = scene::targetFault(spec, target, true); !fault.empty())
-            failUsage("--of: " + fault);
+            failUsage("--of: {}", fault);
     pipeline::GeometryRun run = runOf(flags, spec);
     run.mayTear =
         oneOf(ofEach(formats, Holds::surfaces, endingOf, [](const Format& format) { return format.mayTear; }));

@@ -15,7 +15,7 @@
 #include "game/render_outputs.h"
 #include "game/test_outcome.h"
 #include "game/test_shards.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/video_writer.h"
 
@@ -30,10 +30,6 @@ struct JoinFlags {
 
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void failJoin(const std::string& message) {
-    throw core::Error(core::ErrorKind::usage, message);
-}
-
 // The record of the whole run, and its metrics where all parts have theirs.
 void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
     writeWith(sink.companion("run.json"),
@@ -46,7 +42,7 @@ void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
 int joinFrames(const JoinFlags& flags) {
     const auto start = Clock::now();
     if (!flags.output.empty() && !image::isVideoPath(flags.output))
-        failJoin(fmt::format("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output));
+        failUsage("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output);
     const std::optional<FrameRange> wanted =
         flags.frames.empty() ? std::nullopt : std::optional(frameRange(flags.frames));
     const FrameJoin join = provedFrames(image::FramePattern(flags.place), wanted, flags.anyRenderer);
@@ -57,7 +53,7 @@ int joinFrames(const JoinFlags& flags) {
         return static_cast<int>(ExitCode::ok);
     }
     if (join.hasAlpha() && !image::mayHaveAlpha(flags.output))
-        failJoin(fmt::format("{}: these frames are transparent, which .webm and .mov can be", flags.output));
+        failUsage("{}: these frames are transparent, which .webm and .mov can be", flags.output);
     permitOverwriting(flags.output, join.frames.first, join.frames.last, flags.overwrite.answer());
     const std::unique_ptr<image::FrameSink> sink = makeSink(flags.output, join.fps(), join.hasAlpha());
     const Interruption interruption;
@@ -72,11 +68,10 @@ int joinFrames(const JoinFlags& flags) {
 // The report of all shards, with the exit code that taut test has for it.
 int joinTests(const JoinFlags& flags) {
     if (!flags.frames.empty() || flags.anyRenderer)
-        failJoin("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
+        failUsage("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
     const std::filesystem::path folder = flags.output.empty() ? flags.place : flags.output;
     if (image::isVideoPath(folder))
-        failJoin(fmt::format("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are",
-                             flags.output));
+        failUsage("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are", flags.output);
     TestShard all = joinedShards(flags.place);
     core::prepareFolderOf(pageIn(folder));
     if (!flags.junit.empty()) core::prepareFolderOf(flags.junit);
@@ -89,9 +84,8 @@ int joinTests(const JoinFlags& flags) {
 int join(const JoinFlags& flags) {
     const bool hasTests = hasTestShards(flags.place);
     if (hasTests && !pipeline::partRecords(image::FramePattern(flags.place)).empty())
-        failJoin(fmt::format("{}: there are shards of taut test and of taut render: which? Move either elsewhere",
-                             flags.place));
-    if (!hasTests && !flags.junit.empty()) failJoin("--junit goes with shards of taut test");
+        failUsage("{}: there are shards of taut test and of taut render: which? Move either elsewhere", flags.place);
+    if (!hasTests && !flags.junit.empty()) failUsage("--junit goes with shards of taut test");
     return hasTests ? joinTests(flags) : joinFrames(flags);
 }
 

@@ -9,6 +9,7 @@
 #include "game/live_play.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
 
@@ -29,8 +30,7 @@ int play(const PlayFlags& flags) {
     }
     settings.records = !flags.record.empty();
     settings.record = flags.record;
-    if (settings.records && settings.record.extension() != ".toml")
-        throw core::Error(core::ErrorKind::usage, "--record: the name must end in .toml");
+    if (settings.records && settings.record.extension() != ".toml") failUsage("--record: the name must end in .toml");
     const Interruption interruption;
     const core::ThreadLimit threads(settings.threads);
     std::unique_ptr<LivePlay> live;

@@ -29,6 +29,7 @@
 #include "game/run_part.h"
 #include "game/scene_file.h"
 #include "game/tables.h"
+#include "game/usage.h"
 #include "taut/check/figures.h"
 #include "taut/core/error.h"
 #include "taut/core/private/hash.h"
@@ -61,9 +62,7 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const RunPart& part) {
 // What --metrics-of asks for, or null.
 std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::SceneSpec& spec) {
     if (text.empty()) return nullptr;
-    const auto fail = [](const std::string& message) {
-        throw core::Error(core::ErrorKind::usage, "--metrics-of: " + message);
-    };
+    const auto fail = [](const std::string& message) { failUsage("--metrics-of: {}", message); };
     try {
         auto figures = std::make_shared<check::Figures>(check::Figures::parse(text));
         for (const check::Mention& mention : figures->mentions())

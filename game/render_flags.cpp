@@ -9,6 +9,7 @@
 #include "game/flags.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/image/private/video_writer.h"
 
@@ -28,19 +29,15 @@ std::vector<std::string> allOverrides(const RenderFlags& flags) {
 
 namespace {
 
-[[noreturn]] void failRender(const std::string& message) {
-    throw core::Error(core::ErrorKind::usage, message);
-}
-
 void checkShard(const RenderFlags& flags) {
     (void)shard(flags.shard);
-    if (flags.noPictures) failRender("--shard shares out what is drawn: leave --no-pictures out");
+    if (flags.noPictures) failUsage("--shard shares out what is drawn: leave --no-pictures out");
     if (!flags.video.empty() || image::isVideoPath(flags.output))
-        failRender(fmt::format("a shard draws frames, -o FOLDER; of all shards taut join FOLDER -o {} makes the video",
-                               flags.video.empty() ? flags.output : flags.video));
-    if (flags.continuation.from) failRender("--from and --shard exclude each other");
+        failUsage("a shard draws frames, -o FOLDER; of all shards taut join FOLDER -o {} makes the video",
+                  flags.video.empty() ? flags.output : flags.video);
+    if (flags.continuation.from) failUsage("--from and --shard exclude each other");
     if (flags.continuation.every > 0)
-        failRender(
+        failUsage(
             "states are those of the whole run: keep them by a run before, taut render SCENE --no-pictures "
             "--checkpoint-every 60 --checkpoints FOLDER, and give --checkpoints FOLDER to the shards");
     const std::string& states = flags.continuation.folder;
@@ -64,9 +61,9 @@ void checkStills(const RenderFlags& flags) {
         {flags.continuation.isWanted() || !flags.continuation.folder.empty(), "checkpoints"},
     };
     for (const auto& [isGiven, name] : ofRuns)
-        if (isGiven) failRender(fmt::format("--at draws moments, not a run: leave {} out", name));
-    if (flags.output.empty()) failRender("say where the picture goes: -o still.png");
-    if (image::isVideoPath(flags.output)) failRender("--at draws pictures, not a video: -o still.png");
+        if (isGiven) failUsage("--at draws moments, not a run: leave {} out", name);
+    if (flags.output.empty()) failUsage("say where the picture goes: -o still.png");
+    if (image::isVideoPath(flags.output)) failUsage("--at draws pictures, not a video: -o still.png");
     (void)stillPattern(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
 }
@@ -77,31 +74,31 @@ image::FramePattern stillPattern(const RenderFlags& flags) {
     const std::filesystem::path output = flags.output;
     const bool isOne = output.extension() == ".png" && output.filename().string().find('#') == std::string::npos;
     if (isOne && flags.at.size() > 1)
-        failRender(fmt::format("--at: {} moments need numbers in their names: -o {}_#.png", flags.at.size(),
-                               (output.parent_path() / output.stem()).string()));
+        failUsage("--at: {} moments need numbers in their names: -o {}_#.png", flags.at.size(),
+                  (output.parent_path() / output.stem()).string());
     return isOne ? image::FramePattern::ofOne(output) : image::FramePattern(output);
 }
 
 void checkFlags(const RenderFlags& flags) {
-    const auto fail = [](const char* message) { throw core::Error(core::ErrorKind::usage, message); };
     if (!flags.at.empty()) return checkStills(flags);
     if (!flags.output.empty()) checkOutputName(flags.output);
-    if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
+    if (!flags.video.empty() && flags.output.empty())
+        failUsage("--video is written besides -o: give -o too, or only -o");
     if (!flags.video.empty() && !image::isVideoPath(flags.video))
-        fail("--video: the name must end in .mp4, .mov, .mkv, .webm or .gif");
+        failUsage("--video: the name must end in .mp4, .mov, .mkv, .webm or .gif");
     std::error_code ignored;
     if (!flags.video.empty() && std::filesystem::weakly_canonical(flags.video, ignored) ==
                                     std::filesystem::weakly_canonical(flags.output, ignored))
-        fail("-o and --video name the same file");
+        failUsage("-o and --video name the same file");
     if (flags.output.empty() && !flags.noPictures)
-        fail("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
-    if (flags.output.empty() && flags.writesMetrics()) fail("--metrics writes a file beside the output: add -o");
+        failUsage("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
+    if (flags.output.empty() && flags.writesMetrics()) failUsage("--metrics writes a file beside the output: add -o");
     if (flags.continuation.isWanted() && flags.output.empty() && flags.continuation.folder.empty())
-        fail("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
+        failUsage("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
     if (flags.continuation.resume && (!flags.video.empty() || image::isVideoPath(flags.output)))
-        fail("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
-    if (flags.continuation.resume && flags.overwrite.no) fail("--resume replaces frames: it does not go with -n");
-    if (flags.continuation.from && !flags.frames.empty()) fail("--from and --frames exclude each other");
+        failUsage("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
+    if (flags.continuation.resume && flags.overwrite.no) failUsage("--resume replaces frames: it does not go with -n");
+    if (flags.continuation.from && !flags.frames.empty()) failUsage("--from and --frames exclude each other");
     if (!flags.shard.empty()) checkShard(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
 }

@@ -15,6 +15,7 @@
 #include "game/progress.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
 #include "taut/pipeline/overlay.h"
@@ -30,12 +31,10 @@ std::vector<std::int64_t> ticksOf(const std::vector<std::string>& moments, const
     for (const std::string& text : moments) {
         const double t = std::strtod(text.c_str(), nullptr);
         if (t > run.seconds)
-            throw core::Error(
-                core::ErrorKind::usage,
-                fmt::format("--at {}: the scene lasts {} s; --seconds {} makes it longer", text, run.seconds, text));
+            failUsage("--at {}: the scene lasts {} s; --seconds {} makes it longer", text, run.seconds, text);
         ticks.push_back(world::Ticks(run).at(t));
         if (ticks.size() > 1 && ticks.back() <= ticks[ticks.size() - 2])
-            throw core::Error(core::ErrorKind::usage, fmt::format("--at {}: not a tick after the moment before", text));
+            failUsage("--at {}: not a tick after the moment before", text);
     }
     return ticks;
 }

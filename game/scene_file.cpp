@@ -7,6 +7,7 @@
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/suggestion.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/light_image.h"
@@ -104,13 +105,12 @@ void notePreparation(const world::SceneSpec& spec) {
 void expectWritable(const std::filesystem::path& file, const world::SceneSpec& spec,
                     const std::vector<std::string>& overrides) {
     if (!overrides.empty())
-        throw core::Error(core::ErrorKind::usage,
-                          "--write and --set do not go together: what is found would not be what the file says");
+        failUsage("--write and --set do not go together: what is found would not be what the file says");
     if (!spec.bases.empty())
-        throw core::Error(core::ErrorKind::usage,
-                          fmt::format("{}: --write needs a scene that is one file; this one builds on {}: take that, "
-                                      "or leave --write out and copy the values",
-                                      file.string(), spec.bases.front()));
+        failUsage(
+            "{}: --write needs a scene that is one file; this one builds on {}: take that, "
+            "or leave --write out and copy the values",
+            file.string(), spec.bases.front());
 }
 
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {

@@ -61,7 +61,7 @@ class Library {
         if (file == files_.end()) {
             std::vector<std::string> known;
             for (const path& p : files_) known.push_back(p.stem().string());
-            const std::string meant = suggestion(stem, known);
+            const std::string meant = fields::suggestion(stem, known);
             problems_.addError(place, fmt::format("there is no fabric \"{}\"", stem),
                                meant.empty() ? "taut materials lists them" : meant);
             return member;

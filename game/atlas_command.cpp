@@ -12,7 +12,7 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 #include "taut/pipeline/machine.h"
 #include "taut/study/atlas_chart.h"
 #include "taut/study/atlas_text.h"
@@ -42,8 +42,7 @@ LabFolder folderOf(const AtlasFlags& flags, const std::string& fallback) {
 }
 
 int oscillatorAtlas(const AtlasFlags& flags) {
-    if (!flags.overrides.empty() || flags.seconds > 0.0)
-        throw core::Error(core::ErrorKind::usage, "--set and --seconds are of scenes: name one");
+    if (!flags.overrides.empty() || flags.seconds > 0.0) failUsage("--set and --seconds are of scenes: name one");
     const Interruption interruption;
     const LabFolder output = folderOf(flags, "out/atlas");
     study::StabilityMap map;
@@ -74,9 +73,7 @@ int oscillatorAtlas(const AtlasFlags& flags) {
 world::SceneSpec chosenScene(const AtlasFlags& flags, std::string& name) {
     name = flags.scene;
     if (study::isReferenceNetwork(flags.scene)) {
-        if (!flags.overrides.empty())
-            throw core::Error(core::ErrorKind::usage,
-                              "--set changes fields of scene files; " + flags.scene + " is built in");
+        if (!flags.overrides.empty()) failUsage("--set changes fields of scene files; {} is built in", flags.scene);
         return study::referenceNetwork(flags.scene);
     }
     name = sceneFile(flags.scene).stem().string();
@@ -126,9 +123,7 @@ Action declareAtlas(Options& options) {
     options.value("--cells", flags->cells, "Points of a map along either axis").within(3, 1001);
     options.value("--seconds", flags->seconds, "Length of motion in each run of a scene; else 0.5 at most")
         .check(numberWithin(leastSeconds, mostSeconds));
-    options.value("--set", flags->overrides, "Override a field of a scene; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides, "Override a field of a scene; repeatable");
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"

@@ -17,7 +17,7 @@
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "game/suggestion.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/machine.h"
 #include "taut/study/problems.h"
@@ -54,8 +54,7 @@ void printProblems() {
 std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
     if (const study::ProblemInfo* problem = study::findProblem(flags.subject)) {
         if (!flags.overrides.empty())
-            throw core::Error(core::ErrorKind::usage,
-                              "--set changes fields of scenes; " + flags.subject + " is a built-in problem");
+            failUsage("--set changes fields of scenes; {} is a built-in problem", flags.subject);
         return problem->make();
     }
     std::vector<std::string> names = shippedScenes();
@@ -66,9 +65,8 @@ std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
         for (const study::ProblemInfo& problem : study::problems()) names.emplace_back(problem.name);
         names.emplace_back(refinementName);
         const std::string hint = didYouMean(flags.subject, names);
-        throw core::Error(core::ErrorKind::usage,
-                          fmt::format("there is no problem or scene '{}'{}", flags.subject,
-                                      hint.empty() ? "; taut chart --list names the problems" : hint));
+        failUsage("there is no problem or scene '{}'{}", flags.subject,
+                  hint.empty() ? "; taut chart --list names the problems" : hint);
     }
     const std::filesystem::path file = sceneFile(flags.subject);
     return study::makeSceneSubject(readScene(flags.subject, flags.overrides), file.stem().string());
@@ -113,9 +111,7 @@ int chartResolutions(const ChartFlags& flags) {
     const ChartFlags unset;
     if (!flags.methods.empty() || !flags.overrides.empty() || flags.precision != unset.precision ||
         flags.seconds != unset.seconds || flags.budget != unset.budget)
-        throw core::Error(
-            core::ErrorKind::usage,
-            fmt::format("{} studies bodies at rest: it takes --output and --quiet alone", refinementName));
+        failUsage("{} studies bodies at rest: it takes --output and --quiet alone", refinementName);
     const pipeline::Machine machine = pipeline::machine();
     const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / refinementName
                                                               : std::filesystem::path(flags.output);
@@ -160,9 +156,7 @@ Action declareChart(Options& options) {
     options.value("--seconds", flags->seconds, "Length of motion to study")
         .check(numberWithin(leastSeconds, mostSeconds));
     options.value("--budget", flags->budget, "Wall time to aim at, in seconds").check(numberWithin(0.5, mostSeconds));
-    options.value("--set", flags->overrides, "Override a field of a scene; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides, "Override a field of a scene; repeatable");
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"

@@ -78,9 +78,7 @@ int check(const CheckFlags& flags) {
 Action declareCheck(Options& options) {
     const auto flags = std::make_shared<CheckFlags>();
     options.value("SCENE", flags->scenes, "Scene files, folders of them, or names of shipped scenes").required();
-    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]");
     addConfinedFlag(options, flags->isConfined);
     options.footer(
         "Of a folder every file NAME.toml in it, a line each. The exit code is that of the worst.\n"

@@ -20,9 +20,14 @@ std::vector<std::string> commandNames(const CLI::App& app) {
     return names;
 }
 
+// All but those that are gone.
+std::vector<const CLI::Option*> optionsOf(const CLI::App& command) {
+    return command.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
+}
+
 std::vector<std::string> flagNames(const CLI::App& command) {
     std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
+    for (const CLI::Option* option : optionsOf(command)) {
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
         for (const std::string& name : option->get_snames()) names.push_back("-" + name);
     }
@@ -80,7 +85,7 @@ OptionFacts factsOf(const CLI::Option& option) {
 
 CommandFacts factsOf(const CLI::App& app) {
     CommandFacts facts{app.get_name(), app.get_description(), app.get_footer(), {}};
-    for (const CLI::Option* option : app.get_options()) facts.options.push_back(factsOf(*option));
+    for (const CLI::Option* option : optionsOf(app)) facts.options.push_back(factsOf(*option));
     return facts;
 }
 
@@ -177,6 +182,11 @@ template Option Options::value(const std::string&, double&, const std::string&);
 template Option Options::value(const std::string&, std::optional<std::string>&, const std::string&);
 template Option Options::value(const std::string&, std::optional<std::int64_t>&, const std::string&);
 template Option Options::value(const std::string&, std::optional<double>&, const std::string&);
+
+void Options::gone(const std::string& name, const std::string& instead) {
+    const auto refuse = [=](const std::string&) { throw CLI::ValidationError(name, "is gone: " + instead); };
+    app_.add_option_function<std::string>(name, refuse)->group("");
+}
 
 void Options::footer(const std::string& text) {
     app_.footer(text);

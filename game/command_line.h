@@ -63,6 +63,9 @@ class Options {
     template <class Target>
     Option value(const std::string& names, Target& target, const std::string& help);
 
+    // A flag that there was: it stands in no help, and giving it is an error that says what to do instead.
+    void gone(const std::string& name, const std::string& instead);
+
     // The end of the help.
     void footer(const std::string& text);
 

@@ -12,29 +12,31 @@
 namespace taut::game {
 namespace {
 
-enum class Completes { nothing, words, scene, file, folder };
+// How a value is completed: a case of the script for bash, and what those for zsh and fish say; {} are its words.
+struct Way {
+    const char *bash, *zsh, *fish;
+};
+constexpr Way byWords{"words", "({})", " -x -a '{}'"};
+constexpr Way byScenes{"scene", "_PROGRAM_scenes",
+                       " -x -a '(PROGRAM completion --scenes; __fish_complete_suffix .toml)'"};
+constexpr Way byFiles{"file", "_files", " -r -F"};
+constexpr Way byFolders{"folder", "_files -/", " -x -a '(__fish_complete_directories)'"};
+constexpr Way byNothing{"nothing", " ", " -x"};
 
 // By the names that Option::typeName tells of.
-Completes kindOf(const OptionFacts& option) {
-    if (!option.words.empty()) return Completes::words;
+const Way& wayOf(const OptionFacts& option) {
+    if (!option.words.empty()) return byWords;
     std::string name = option.value;
     if (name == "TEXT") name = option.names.back().substr(option.names.back().find_first_not_of('-'));
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
     for (const char* scene : {"SCENE", "SCENARIO", "PROBLEM"})
-        if (name.starts_with(scene)) return Completes::scene;
-    if (name == "FOLDER") return Completes::folder;
-    return option.value == "TEXT" || option.value == "FILE" ? Completes::file : Completes::nothing;
+        if (name.starts_with(scene)) return byScenes;
+    if (name == "FOLDER") return byFolders;
+    return option.value == "TEXT" || option.value == "FILE" ? byFiles : byNothing;
 }
 
-const char* nameOf(Completes kind) {
-    switch (kind) {
-        case Completes::words: return "words";
-        case Completes::scene: return "scene";
-        case Completes::file: return "file";
-        case Completes::folder: return "folder";
-        case Completes::nothing: break;
-    }
-    return "nothing";
+std::string withWords(const char* how, const OptionFacts& option) {
+    return fmt::format(fmt::runtime(how), fmt::join(option.words, " "));
 }
 
 // The word that a command takes first, if any.
@@ -52,7 +54,7 @@ std::string bashFlags(const CommandFacts& command) {
 }
 
 std::string bashKind(const OptionFacts& option) {
-    return fmt::format("kind={} words='{}'", nameOf(kindOf(option)), fmt::join(option.words, " "));
+    return fmt::format("kind={} words='{}'", wayOf(option).bash, fmt::join(option.words, " "));
 }
 
 std::string bashCase(const CommandFacts& command) {
@@ -150,14 +152,7 @@ std::string zshHelp(std::string_view text) {
 std::string zshValue(const OptionFacts& option) {
     std::string name = option.isPositional() ? option.names.front() : option.value;
     std::replace(name.begin(), name.end(), ':', ' ');
-    switch (kindOf(option)) {
-        case Completes::words: return fmt::format(":{}:({})", name, fmt::join(option.words, " "));
-        case Completes::scene: return fmt::format(":{}:_PROGRAM_scenes", name);
-        case Completes::file: return fmt::format(":{}:_files", name);
-        case Completes::folder: return fmt::format(":{}:_files -/", name);
-        case Completes::nothing: break;
-    }
-    return fmt::format(":{}: ", name);
+    return fmt::format(":{}:{}", name, withWords(wayOf(option).zsh, option));
 }
 
 std::string zshOption(const OptionFacts& option) {
@@ -179,17 +174,6 @@ std::string zshArguments(const CommandFacts& command) {
     return out;
 }
 
-std::string fishValue(const OptionFacts& option) {
-    switch (kindOf(option)) {
-        case Completes::words: return fmt::format(" -x -a '{}'", fmt::join(option.words, " "));
-        case Completes::scene: return " -x -a '(PROGRAM completion --scenes; __fish_complete_suffix .toml)'";
-        case Completes::file: return " -r -F";
-        case Completes::folder: return " -x -a '(__fish_complete_directories)'";
-        case Completes::nothing: break;
-    }
-    return " -x";
-}
-
 // Within single quotes of fish, which knows \' and \\ there.
 std::string fishQuoted(std::string_view text) {
     std::string out = "'";
@@ -199,13 +183,12 @@ std::string fishQuoted(std::string_view text) {
 
 std::string fishOption(const OptionFacts& option, const std::string& condition) {
     std::string out = fmt::format("complete -c PROGRAM -n {}", fishQuoted(condition));
-    if (option.isPositional()) {
-        const std::string value = fishValue(option);
-        return kindOf(option) == Completes::nothing ? "" : out + (value == " -r -F" ? " -F" : value) + "\n";
-    }
+    const Way& way = wayOf(option);
+    if (option.isPositional() && &way == &byNothing) return "";
+    if (option.isPositional()) return out + (&way == &byFiles ? " -F" : withWords(way.fish, option)) + "\n";
     for (const std::string& name : option.names)
         out += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-    if (!option.value.empty()) out += fishValue(option);
+    if (!option.value.empty()) out += withWords(way.fish, option);
     return out + fmt::format(" -d {}\n", fishQuoted(option.help));
 }
 

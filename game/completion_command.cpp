@@ -11,7 +11,7 @@
 #include "game/exit_code.h"
 #include "game/folders.h"
 #include "game/messages.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 
 namespace taut::game {
 namespace {
@@ -29,7 +29,7 @@ int completion(const CompletionFlags& flags, const CommandTree& tree) {
         printResult("{}\n", fmt::join(names, "\n"));
         return static_cast<int>(ExitCode::ok);
     }
-    if (flags.shell.empty()) throw core::Error(core::ErrorKind::usage, "completion for which shell? bash, zsh or fish");
+    if (flags.shell.empty()) failUsage("completion for which shell? bash, zsh or fish");
     const bool isZsh = flags.shell == "zsh";
     writeResult(isZsh ? zshCompletion(tree) : flags.shell == "fish" ? fishCompletion(tree) : bashCompletion(tree));
     return static_cast<int>(ExitCode::ok);

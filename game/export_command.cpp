@@ -16,6 +16,7 @@
 #include "game/outputs.h"
 #include "game/scene_file.h"
 #include "game/tables.h"
+#include "game/usage.h"
 #include "game/web_page.h"
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
@@ -39,7 +40,8 @@ struct ExportFlags {
     int digits = 0;  // 0: not given
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
-    bool noNormals = false, yes = false, no = false, quiet = false, isConfined = false;
+    OverwriteFlags overwrite;
+    bool noNormals = false, quiet = false, isConfined = false;
 };
 
 using geometry::Format;
@@ -51,10 +53,6 @@ struct Destination {
     std::string file;
     const Format* format;
 };
-
-[[noreturn]] void failUsage(const std::string& message) {
-    throw core::Error(core::ErrorKind::usage, message);
-}
 
 // What stands between commas, but for those of places such as cloth.flag@(0.5,0.5); each once.
 std::vector<std::string> targetsIn(const std::vector<std::string>& texts) {
@@ -129,11 +127,11 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
     std::vector<Destination> all;
     const auto add = [&](const std::string& file, const Format* format, const auto& fault) {
         if (file.empty()) return;
-        if (format == nullptr) failUsage(file + ": " + fault());
+        if (format == nullptr) failUsage("{}: {}", file, fault());
         all.push_back({file, format});
     };
     if (flags.output.empty() && flags.points.empty() && flags.web.empty())
-        failUsage("say where the geometry goes: " + allKindsOfFiles(formats, page));
+        failUsage("say where the geometry goes: {}", allKindsOfFiles(formats, page));
     add(
         flags.output, geometry::formatOf(formats, Holds::surfaces, flags.output),
         [&] {
@@ -145,13 +143,12 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
         [&] { return "--web writes a page, " + endingOf(page); });
     if (flags.web.empty() && !flags.viewer.empty()) failUsage("--viewer is what draws in a page: add --web out.html");
     for (const auto& [file, format] : all)
-        if (flags.noNormals && !format->needsNormals.empty()) failUsage("--no-normals: " + format->needsNormals);
+        if (flags.noNormals && !format->needsNormals.empty()) failUsage("--no-normals: {}", format->needsNormals);
     add(flags.points, geometry::formatOf(formats, Holds::points, flags.points),
         [&] { return "points go to " + oneOf(ofEach(formats, Holds::points, endingAndReaders)); });
     if (flags.points.empty() && !flags.of.empty()) failUsage("--of says whose points: add --points out.npz");
     if (flags.digits > 0 && std::none_of(all.begin(), all.end(), [](const auto& to) { return to.format->hasDigits; }))
-        failUsage(
-            fmt::format("--digits are those of {}; other formats hold all of a number", endingsWithDigits(formats)));
+        failUsage("--digits are those of {}; other formats hold all of a number", endingsWithDigits(formats));
     if (flags.output.empty() && flags.web.empty() && (flags.noNormals || !flags.only.empty()))
         failUsage("--only and --no-normals are for geometry: add -o, or name points with --of");
     return all;
@@ -200,8 +197,7 @@ pipeline::GeometryRun runOf(const ExportFlags& flags, const world::SceneSpec& sp
     run.lastFrame = range.last.value_or(count - 1);
     run.every = flags.every;
     if (run.firstFrame >= count || run.lastFrame >= count)
-        failUsage(
-            fmt::format("--frames {}: the scene has frames 0-{}; --seconds makes it longer", flags.frames, count - 1));
+        failUsage("--frames {}: the scene has frames 0-{}; --seconds makes it longer", flags.frames, count - 1);
     if (flags.points.empty()) return run;
     run.targets = targetsIn(flags.of);
     if (run.targets.empty())
@@ -272,10 +268,10 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
     const std::vector<Destination> destinations = destinationsOf(flags, formats, pages);
     const world::SceneSpec spec = readScene(flags.scene, allOverrides(flags), flags.isConfined);
     for (const std::string& target : targetsIn(flags.only))
-        if (const std::string fault = onlyFault(spec, target); !fault.empty()) failUsage("--only: " + fault);
+        if (const std::string fault = onlyFault(spec, target); !fault.empty()) failUsage("--only: {}", fault);
     for (const std::string& target : targetsIn(flags.of))
         if (const std::string fault = scene::targetFault(spec, target, true); !fault.empty())
-            failUsage("--of: " + fault);
+            failUsage("--of: {}", fault);
     pipeline::GeometryRun run = runOf(flags, spec);
     run.mayTear =
         oneOf(ofEach(formats, Holds::surfaces, endingOf, [](const Format& format) { return format.mayTear; }));
@@ -285,9 +281,8 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
             printNote("note: lamps and the picture around are not in the page: it is lit by sun and sky alone\n");
         *page = spec.title.empty() ? webPage(name, "", flags.viewer) : webPage(spec.title, name, flags.viewer);
     }
-    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
     for (const auto& [file, format] : destinations) {
-        permitOverwritingFile(file, overwrite);
+        permitOverwritingFile(file, flags.overwrite.answer());
         core::prepareFolderOf(file);
     }
     const std::int64_t keys = (run.lastFrame - run.firstFrame + run.every - 1) / run.every + 1;
@@ -370,8 +365,7 @@ Action declareExport(Options& options, const Formats& formats) {
                "Only these in the geometry, such as cloth.*, collider.ball or ground; * stands for any letters")
         .typeName("TARGET,…")
         .oneValue();
-    const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
-    options.flag("-n,--no", flags->no, "Never overwrite").excludes(yes);
+    addOverwriteFlags(options, flags->overwrite);
     options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
     options.value("--every", flags->every, "Every n-th frame only, and the last; tells how far off that is in between")
         .within<std::int64_t>(1, 1000000);
@@ -382,11 +376,9 @@ Action declareExport(Options& options, const Formats& formats) {
                fmt::format("Digits behind the point in {}, 5 when not given: 0.01 mm", endingsWithDigits(formats)))
         .within(1, 9);
     options.flag("--quiet", flags->quiet, "No progress; warnings and errors only");
-    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
-    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides);
     addConfinedFlag(options, flags->isConfined);
     options.footer(
         "Lengths are metres, y is up. In .usda time codes are numbers of frames; in .glb and pages time begins at the "

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "game/command_line.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/private/instruction_set.h"
 
@@ -24,8 +25,7 @@ std::optional<Number> whole(std::string_view text) {
 
 FrameRange frameRange(const std::string& text) {
     const auto fail = [&] {
-        throw core::Error(core::ErrorKind::usage,
-                          "--frames " + text + ": expected a range like 0-119, the first not after the last");
+        failUsage("--frames {}: expected a range like 0-119, the first not after the last", text);
     };
     const std::string_view view = text;
     const std::size_t dash = view.find('-');
@@ -42,9 +42,7 @@ Shard shard(const std::string& text) {
     constexpr std::int64_t most = 1'000'000;
     const std::string_view view = text;
     const std::size_t slash = view.find('/');
-    const auto fail = [&](const std::string& reason) {
-        throw core::Error(core::ErrorKind::usage, fmt::format("--shard {}: {}", text, reason));
-    };
+    const auto fail = [&](const std::string& reason) { failUsage("--shard {}: {}", text, reason); };
     const auto index = whole<std::int64_t>(view.substr(0, slash));
     const auto count = slash == std::string_view::npos ? std::nullopt : whole<std::int64_t>(view.substr(slash + 1));
     if (!index || !count) fail("expected a number and how many there are, like 0/8");
@@ -63,7 +61,7 @@ Size pictureSize(const std::string& text) {
         if (width && height && *width >= 1 && *height >= 1 && *width <= largest && *height <= largest)
             return {*width, *height};
     }
-    throw core::Error(core::ErrorKind::usage, "--size " + text + ": expected a size in pixels like 1280x720");
+    failUsage("--size {}: expected a size in pixels like 1280x720", text);
 }
 
 void addRunFlags(Options& options, double& fps, double& seconds) {
@@ -74,6 +72,10 @@ void addRunFlags(Options& options, double& fps, double& seconds) {
 void addRunOverrides(double fps, double seconds, std::vector<std::string>& overrides) {
     if (fps > 0.0) overrides.push_back(fmt::format("run.fps={}", fps));
     if (seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", seconds));
+}
+
+void addThreadsFlag(Options& options, int& threads) {
+    options.value("--threads", threads, "Threads to use; all of the machine when not given").within(1, 1024);
 }
 
 void addInstructionSetFlag(Options& options, std::string& isa) {

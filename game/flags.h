@@ -43,6 +43,9 @@ std::function<std::string(const std::string&)> numberWithin(double least, double
 
 class Options;
 
+// --threads; 0: not given.
+void addThreadsFlag(Options& options, int& threads);
+
 // --isa, which sets the instruction set of the kernels before anything asks for it. `isa` holds the given value.
 void addInstructionSetFlag(Options& options, std::string& isa);
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "game/live_line.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/read.h"
@@ -181,7 +182,7 @@ FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<F
     const FrameRange range = wanted.value_or(FrameRange{});
     join.frames = {range.first, range.last.value_or(count - 1)};
     if (join.frames.last >= count || join.frames.first >= count)
-        throw core::Error(core::ErrorKind::usage, fmt::format("--frames: the run has frames 0-{}", count - 1));
+        failUsage("--frames: the run has frames 0-{}", count - 1);
     expectAll(join);
     expectUnchanged(join);
     return join;

@@ -13,13 +13,14 @@
 #include "game/exit_code.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
+#include "game/usage.h"
+#include "taut/advice/private/start_doubts.h"
 #include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
 #include "taut/mechanics/sheet_moduli.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/private/body_size.h"
-#include "taut/advice/private/start_doubts.h"
 #include "taut/world/world.h"
 
 namespace taut::game {
@@ -378,8 +379,7 @@ void printMethods() {
 }
 
 int info(const InfoFlags& flags) {
-    if (flags.methods && !flags.scene.empty())
-        throw core::Error(core::ErrorKind::usage, "--methods tells of no scene: give one or the other");
+    if (flags.methods && !flags.scene.empty()) failUsage("--methods tells of no scene: give one or the other");
     if (flags.methods) {
         if (flags.json)
             printResult("{}\n", methodsJson().dump(2));
@@ -387,7 +387,7 @@ int info(const InfoFlags& flags) {
             printMethods();
         return static_cast<int>(ExitCode::ok);
     }
-    if (flags.scene.empty()) throw core::Error(core::ErrorKind::usage, "info: give a scene, or --methods");
+    if (flags.scene.empty()) failUsage("info: give a scene, or --methods");
     const Facts facts = gatherFacts(flags);
     if (flags.json)
         printJson(facts);
@@ -399,9 +399,7 @@ int info(const InfoFlags& flags) {
 Action declareInfo(Options& options) {
     const auto flags = std::make_shared<InfoFlags>();
     options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene");
-    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides);
     options.flag("--methods", flags->methods, "List the methods of integration instead");
     options.flag("--json", flags->json, "Print it as JSON");
     return [flags] { return info(*flags); };

@@ -15,7 +15,7 @@
 #include "game/render_outputs.h"
 #include "game/test_outcome.h"
 #include "game/test_shards.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/video_writer.h"
 
@@ -24,14 +24,11 @@ namespace {
 
 struct JoinFlags {
     std::string place, output, frames, junit;
-    bool anyRenderer = false, yes = false, no = false, quiet = false;
+    OverwriteFlags overwrite;
+    bool anyRenderer = false, quiet = false;
 };
 
 using Clock = std::chrono::steady_clock;
-
-[[noreturn]] void failJoin(const std::string& message) {
-    throw core::Error(core::ErrorKind::usage, message);
-}
 
 // The record of the whole run, and its metrics where all parts have theirs.
 void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
@@ -45,7 +42,7 @@ void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
 int joinFrames(const JoinFlags& flags) {
     const auto start = Clock::now();
     if (!flags.output.empty() && !image::isVideoPath(flags.output))
-        failJoin(fmt::format("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output));
+        failUsage("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output);
     const std::optional<FrameRange> wanted =
         flags.frames.empty() ? std::nullopt : std::optional(frameRange(flags.frames));
     const FrameJoin join = provedFrames(image::FramePattern(flags.place), wanted, flags.anyRenderer);
@@ -56,11 +53,8 @@ int joinFrames(const JoinFlags& flags) {
         return static_cast<int>(ExitCode::ok);
     }
     if (join.hasAlpha() && !image::mayHaveAlpha(flags.output))
-        failJoin(fmt::format("{}: these frames are transparent, which .webm and .mov can be", flags.output));
-    permitOverwriting(flags.output, join.frames.first, join.frames.last,
-                      flags.yes  ? Overwrite::yes
-                      : flags.no ? Overwrite::no
-                                 : Overwrite::ask);
+        failUsage("{}: these frames are transparent, which .webm and .mov can be", flags.output);
+    permitOverwriting(flags.output, join.frames.first, join.frames.last, flags.overwrite.answer());
     const std::unique_ptr<image::FrameSink> sink = makeSink(flags.output, join.fps(), join.hasAlpha());
     const Interruption interruption;
     if (encodeFrames(join, *sink, flags.quiet, interruption.flag())) {
@@ -74,11 +68,10 @@ int joinFrames(const JoinFlags& flags) {
 // The report of all shards, with the exit code that taut test has for it.
 int joinTests(const JoinFlags& flags) {
     if (!flags.frames.empty() || flags.anyRenderer)
-        failJoin("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
+        failUsage("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
     const std::filesystem::path folder = flags.output.empty() ? flags.place : flags.output;
     if (image::isVideoPath(folder))
-        failJoin(fmt::format("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are",
-                             flags.output));
+        failUsage("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are", flags.output);
     TestShard all = joinedShards(flags.place);
     core::prepareFolderOf(pageIn(folder));
     if (!flags.junit.empty()) core::prepareFolderOf(flags.junit);
@@ -91,9 +84,8 @@ int joinTests(const JoinFlags& flags) {
 int join(const JoinFlags& flags) {
     const bool hasTests = hasTestShards(flags.place);
     if (hasTests && !pipeline::partRecords(image::FramePattern(flags.place)).empty())
-        failJoin(fmt::format("{}: there are shards of taut test and of taut render: which? Move either elsewhere",
-                             flags.place));
-    if (!hasTests && !flags.junit.empty()) failJoin("--junit goes with shards of taut test");
+        failUsage("{}: there are shards of taut test and of taut render: which? Move either elsewhere", flags.place);
+    if (!hasTests && !flags.junit.empty()) failUsage("--junit goes with shards of taut test");
     return hasTests ? joinTests(flags) : joinFrames(flags);
 }
 
@@ -108,8 +100,7 @@ Action declareJoin(Options& options) {
     options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
     options.flag("--any-renderer", flags->anyRenderer,
                  "Join pictures also where not all were drawn by the same renderer and version of taut");
-    const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
-    options.flag("-n,--no", flags->no, "Never overwrite").excludes(yes);
+    addOverwriteFlags(options, flags->overwrite);
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"

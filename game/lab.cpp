@@ -9,6 +9,7 @@
 #include "game/messages.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
+#include "game/usage.h"
 #include "game/version.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
@@ -23,9 +24,8 @@ void checkMethods(const std::vector<std::string>& wanted) {
     for (const std::string& name : wanted)
         if (ode::findMethod(name) == nullptr) {
             const std::string hint = didYouMean(name, names);
-            throw core::Error(core::ErrorKind::usage,
-                              fmt::format("there is no method '{}'{}", name,
-                                          hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
+            failUsage("there is no method '{}'{}", name,
+                      hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint);
         }
 }
 

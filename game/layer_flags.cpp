@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "game/flags.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/image/private/video_writer.h"
 #include "taut/world/world.h"
@@ -47,26 +47,23 @@ std::vector<LayerFlag> flagsOf(const render::LayerKinds& kinds) {
 }
 
 void checkLayerFlags(const LayerFlags& flags, const std::string& output, const std::string& video) {
-    const auto fail = [](const std::string& message) { throw core::Error(core::ErrorKind::usage, message); };
     for (const std::string& name : {output, video})
         if (flags.alpha && image::isVideoPath(name) && !image::mayHaveAlpha(name))
-            fail(
-                fmt::format("--alpha: a {} has no transparency: write {}.webm, {}.mov, or frames, "
-                            "-o out/frame_######.png",
-                            std::filesystem::path(name).extension().string(),
-                            std::filesystem::path(name).replace_extension().string(),
-                            std::filesystem::path(name).replace_extension().string()));
+            failUsage(
+                "--alpha: a {} has no transparency: write {}.webm, {}.mov, or frames, -o out/frame_######.png",
+                std::filesystem::path(name).extension().string(),
+                std::filesystem::path(name).replace_extension().string(),
+                std::filesystem::path(name).replace_extension().string());
     for (const LayerFlag& layer : flags.layers)
         if (layer.hasOwnNumber() && !layer.isGiven)
-            fail(fmt::format("--{} says what the numbers of --{} are: give that too", layer.kind.number->name,
-                             layer.kind.name));
-    if (flags.focus > 0.0 && flags.fStop == 0.0) fail("--focus says where --f-stop is sharp: give that too");
+            failUsage("--{} says what the numbers of --{} are: give that too", layer.kind.number->name,
+                      layer.kind.name);
+    if (flags.focus > 0.0 && flags.fStop == 0.0) failUsage("--focus says where --f-stop is sharp: give that too");
     const std::vector<std::string> besides = filesBeside(flags);
     if (!besides.empty() && (output.empty() || image::isVideoPath(output)))
-        fail(
-            fmt::format("--{} writes files beside frames: ask for those, -o out/frame_######.png; a video besides with "
-                        "--video",
-                        besides.front()));
+        failUsage(
+            "--{} writes files beside frames: ask for those, -o out/frame_######.png; a video besides with --video",
+            besides.front());
 }
 
 std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags) {

@@ -10,6 +10,7 @@
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
+#include "game/usage.h"
 #include "taut/advice/bending_cells.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
@@ -70,8 +71,7 @@ int show(const std::string& name, const std::vector<path>& files) {
         return static_cast<int>(ExitCode::ok);
     }
     const std::string meant = fields::suggestion(stem, known);
-    throw core::Error(core::ErrorKind::usage, fmt::format("there is no fabric \"{}\"; {}", stem,
-                                                          meant.empty() ? "taut materials lists them" : meant));
+    failUsage("there is no fabric \"{}\"; {}", stem, meant.empty() ? "taut materials lists them" : meant);
 }
 
 Action declareMaterials(Options& options) {

@@ -13,7 +13,7 @@
 #include "game/messages.h"
 #include "game/outputs.h"
 #include "game/shell_word.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 #include "taut/core/whole_file.h"
 #include "taut/fields/field.h"
 
@@ -146,8 +146,7 @@ int writeNew(const NewFlags& flags) {
     const std::filesystem::path given(flags.name);
     const std::string title = given.extension() == ".toml" ? given.stem().string() : given.filename().string();
     if (!fields::isName(title))
-        throw core::Error(core::ErrorKind::usage,
-                          fmt::format("\"{}\" cannot be the name of a scene: it has letters, digits, - and _", title));
+        failUsage("\"{}\" cannot be the name of a scene: it has letters, digits, - and _", title);
     const std::filesystem::path file = given.parent_path() / (title + ".toml");
     permitOverwritingFile(file, flags.yes ? Overwrite::yes : Overwrite::ask);
     core::prepareFolderOf(file);

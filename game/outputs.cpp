@@ -7,6 +7,7 @@
 #include <iostream>
 #include <system_error>
 
+#include "game/command_line.h"
 #include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/image/frame_sequence.h"
@@ -35,6 +36,11 @@ bool answersYes() {
 }
 
 }  // namespace
+
+void addOverwriteFlags(Options& options, OverwriteFlags& flags) {
+    const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
+    options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
+}
 
 void permitOverwriting(const std::filesystem::path& output, std::int64_t first, std::int64_t last, Overwrite overwrite,
                        const std::vector<std::string>& besides) {

@@ -13,6 +13,15 @@ namespace taut::game {
 
 enum class Overwrite { ask, yes, no };
 
+class Options;
+
+// -y and -n.
+struct OverwriteFlags {
+    bool yes = false, no = false;
+    Overwrite answer() const { return yes ? Overwrite::yes : no ? Overwrite::no : Overwrite::ask; }
+};
+void addOverwriteFlags(Options& options, OverwriteFlags& flags);
+
 // Looks for existing frames first … last of that output, for files of the kinds `besides`
 // (image::FramePattern::beside), and for that video. If there are any and they may not be overwritten (no; or ask, and
 // nobody can answer or the answer is not y), throws core::Error(inputOutput).

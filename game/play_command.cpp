@@ -8,6 +8,8 @@
 #include "game/interruption.h"
 #include "game/live_play.h"
 #include "game/renderers.h"
+#include "game/scene_file.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
 
@@ -28,8 +30,7 @@ int play(const PlayFlags& flags) {
     }
     settings.records = !flags.record.empty();
     settings.record = flags.record;
-    if (settings.records && settings.record.extension() != ".toml")
-        throw core::Error(core::ErrorKind::usage, "--record: the name must end in .toml");
+    if (settings.records && settings.record.extension() != ".toml") failUsage("--record: the name must end in .toml");
     const Interruption interruption;
     const core::ThreadLimit threads(settings.threads);
     std::unique_ptr<LivePlay> live;
@@ -67,11 +68,9 @@ Action declarePlay(Options& options) {
     options.flag("--watch", settings.watches,
                  "Read the scene again whenever one of its files is written: same camera, same moment; what is wrong "
                  "with it stands over the picture");
-    options.value("--threads", settings.threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, settings.threads);
     addInstructionSetFlag(options, flags->isa);
-    options.value("--set", settings.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, settings.overrides);
     const Option quiet = options.flag("--quiet", settings.isQuiet, "Warnings and errors only");
     options.flag("--verbose", settings.isVerbose, "Print every action as it is done").excludes(quiet);
     options.footer(

@@ -12,7 +12,7 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/suggestion.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/reality/chart.h"
@@ -40,8 +40,7 @@ void checkRows(const std::vector<std::string>& wanted) {
     for (const reality::Row& row : reality::rows()) names.push_back(row.name);
     for (const std::string& name : wanted)
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw core::Error(core::ErrorKind::usage,
-                              fmt::format("there is no row '{}'; there are {}", name, fmt::join(names, ", ")));
+            failUsage("there is no row '{}'; there are {}", name, fmt::join(names, ", "));
 }
 
 int compareWithReality(const RealityFlags& flags) {

@@ -86,11 +86,9 @@ Action declareRecord(Options& options) {
     options.flag("-y,--yes", flags->yes, "Overwrite what exists");
     options.flag("--no-points", flags->noPoints, "Hashes of bodies only: a small tape that names no point");
     options.value("--seconds", flags->seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
-    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
-    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags->overrides);
     options.flag("--quiet", flags->quiet, "No progress");
     return [flags] { return record(*flags); };
 }

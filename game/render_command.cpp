@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -24,13 +23,13 @@
 #include "game/outputs.h"
 #include "game/progress.h"
 #include "game/render_flags.h"
-#include "game/render_jobs.h"
 #include "game/render_outputs.h"
 #include "game/render_stills.h"
 #include "game/renderers.h"
 #include "game/run_part.h"
 #include "game/scene_file.h"
 #include "game/tables.h"
+#include "game/usage.h"
 #include "taut/check/figures.h"
 #include "taut/core/error.h"
 #include "taut/core/private/hash.h"
@@ -63,9 +62,7 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const RunPart& part) {
 // What --metrics-of asks for, or null.
 std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::SceneSpec& spec) {
     if (text.empty()) return nullptr;
-    const auto fail = [](const std::string& message) {
-        throw core::Error(core::ErrorKind::usage, "--metrics-of: " + message);
-    };
+    const auto fail = [](const std::string& message) { failUsage("--metrics-of: {}", message); };
     try {
         auto figures = std::make_shared<check::Figures>(check::Figures::parse(text));
         for (const check::Mention& mention : figures->mentions())
@@ -110,10 +107,7 @@ std::vector<pipeline::RunLock> locksOf(const RenderFlags& flags, const RunPart& 
     if (keepsStates) locks.emplace_back(states, pipeline::RunParty{std::nullopt, name});
     std::error_code ignored;
     if (!place || (keepsStates && std::filesystem::equivalent(place->pattern.folder(), states, ignored))) return locks;
-    RunPart locked = part;
-    if (flags.jobs > 0) locked.isShared = false;  // its shards lock their parts
-    std::vector<pipeline::RunLock> more = lockPart(locked, *place, name);
-    std::move(more.begin(), more.end(), std::back_inserter(locks));
+    std::ranges::move(lockPart(part, *place, name), std::back_inserter(locks));
     return locks;
 }
 
@@ -121,7 +115,7 @@ std::vector<pipeline::RunLock> locksOf(const RenderFlags& flags, const RunPart& 
 std::optional<PartPlace> placeOf(const RenderFlags& flags, std::uint64_t key) {
     if (flags.noPictures || flags.output.empty() || image::isVideoPath(flags.output)) return std::nullopt;
     return PartPlace{image::FramePattern(flags.output), filesBeside(flags.layers), key, flags.continuation.resume,
-                     flags.yes};
+                     flags.overwrite.yes};
 }
 
 ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps,
@@ -156,9 +150,6 @@ void printSummary(const RenderFlags& flags, const pipeline::RunResult& result, s
     for (std::size_t i = before; i < result.frames.size(); ++i) pictures += result.frames[i].pictured ? 1 : 0;
     const std::size_t simulated = result.frames.size() - before;
     std::string text = fmt::format("{} of {} simulated frames drawn", pictures, simulated);
-    if (flags.jobs > 0)
-        text = fmt::format("{} frames simulated, {}", simulated,
-                           result.divergence || result.interrupted ? "not all drawn" : "and drawn by shards");
     if (flags.noPictures) text = fmt::format("{} frames simulated", simulated);
     if (!flags.output.empty()) text += fmt::format(", in {}", flags.output);
     if (!flags.video.empty()) text += fmt::format(" and {}", flags.video);
@@ -178,7 +169,7 @@ Drawing makeDrawing(const RenderFlags& flags, const world::World& world, const w
                     pipeline::RunOptions& options) {
     Drawing drawing;
     drawing.layers = layersOf(flags.layers, world);
-    if (flags.noPictures || flags.jobs > 0) return drawing;
+    if (flags.noPictures) return drawing;
     drawing.renderers = makeRenderers(picture, flags.threads, flags.gl, drawing.layers,
                                       drawersFor(flags.drawThreads, flags.threads, picture, options));
     drawing.info = drawing.renderers.front()->info();
@@ -231,7 +222,6 @@ void warnOfNew(const std::vector<std::string>& foreseen, std::vector<std::string
 
 // Over 60 lines: what a run does, from its flags to its files, stands in one list.
 int render(const RenderFlags& flags) {
-    endWithStarter();
     checkFlags(flags);
     if (!flags.at.empty()) return renderStills(flags);
     const scene::Loaded scene = readSceneWithKeys(flags.scene, allOverrides(flags), flags.isConfined);
@@ -247,19 +237,12 @@ int render(const RenderFlags& flags) {
     const std::vector<std::string> foreseen = world.warnings();
     printWarnings(foreseen);
 
-    std::filesystem::path states = checkpointFolder(flags);
+    const std::filesystem::path states = checkpointFolder(flags);
     const RunKeys keys = runKeys(scene, lookOf(flags.debug, flags.overlay, flags.layers), world);
     const std::uint64_t key = keyOfRun(keys, part.count - 1);
     const std::optional<PartPlace> place = placeOf(flags, key);
     const std::vector<pipeline::RunLock> locks = locksOf(flags, part, place, states);
     noteMissingLocks(locks);
-    std::optional<JobsFolder> jobs;
-    if (flags.jobs > 0) {
-        jobs.emplace(flags.output);
-        states = jobs->states();
-        options.checkpointEvery = checkpointEveryFor(flags.jobs, part.frames.last + 1);
-        options.metrics = true;
-    }
     Drawing drawing = makeDrawing(flags, world, spec.picture, options);
     pipeline::RunRequest request{flags.output, allOverrides(flags), flags.threads, options, drawing.layers,
                                  key,          part.frames.first,   part.count,    true};
@@ -274,12 +257,11 @@ int render(const RenderFlags& flags) {
                   flags.output);
         return static_cast<int>(ExitCode::ok);
     }
-    if (part.isShared && !jobs) writeWith(recordPath(flags, part, "run", ".json"), writeJson({}));
+    if (part.isShared) writeWith(recordPath(flags, part, "run", ".json"), writeJson({}));
     const PicturesThere pictures{flags.noPictures ? "" : flags.output, filesBeside(flags.layers),
                                  state == PartState::begun};
     ContinuationFlags continuation = flags.continuation;
-    continuation.mayOverwrite = flags.yes;
-    continuation.every = options.checkpointEvery;
+    continuation.mayOverwrite = flags.overwrite.yes;
     continuation.startsLate = !part.title.empty();
     pipeline::RecordLog records = goOn(continuation, states, keys, pictures, options, world);
     const std::size_t before = records.size();
@@ -288,15 +270,9 @@ int render(const RenderFlags& flags) {
     };
     if (flags.overlay && drawing.draw) addOverlay(world, records, options, drawing);
 
-    pipeline::RunResult result = playRun(flags, options, drawing, sink.get(), std::move(records), world, spec.run.fps,
-                                         keepingStates, interruption.flag());
-    if (jobs && !result.divergence && !result.interrupted) {
-        const auto start = std::chrono::steady_clock::now();
-        drawing.info = drawByJobs(flags, part, key, result.frames, *jobs, sink.get(), interruption.flag());
-        result.interrupted = !drawing.info;
-        result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-    if (!flags.output.empty() && (!jobs || drawing.info)) {
+    const pipeline::RunResult result = playRun(flags, options, drawing, sink.get(), std::move(records), world,
+                                               spec.run.fps, keepingStates, interruption.flag());
+    if (!flags.output.empty()) {
         request.options = options;
         request.isBegun = false;
         const auto known = static_cast<std::int64_t>(result.frames.size());

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "game/flags.h"
-#include "game/outputs.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/image/private/video_writer.h"
 
@@ -29,19 +29,15 @@ std::vector<std::string> allOverrides(const RenderFlags& flags) {
 
 namespace {
 
-[[noreturn]] void failRender(const std::string& message) {
-    throw core::Error(core::ErrorKind::usage, message);
-}
-
 void checkShard(const RenderFlags& flags) {
     (void)shard(flags.shard);
-    if (flags.noPictures) failRender("--shard shares out what is drawn: leave --no-pictures out");
+    if (flags.noPictures) failUsage("--shard shares out what is drawn: leave --no-pictures out");
     if (!flags.video.empty() || image::isVideoPath(flags.output))
-        failRender(fmt::format("a shard draws frames, -o FOLDER; of all shards taut join FOLDER -o {} makes the video",
-                               flags.video.empty() ? flags.output : flags.video));
-    if (flags.continuation.from) failRender("--from and --shard exclude each other");
+        failUsage("a shard draws frames, -o FOLDER; of all shards taut join FOLDER -o {} makes the video",
+                  flags.video.empty() ? flags.output : flags.video);
+    if (flags.continuation.from) failUsage("--from and --shard exclude each other");
     if (flags.continuation.every > 0)
-        failRender(
+        failUsage(
             "states are those of the whole run: keep them by a run before, taut render SCENE --no-pictures "
             "--checkpoint-every 60 --checkpoints FOLDER, and give --checkpoints FOLDER to the shards");
     const std::string& states = flags.continuation.folder;
@@ -54,18 +50,10 @@ void checkShard(const RenderFlags& flags) {
                         states, states));
 }
 
-void checkJobs(const RenderFlags& flags) {
-    if (!flags.shard.empty()) failRender("--jobs starts the shards itself: leave --shard out");
-    if (flags.noPictures) failRender("--jobs shares out what is drawn: leave --no-pictures out");
-    if (flags.continuation.isWanted() || !flags.continuation.folder.empty())
-        failRender("--jobs keeps states of its own: leave --checkpoint-every, --checkpoints, --resume and --from out");
-}
-
 void checkStills(const RenderFlags& flags) {
     const std::pair<bool, const char*> ofRuns[] = {
         {!flags.frames.empty(), "--frames"},
         {!flags.shard.empty(), "--shard"},
-        {flags.jobs > 0, "--jobs"},
         {!flags.video.empty(), "--video"},
         {flags.noPictures, "--no-pictures"},
         {flags.writesMetrics(), "--metrics"},
@@ -73,9 +61,9 @@ void checkStills(const RenderFlags& flags) {
         {flags.continuation.isWanted() || !flags.continuation.folder.empty(), "checkpoints"},
     };
     for (const auto& [isGiven, name] : ofRuns)
-        if (isGiven) failRender(fmt::format("--at draws moments, not a run: leave {} out", name));
-    if (flags.output.empty()) failRender("say where the picture goes: -o still.png");
-    if (image::isVideoPath(flags.output)) failRender("--at draws pictures, not a video: -o still.png");
+        if (isGiven) failUsage("--at draws moments, not a run: leave {} out", name);
+    if (flags.output.empty()) failUsage("say where the picture goes: -o still.png");
+    if (image::isVideoPath(flags.output)) failUsage("--at draws pictures, not a video: -o still.png");
     (void)stillPattern(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
 }
@@ -86,33 +74,32 @@ image::FramePattern stillPattern(const RenderFlags& flags) {
     const std::filesystem::path output = flags.output;
     const bool isOne = output.extension() == ".png" && output.filename().string().find('#') == std::string::npos;
     if (isOne && flags.at.size() > 1)
-        failRender(fmt::format("--at: {} moments need numbers in their names: -o {}_#.png", flags.at.size(),
-                               (output.parent_path() / output.stem()).string()));
+        failUsage("--at: {} moments need numbers in their names: -o {}_#.png", flags.at.size(),
+                  (output.parent_path() / output.stem()).string());
     return isOne ? image::FramePattern::ofOne(output) : image::FramePattern(output);
 }
 
 void checkFlags(const RenderFlags& flags) {
-    const auto fail = [](const char* message) { throw core::Error(core::ErrorKind::usage, message); };
     if (!flags.at.empty()) return checkStills(flags);
     if (!flags.output.empty()) checkOutputName(flags.output);
-    if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
+    if (!flags.video.empty() && flags.output.empty())
+        failUsage("--video is written besides -o: give -o too, or only -o");
     if (!flags.video.empty() && !image::isVideoPath(flags.video))
-        fail("--video: the name must end in .mp4, .mov, .mkv, .webm or .gif");
+        failUsage("--video: the name must end in .mp4, .mov, .mkv, .webm or .gif");
     std::error_code ignored;
     if (!flags.video.empty() && std::filesystem::weakly_canonical(flags.video, ignored) ==
                                     std::filesystem::weakly_canonical(flags.output, ignored))
-        fail("-o and --video name the same file");
+        failUsage("-o and --video name the same file");
     if (flags.output.empty() && !flags.noPictures)
-        fail("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
-    if (flags.output.empty() && flags.writesMetrics()) fail("--metrics writes a file beside the output: add -o");
+        failUsage("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
+    if (flags.output.empty() && flags.writesMetrics()) failUsage("--metrics writes a file beside the output: add -o");
     if (flags.continuation.isWanted() && flags.output.empty() && flags.continuation.folder.empty())
-        fail("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
+        failUsage("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
     if (flags.continuation.resume && (!flags.video.empty() || image::isVideoPath(flags.output)))
-        fail("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
-    if (flags.continuation.resume && flags.no) fail("--resume replaces frames: it does not go with -n");
-    if (flags.continuation.from && !flags.frames.empty()) fail("--from and --frames exclude each other");
+        failUsage("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
+    if (flags.continuation.resume && flags.overwrite.no) failUsage("--resume replaces frames: it does not go with -n");
+    if (flags.continuation.from && !flags.frames.empty()) failUsage("--from and --frames exclude each other");
     if (!flags.shard.empty()) checkShard(flags);
-    if (flags.jobs > 0) checkJobs(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
 }
 
@@ -122,8 +109,7 @@ void addOutputFlags(Options& options, RenderFlags& flags) {
     options.value("-o,--output", flags.output,
                   "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif)");
     options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
-    const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
-    options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
+    addOverwriteFlags(options, flags.overwrite);
     options.flag("--metrics", flags.metrics,
                  "Write metrics.csv, or metrics_A-B.csv of a part: energy, momentum, strain, contacts of each frame");
     options.value("--metrics-of", flags.metricsOf, "Besides: what these expressions of checks give, to 17 digits")
@@ -152,11 +138,9 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
         .value("--shard", flags.shard,
                "Draw this of N pieces of the frames, 0/N to N-1/N, into a folder that they share; then taut join")
         .typeName("K/N");
-    options
-        .value("--jobs", flags.jobs,
-               "Draw by so many processes, each a piece of the frames; the same pictures and video")
-        .typeName("N")
-        .within(1, 1024);
+    options.gone("--jobs",
+                 "threads draw several pictures at once, and processes share them out by --shard: for k in 0 1 2 3; do "
+                 "taut render SCENE -o FOLDER --shard $k/4 & done; wait; taut join FOLDER -o x.mp4");
     addRunFlags(options, flags.fps, flags.seconds);
     options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
@@ -179,15 +163,13 @@ void addRenderFlags(Options& options, RenderFlags& flags) {
     addOutputFlags(options, flags);
     addPictureFlags(options, flags);
     addContinuationFlags(options, flags.continuation);
-    options.value("--threads", flags.threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, flags.threads);
     options
         .value("--draw-threads", flags.drawThreads,
                "Pictures drawn at the same time, the same whatever it is; as many as pay here when not given")
         .within(1, 64);
     addInstructionSetFlag(options, flags.isa);
-    options.value("--set", flags.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags.overrides);
     addConfinedFlag(options, flags.isConfined);
     options.footer(
         "Examples:\n"

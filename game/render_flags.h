@@ -7,6 +7,7 @@
 #include "game/command_line.h"
 #include "game/continuation.h"
 #include "game/layer_flags.h"
+#include "game/outputs.h"
 #include "taut/image/frame_sequence.h"
 
 namespace taut::game {
@@ -16,12 +17,13 @@ struct RenderFlags {
     std::string output, video;
     std::string frames, shard, size, camera, gl, isa, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
-    int threads = 0, samples = 0, drawThreads = 0, jobs = 0;
+    int threads = 0, samples = 0, drawThreads = 0;
     std::vector<std::string> at;  // [s] draws stills at these moments instead of a run
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     LayerFlags layers;
-    bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
+    OverwriteFlags overwrite;
+    bool debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
     bool overlay = false, isConfined = false;
     bool writesMetrics() const { return metrics || !metricsOf.empty(); }
 };

@@ -34,20 +34,18 @@ void expectNoRecord(const RenderFlags& flags, const RunPart& part) {
 }  // namespace
 
 std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const RunPart& part, double fps) {
-    const Overwrite overwrite = flags.yes || flags.continuation.resume ? Overwrite::yes
-                                : flags.no                             ? Overwrite::no
-                                                                       : Overwrite::ask;
+    const Overwrite overwrite = flags.continuation.resume ? Overwrite::yes : flags.overwrite.answer();
     std::vector<std::unique_ptr<image::FrameSink>> sinks;
     for (const std::string& output : {flags.output, flags.video}) {
         if (output.empty()) continue;
         if (!flags.noPictures)
             permitOverwriting(output, part.frames.first, part.frames.last, overwrite,
                               image::isVideoPath(output) ? std::vector<std::string>() : filesBeside(flags.layers));
-        if (flags.jobs == 0 || image::isVideoPath(output)) sinks.push_back(makeSink(output, fps, flags.layers.alpha));
+        sinks.push_back(makeSink(output, fps, flags.layers.alpha));
     }
     if (overwrite == Overwrite::no && !flags.output.empty()) expectNoRecord(flags, part);
     if (sinks.empty()) return nullptr;
-    if (flags.jobs == 0 && !filesBeside(flags.layers).empty())
+    if (!filesBeside(flags.layers).empty())
         sinks.push_back(std::make_unique<image::LayerSequence>(image::FramePattern(flags.output)));
     return std::make_unique<image::SeveralSinks>(std::move(sinks));
 }

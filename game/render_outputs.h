@@ -14,8 +14,7 @@
 
 namespace taut::game {
 
-// The sink for all outputs that were asked for, or null. Asks before it overwrites. With --jobs others write the
-// frames.
+// The sink for all outputs that were asked for, or null. Asks before it overwrites.
 std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const RunPart& part, double fps);
 
 // The path of a record of the part beside the output: run.json for "run", ".json".

@@ -15,6 +15,7 @@
 #include "game/progress.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
 #include "taut/pipeline/overlay.h"
@@ -30,21 +31,18 @@ std::vector<std::int64_t> ticksOf(const std::vector<std::string>& moments, const
     for (const std::string& text : moments) {
         const double t = std::strtod(text.c_str(), nullptr);
         if (t > run.seconds)
-            throw core::Error(
-                core::ErrorKind::usage,
-                fmt::format("--at {}: the scene lasts {} s; --seconds {} makes it longer", text, run.seconds, text));
+            failUsage("--at {}: the scene lasts {} s; --seconds {} makes it longer", text, run.seconds, text);
         ticks.push_back(world::Ticks(run).at(t));
         if (ticks.size() > 1 && ticks.back() <= ticks[ticks.size() - 2])
-            throw core::Error(core::ErrorKind::usage, fmt::format("--at {}: not a tick after the moment before", text));
+            failUsage("--at {}: not a tick after the moment before", text);
     }
     return ticks;
 }
 
 void permitStills(const RenderFlags& flags, const image::FramePattern& pattern) {
-    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
     for (std::size_t i = 0; i < flags.at.size(); ++i)
         for (const image::FramePattern& files : pattern.with(filesBeside(flags.layers)))
-            permitOverwritingFile(files.pathOf(static_cast<std::int64_t>(i)), overwrite);
+            permitOverwritingFile(files.pathOf(static_cast<std::int64_t>(i)), flags.overwrite.answer());
 }
 
 // One world on its way from moment to moment.

@@ -12,6 +12,7 @@
 
 #include "game/command_line.h"
 #include "game/folders.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/pipeline/self_test.h"
 #include "taut/spec/picture_spec.h"
@@ -29,10 +30,7 @@ GlChoice glNamed(const std::string& gl) {
         const auto [end, error] = std::from_chars(view.data() + 4, view.data() + view.size(), device);
         if (error == std::errc() && end == view.data() + view.size() && device >= 0) return {{Backend::egl}, device};
     }
-    throw core::Error(core::ErrorKind::usage,
-                      fmt::format("expected osmesa, egl, or egl:N with the number of a device that taut doctor names, "
-                                  "not {}",
-                                  gl));
+    failUsage("expected osmesa, egl, or egl:N with the number of a device that taut doctor names, not {}", gl);
 }
 
 void addRendererFlag(Options& options, std::string& gl) {

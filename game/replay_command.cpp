@@ -14,6 +14,7 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
 #include "taut/core/whole_file.h"
@@ -58,11 +59,8 @@ world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape)
         return std::move(loaded.spec);
     }
     if (tape.origin.text.empty())
-        throw core::Error(
-            core::ErrorKind::usage,
-            fmt::format("{}: this tape holds no scene (it is the golden of a scenario): say which to play "
-                        "with --scene",
-                        flags.tape));
+        failUsage("{}: this tape holds no scene (it is the golden of a scenario): say which to play with --scene",
+                  flags.tape);
     if (tape.origin.files.empty() &&
         (!core::isThere(tape.origin.scene) || core::fileContent(tape.origin.scene) != tape.origin.text))
         printWarnings({fmt::format("{} is not what it was; the text on the tape is played", tape.origin.scene)});
@@ -116,17 +114,14 @@ int verdict(const ReplayFlags& flags, const regression::Tape& tape, const regres
 int replay(const ReplayFlags& flags) {
     const regression::Tape tape = regression::readTape(flags.tape);
     if (!flags.verify) {
-        if (!flags.scene.empty()) throw core::Error(core::ErrorKind::usage, "--scene goes with --verify");
+        if (!flags.scene.empty()) failUsage("--scene goes with --verify");
         printFacts(flags.tape, tape);
         return static_cast<int>(ExitCode::ok);
     }
     if (!flags.other.empty()) {
-        if (!flags.scene.empty())
-            throw core::Error(core::ErrorKind::usage, "--verify with a second tape plays nothing: leave --scene out");
+        if (!flags.scene.empty()) failUsage("--verify with a second tape plays nothing: leave --scene out");
         if (std::filesystem::path(flags.other).extension() == ".toml")
-            throw core::Error(
-                core::ErrorKind::usage,
-                fmt::format("--verify reads a second tape; a scene is played by --verify --scene {}", flags.other));
+            failUsage("--verify reads a second tape; a scene is played by --verify --scene {}", flags.other);
         return verdict(flags, tape, regression::readTape(flags.other));
     }
     if (tape.origin.bits != world::resultBits) {
@@ -151,7 +146,7 @@ Action declareReplay(Options& options) {
             .typeName("[OTHER]")
             .mayBeBare();
     options.value("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
-    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
     options.flag("--quiet", flags->quiet, "No progress");
     return [flags, verify] {

@@ -7,6 +7,7 @@
 
 #include "game/flags.h"
 #include "game/messages.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/video_writer.h"
@@ -114,19 +115,16 @@ RunPart partOf(const RenderFlags& flags, const world::RunSpec& run) {
     if (flags.continuation.from) range.first = *flags.continuation.from;
     part.frames = {range.first, range.last.value_or(part.count - 1)};
     if (part.frames.first >= part.count || part.frames.last >= part.count)
-        throw core::Error(
-            core::ErrorKind::usage,
-            fmt::format("{}: the scene has frames 0-{}; --seconds makes it longer",
-                        flags.frames.empty() ? fmt::format("--from {}", range.first) : "--frames " + flags.frames,
-                        part.count - 1));
+        failUsage("{}: the scene has frames 0-{}; --seconds makes it longer",
+                  flags.frames.empty() ? fmt::format("--from {}", range.first) : "--frames " + flags.frames,
+                  part.count - 1);
     if (!flags.frames.empty()) part.title = "--frames " + flags.frames;
     if (!flags.shard.empty()) {
         const Shard piece = shard(flags.shard);
         const std::int64_t first = part.frames.first, frames = part.frames.last - first + 1;
         if (piece.count > frames)
-            throw core::Error(core::ErrorKind::usage,
-                              fmt::format("--shard {}: {} frame{} cannot be shared out to {}", flags.shard, frames,
-                                          frames == 1 ? "" : "s", piece.count));
+            failUsage("--shard {}: {} frame{} cannot be shared out to {}", flags.shard, frames, frames == 1 ? "" : "s",
+                      piece.count);
         part.frames = {first + piece.begin(frames), first + piece.end(frames) - 1};
         part.title = "--shard " + flags.shard;
     }

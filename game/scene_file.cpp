@@ -7,6 +7,7 @@
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/suggestion.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/light_image.h"
@@ -61,6 +62,10 @@ world::SceneSpec readScene(const std::string& argument, const std::vector<std::s
     return readSceneWithKeys(argument, overrides, isConfined).spec;
 }
 
+void addOverrideFlag(Options& options, std::vector<std::string>& overrides, const std::string& help) {
+    options.value("--set", overrides, help).typeName("KEY=VALUE").oneValue();
+}
+
 void addConfinedFlag(Options& options, bool& isConfined) {
     options.flag("--confined", isConfined, "Read files below the scene's folder and the shipped assets only");
 }
@@ -100,13 +105,12 @@ void notePreparation(const world::SceneSpec& spec) {
 void expectWritable(const std::filesystem::path& file, const world::SceneSpec& spec,
                     const std::vector<std::string>& overrides) {
     if (!overrides.empty())
-        throw core::Error(core::ErrorKind::usage,
-                          "--write and --set do not go together: what is found would not be what the file says");
+        failUsage("--write and --set do not go together: what is found would not be what the file says");
     if (!spec.bases.empty())
-        throw core::Error(core::ErrorKind::usage,
-                          fmt::format("{}: --write needs a scene that is one file; this one builds on {}: take that, "
-                                      "or leave --write out and copy the values",
-                                      file.string(), spec.bases.front()));
+        failUsage(
+            "{}: --write needs a scene that is one file; this one builds on {}: take that, "
+            "or leave --write out and copy the values",
+            file.string(), spec.bases.front());
 }
 
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {

@@ -18,6 +18,8 @@ std::filesystem::path sceneFile(const std::string& argument);
 // Options with the asset folder. A confined scene reads only files below its own folder and the shipped assets.
 scene::LoadOptions loadOptions(const std::vector<std::string>& overrides = {}, bool isConfined = false);
 void addConfinedFlag(Options& options, bool& isConfined);
+void addOverrideFlag(Options& options, std::vector<std::string>& overrides,
+                     const std::string& help = "Override a field: --set cloth.flag.cells=[72,48]; repeatable");
 
 // Reads the scene with overrides ("key=value") and prints its warnings to standard error. Throws core::Error, also if
 // the scene needs more memory than the machine can give.

@@ -13,9 +13,7 @@ void addSearchFlags(Options& options, SearchFlags& flags, const std::string& say
     options.value("SCENE", flags.scene, says).required();
     options.value("-o,--json", flags.json, "Everything that was found, as JSON").typeName("FILE");
     options.flag("--write", flags.write, "Write the values found into the scene file; the rest of it stays");
-    options.value("--set", flags.overrides, "Override a field of the scene; repeatable")
-        .typeName("KEY=VALUE")
-        .oneValue();
+    addOverrideFlag(options, flags.overrides, "Override a field of the scene; repeatable");
     options.flag("--quiet", flags.quiet, "No progress");
 }
 

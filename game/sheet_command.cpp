@@ -6,7 +6,7 @@
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/messages.h"
-#include "taut/core/error.h"
+#include "game/usage.h"
 #include "taut/image/png.h"
 #include "taut/pipeline/run_parts.h"
 #include "taut/report/contact_sheet.h"
@@ -31,9 +31,7 @@ int sheet(const SheetFlags& flags) {
     const image::FramePattern pattern = patternOf(flags.frames);
     const std::filesystem::path output =
         flags.output.empty() ? pattern.folder() / "sheet.png" : std::filesystem::path(flags.output);
-    if (output.extension() != ".png")
-        throw core::Error(core::ErrorKind::usage,
-                          fmt::format("{}: let the name of the sheet end in .png", output.string()));
+    if (output.extension() != ".png") failUsage("{}: let the name of the sheet end in .png", output.string());
     const image::Image picture = report::contactSheet(pattern, flags.layout);
     image::writePng(output, picture);
     printResult("{}: {}x{} pixels\n", output.string(), picture.width, picture.height);

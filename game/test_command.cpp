@@ -186,7 +186,7 @@ Action declareTest(Options& options) {
         .oneValue();
     options.value("--why", flags->why, "The reason for an update, kept in the manifest").typeName("TEXT");
     addRendererFlag(options, flags->gl);
-    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
     options.flag("--calibrate", flags->calibrate,
                  "Measure what the thresholds of pictures let through: noise, and mistakes made on purpose");

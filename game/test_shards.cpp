@@ -10,6 +10,7 @@
 
 #include "game/exit_code.h"
 #include "game/test_outcome.h"
+#include "game/usage.h"
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
 #include "taut/core/private/hash.h"
@@ -139,8 +140,8 @@ void deal(const TestFlags& flags, TestRun& run) {
     run.key = keyOf(flags, run);
     const auto count = static_cast<std::int64_t>(run.names.size());
     if (piece.count > count)
-        throw core::Error(core::ErrorKind::usage, fmt::format("--shard {}: {} scenario{} cannot be shared out to {}",
-                                                              flags.shard, count, count == 1 ? "" : "s", piece.count));
+        failUsage("--shard {}: {} scenario{} cannot be shared out to {}", flags.shard, count, count == 1 ? "" : "s",
+                  piece.count);
     std::vector<double> costs;
     for (const regression::Scenario& scenario : run.read.scenarios)
         costs.push_back(scene::sizeOf(scenario.spec).bytes() * scenario.spec.run.seconds);

@@ -12,9 +12,10 @@
 #include "game/scene_file.h"
 #include "game/suggestion.h"
 #include "game/test_shards.h"
+#include "game/usage.h"
 #include "taut/core/error.h"
-#include "taut/core/private/file_batch.h"
 #include "taut/core/glob.h"
+#include "taut/core/private/file_batch.h"
 
 namespace taut::game {
 
@@ -55,10 +56,8 @@ void choose(const TestFlags& flags, regression::ReadScenarios& read) {
     for (const std::string& word : wanted)
         if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return fits(word, name); })) {
             const std::string hint = didYouMean(word, names);
-            throw core::Error(
-                core::ErrorKind::usage,
-                fmt::format("{}: there is no scenario '{}'{}", updates ? "--update" : "--filter", word,
-                            hint.empty() ? "; there are " + fmt::format("{}", fmt::join(names, ", ")) : hint));
+            failUsage("{}: there is no scenario '{}'{}", updates ? "--update" : "--filter", word,
+                      hint.empty() ? "; there are " + fmt::format("{}", fmt::join(names, ", ")) : hint);
         }
     const auto isUnwanted = [&](const auto& scenario) {
         return std::none_of(wanted.begin(), wanted.end(),
@@ -69,21 +68,20 @@ void choose(const TestFlags& flags, regression::ReadScenarios& read) {
 }
 
 void checkFlags(const TestFlags& flags) {
-    const auto fail = [](const char* message) { throw core::Error(core::ErrorKind::usage, message); };
     const bool hasWhy = flags.why.find_first_not_of(" \t\r\n") != std::string::npos;
     if (!flags.updates.empty() && !hasWhy)
-        fail("--update changes what counts as right: say why with --why \"…\"; the manifest keeps it");
-    if (flags.updates.empty() && !flags.why.empty()) fail("--why goes with --update NAME");
+        failUsage("--update changes what counts as right: say why with --why \"…\"; the manifest keeps it");
+    if (flags.updates.empty() && !flags.why.empty()) failUsage("--why goes with --update NAME");
     if (!flags.updates.empty() && !flags.filters.empty())
-        fail("--update names the scenarios itself: leave --filter out");
-    if (!flags.updates.empty() && flags.calibrate) fail("--calibrate changes no golden: leave --update out");
+        failUsage("--update names the scenarios itself: leave --filter out");
+    if (!flags.updates.empty() && flags.calibrate) failUsage("--calibrate changes no golden: leave --update out");
     if (flags.resume && flags.shard.empty())
-        fail("--resume passes over a shard that is there: it goes with --shard K/N");
+        failUsage("--resume passes over a shard that is there: it goes with --shard K/N");
     if (flags.shard.empty()) return;
     (void)shard(flags.shard);
-    if (!flags.updates.empty()) fail("--shard changes no golden: leave --update out");
-    if (flags.calibrate) fail("--calibrate measures all scenarios: leave --shard out");
-    if (!flags.junit.empty()) fail("a shard is no whole report: taut join FOLDER --junit FILE writes that of all");
+    if (!flags.updates.empty()) failUsage("--shard changes no golden: leave --update out");
+    if (flags.calibrate) failUsage("--calibrate measures all scenarios: leave --shard out");
+    if (!flags.junit.empty()) failUsage("a shard is no whole report: taut join FOLDER --junit FILE writes that of all");
 }
 
 regression::DrawingOptions drawingOptions(const TestFlags& flags, int threads) {

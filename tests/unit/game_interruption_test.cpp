@@ -87,24 +87,6 @@ TEST(Interrupted, ProgramLeavesWholeFramesAndTheirRecord) {
     EXPECT_EQ(json["state_hash"].size(), pictures);
 }
 
-// Forty pictures, each drawn 256 times: they are not done before the signal comes.
-TEST(Interrupted, ShardsOfAProgramEndWithIt) {
-    const TemporaryFolder folder;
-    const pid_t process = started({"render", endlessScene(folder).string(), "-o", (folder / "out").string(), "--jobs",
-                                   "2", "--seconds", "0.66", "--motion-blur", "256"},
-                                  folder / "messages");
-    EXPECT_TRUE(comesTrue([&] {
-        return std::filesystem::exists(folder / "out/frame_000001.png") &&
-               std::filesystem::exists(folder / "out/frame_000021.png");
-    }));
-    ::kill(process, SIGINT);
-    EXPECT_EQ(exitCodeOf(process), 130) << test::contentOf(folder / "messages");
-    EXPECT_FALSE(std::filesystem::exists(folder / "out/.taut-jobs"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "out/run.json"));
-    for (const char* part : {"run_0-19.json", "run_20-39.json"})
-        EXPECT_EQ(nlohmann::json::parse(test::contentOf(folder / "out" / part))["ended"], "interrupted");
-}
-
 TEST(Interrupted, ProgramLeavesAWholeVideoWhenTerminated) {
     const TemporaryFolder folder;
     const pid_t process =

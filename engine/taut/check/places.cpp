@@ -15,7 +15,7 @@ namespace {
 
 // Sorted names of the bodies that a target names; all for an empty one.
 std::vector<std::string> bodiesOf(const Now& now, const std::string& target) {
-    const std::string pattern = target.empty() ? "*" : target.substr(0, target.find('@'));
+    const std::string_view pattern = target.empty() ? "*" : world::withoutSelector(target);
     std::vector<std::string> names;
     for (const world::BodyHash& body : now.world().bodyHashes())
         if (world::matches(pattern, body.name)) names.push_back(body.name);

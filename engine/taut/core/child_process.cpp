@@ -174,19 +174,6 @@ ChildEnd ChildProcess::wait(const std::atomic<bool>* stop) {
     return end_;
 }
 
-bool ChildProcess::isRunning() {
-    if (process_ < 0) return false;
-    int status = 0;
-    if (::waitpid(process_, &status, WNOHANG) == 0) return true;
-    process_ = -1;
-    end_ = endOf(status);
-    return false;
-}
-
-void ChildProcess::askToEnd() {
-    if (process_ > 0) ::kill(process_, SIGTERM);
-}
-
 std::string ChildProcess::output() const {
     return contentOf(output_);
 }

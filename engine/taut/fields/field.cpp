@@ -19,8 +19,8 @@ bool isName(const std::string& name) {
 }
 
 Place CheckInput::at(const std::string& key) const {
-    const Member* member = table.find(key);
-    return member == nullptr ? place : member->value.place;
+    const Node* value = table.at(key);
+    return value == nullptr ? place : value->place;
 }
 
 const Field* Section::find(const std::string& key) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 namespace taut::fields {
@@ -14,6 +15,44 @@ const Member* Node::find(std::string_view key) const {
 
 Member* Node::find(std::string_view key) {
     return const_cast<Member*>(std::as_const(*this).find(key));
+}
+
+const Node* Node::at(std::string_view key) const {
+    if (kind != NodeKind::list) {
+        const Member* member = find(key);
+        return member == nullptr ? nullptr : &member->value;
+    }
+    std::size_t i = items.size();
+    std::from_chars(key.data(), key.data() + key.size(), i);
+    return i < items.size() && key == std::to_string(i) ? &items[i] : nullptr;
+}
+
+Node* Node::at(std::string_view key) {
+    return const_cast<Node*>(std::as_const(*this).at(key));
+}
+
+const Node* Node::along(const KeyPath& path) const {
+    const Node* node = this;
+    for (const std::string& key : path)
+        if (node != nullptr) node = node->at(key);
+    return node;
+}
+
+std::vector<std::string> Node::keys() const {
+    std::vector<std::string> names;
+    for (const Member& member : members) names.push_back(member.key);
+    for (std::size_t i = 0; i < items.size(); ++i) names.push_back(std::to_string(i));
+    return names;
+}
+
+KeyPath keyPath(std::string_view key) {
+    KeyPath path;
+    while (true) {
+        const std::size_t dot = key.find('.');
+        path.emplace_back(key.substr(0, dot));
+        if (dot == std::string_view::npos) return path;
+        key.remove_prefix(dot + 1);
+    }
 }
 
 std::string description(const Node& node) {

@@ -20,6 +20,10 @@ enum class NodeKind { flag, whole, number, text, time, list, table };
 
 struct Member;
 
+// Keys one inside another: "cloth.flag.cells" at its dots. Elements of lists go by their number, from 0.
+using KeyPath = std::vector<std::string>;
+KeyPath keyPath(std::string_view key);
+
 struct Node {
     NodeKind kind = NodeKind::table;
     Place place;  // for a table under a header: the header's
@@ -33,6 +37,13 @@ struct Node {
 
     const Member* find(std::string_view key) const;
     Member* find(std::string_view key);
+
+    // What is inside under that key; null: nothing.
+    const Node* at(std::string_view key) const;
+    Node* at(std::string_view key);
+    const Node* along(const KeyPath& path) const;
+    // All that at() finds, in order.
+    std::vector<std::string> keys() const;
 };
 
 struct Member {

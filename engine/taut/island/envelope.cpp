@@ -104,7 +104,7 @@ void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec
         std::vector<GripRates>& hand = hands[action.id];
         hand.resize(envelope.plan.points.size());
         // With a radius any point of the bodies may come near.
-        const std::string bodies = action.target.substr(0, action.target.find('@'));
+        const std::string bodies(withoutSelector(action.target));
         for (int i : action.radius > 0 ? pointsOf(envelope.plan, bodies) : named) {
             GripRates& most = hand[static_cast<std::size_t>(i)];
             most.omega2 = std::max(most.omega2, rates.omega2);

@@ -51,10 +51,7 @@ PartRecord recordIn(const Json& json, const std::filesystem::path& path) {
     record.scene = json.at("scene").get<std::string>();
     record.program = json.at("program").get<std::string>();
     record.bits = json.value("bits", 1);
-    if (!json.at("gl").is_null()) {
-        record.gl = rendererIn(json.at("gl"));
-        record.renderer = rendererText(record.gl);
-    }
+    if (!json.at("gl").is_null()) record.renderer = rendererText(rendererIn(json.at("gl")));
     record.size = fmt::format("{} x {}", json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>());
     record.fps = json.at("fps").get<double>();
     record.hasAlpha = !json.at("layers").at("alpha").is_null();

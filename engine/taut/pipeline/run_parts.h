@@ -23,8 +23,7 @@ struct PartRecord {
     std::string ended;           // "complete", "interrupted", "diverged"; "begun" while it is at work
     std::string scene, program;  // file, and version
     std::string size;            // "640 x 360"
-    std::string renderer;        // rendererText(gl)
-    render::RendererInfo gl;
+    std::string renderer;        // rendererText()
     double fps = 60.0;
     bool hasAlpha = false;
     std::vector<std::string> besides;  // kinds of files beside the frames, "depth"

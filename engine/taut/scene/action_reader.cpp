@@ -47,10 +47,10 @@ std::unique_ptr<world::ActionSpec> ActionReader::read(const std::string& table, 
     ReadScene scene = readScene(document, sections, label, problems);
     if (problems.errorCount() > 0) fail(problems);
     world::ActionSpec& action = scene.spec.actions[0];
-    const Node& item = document.find("at")->value.items.front();
+    const Node& item = document.at("at")->items.front();
     const BodyIndex bodies(spec, kinds_, {});
     const auto report = [&](const char* key, const std::optional<TargetFault>& fault) {
-        if (fault) problems.addError(item.find(key)->value.place, fault->message, fault->remedy);
+        if (fault) problems.addError(item.at(key)->place, fault->message, fault->remedy);
     };
     if (const auto* onPoints = dynamic_cast<const world::PointsAction*>(&action))
         report("target", bodies.targetFault(onPoints->target));
@@ -64,7 +64,7 @@ std::unique_ptr<world::ActionSpec> ActionReader::read(const std::string& table, 
         const std::optional<RampKey> key = rampKey(change->key, root_, sections, copy, fault);
         if (!key) report("key", fault);
         const std::optional<Value> value =
-            key ? fieldValue(*key->field, item.find("to")->value, problems) : std::nullopt;
+            key ? fieldValue(*key->field, *item.at("to"), problems) : std::nullopt;
         if (value) {
             change->field = key->access;
             if (const double* number = std::get_if<double>(&*value)) change->value = {*number};

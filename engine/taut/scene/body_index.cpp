@@ -7,7 +7,6 @@
 
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
-#include "taut/core/numbers.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/sections.h"
 #include "taut/spec/targets.h"
@@ -16,9 +15,7 @@ namespace taut::scene {
 
 namespace {
 
-std::string_view withoutSelector(std::string_view target) {
-    return target.substr(0, target.find('@'));
-}
+using world::withoutSelector;
 
 std::string_view kindOf(std::string_view title) {
     return title.substr(0, title.find('.'));
@@ -33,10 +30,9 @@ bool fits(std::string_view pattern, const BodyEntry& body) {
 }
 
 std::optional<TargetFault> indexFault(const BodyEntry& body, const std::string& selector) {
-    const std::string_view digits = std::string_view(selector).substr(1);
-    const bool isIndex = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
-    if (!isIndex) return TargetFault{fmt::format("\"{}\" is not the number of a point", selector), "write #0, #1, …"};
-    if (body.isFaulty || (digits.size() < 15 && *core::numberIn(digits) < body.outline.points)) return std::nullopt;
+    const auto number = world::pointNumber(selector);
+    if (!number) return TargetFault{fmt::format("\"{}\" is not the number of a point", selector), "write #0, #1, …"};
+    if (body.isFaulty || *number < body.outline.points) return std::nullopt;
     return TargetFault{fmt::format("{} has no point {}", body.title(), selector),
                        fmt::format("its points are #0 … #{:.0f}", body.outline.points - 1)};
 }
@@ -55,8 +51,7 @@ std::optional<TargetFault> uvFault(const BodyEntry& body, const std::string& sel
 }
 
 std::optional<TargetFault> percentFault(const BodyEntry& body, const std::string& selector) {
-    const auto percent = core::numberIn(std::string_view(selector).substr(0, selector.size() - 1));
-    if (!percent || *percent < 0 || *percent > 100)
+    if (!world::ropePlace(selector))
         return TargetFault{fmt::format("\"{}\" is not a place along a rope", selector), "write 0% … 100%"};
     if (body.outline.isLine) return std::nullopt;
     return TargetFault{fmt::format("{} is no rope: it has no {}", body.title(), selector), ""};

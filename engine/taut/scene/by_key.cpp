@@ -102,16 +102,6 @@ std::vector<Change> differences(const world::SceneSpec& before, const world::Sce
     return changes;
 }
 
-std::vector<std::string> keyParts(std::string_view key) {
-    std::vector<std::string> parts;
-    while (true) {
-        const std::size_t dot = key.find('.');
-        parts.emplace_back(key.substr(0, dot));
-        if (dot == std::string_view::npos) return parts;
-        key.remove_prefix(dot + 1);
-    }
-}
-
 std::string numberText(double value) {
     std::string text = fmt::format("{}", value);
     return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;

@@ -26,12 +26,12 @@ class Claims {
     void check() {
         for (std::size_t i = 0; i < scene_.spec.checks.size(); ++i) {
             if (scene_.faulty.contains(fmt::format("check[{}]", i))) continue;
-            const Node& item = root_.find("check")->value.items[i];
+            const Node& item = root_.at("check")->items[i];
             checkTimes(item);
-            checkClaim(scene_.spec.checks[i], item.find("that")->value);
+            checkClaim(scene_.spec.checks[i], *item.at("that"));
         }
         for (std::size_t i = 0; i < scene_.spec.fit.targets.size(); ++i)
-            checkTarget(scene_.spec.fit.targets[i], root_.find("fit")->value.find("target")->value.items[i]);
+            checkTarget(scene_.spec.fit.targets[i], root_.along({"fit", "target"})->items[i]);
     }
 
   private:
@@ -65,11 +65,11 @@ class Claims {
     void checkTarget(const world::FitTarget& target, const Node& item) {
         if (target.points.empty()) return;  // something else is wrong with it
         if (ticks_.at(target.points.back().time) > ticks_.last() && !isLengthOverridden(root_))
-            problems_.addError(item.find(target.curve.empty() ? "at" : "curve")->value.place,
+            problems_.addError(item.at(target.curve.empty() ? "at" : "curve")->place,
                                fmt::format("{:.6g} s is past the end: the last frame shows {:.6g} s",
                                            target.points.back().time, ticks_.secondsOf(ticks_.last())),
                                "set seconds in [run]");
-        const Node& that = item.find("that")->value;
+        const Node& that = *item.at("that");
         try {
             const check::Figures figures = check::Figures::parse(target.that);
             if (figures.names().size() != 1)
@@ -156,7 +156,7 @@ void checkGoldens(const Node& root, const ReadScene& scene, Problems& problems) 
     const std::int64_t last = world::Ticks(scene.spec.run).lastFrame;
     for (std::size_t i = 0; i < scene.spec.goldens.size(); ++i) {
         if (scene.faulty.contains(fmt::format("golden[{}]", i))) continue;
-        const Node& frames = root.find("golden")->value.items[i].find("frames")->value;
+        const Node& frames = *root.at("golden")->items[i].at("frames");
         for (const Node& frame : frames.items) {
             if (frame.whole <= last || isLengthOverridden(root)) continue;
             problems.addError(frame.place, fmt::format("frame {} is past the end: the last is {}", frame.whole, last));

@@ -61,7 +61,7 @@ class Library {
         if (file == files_.end()) {
             std::vector<std::string> known;
             for (const path& p : files_) known.push_back(p.stem().string());
-            const std::string meant = suggestion(stem, known);
+            const std::string meant = fields::suggestion(stem, known);
             problems_.addError(place, fmt::format("there is no fabric \"{}\"", stem),
                                meant.empty() ? "taut materials lists them" : meant);
             return member;
@@ -69,12 +69,11 @@ class Library {
         try {
             const std::string text = textFile(*file, mostBytes);
             const Node tree = treeOf(text, problems_.addBase(text, file->string()), problems_);
-            const Member* materials = tree.find("material");
-            const Member* found = materials != nullptr ? materials->value.find(stem) : nullptr;
+            const Node* found = tree.along({"material", stem});
             if (found == nullptr)
                 problems_.addError(place, fmt::format("{} has no [material.{}]", file->string(), stem));
             else
-                member.value = found->value;
+                member.value = *found;
             used_.push_back(file->string());
         } catch (const core::Error& error) {
             if (problems_.errorCount() > 0) throw;  // not TOML
@@ -116,10 +115,9 @@ std::vector<std::string> addFabrics(const std::vector<path>& assetFolders, Node&
     Library library(assetFolders, problems);
     while (true) {  // a fabric may be like another
         std::vector<Member> added;
-        const Member* materials = root.find("material");
         eachFabric(root, [&](const std::string& name, Place place) {
             const bool isThere =
-                (materials != nullptr && materials->value.find(name) != nullptr) ||
+                root.along({"material", name}) != nullptr ||
                 std::any_of(added.begin(), added.end(), [&](const Member& m) { return m.key == name; });
             if (!isThere) added.push_back(library.fabric(name, place));
         });

@@ -29,7 +29,7 @@ void checkCamera(const CheckInput& input, const CameraSpec& camera) {
         input.problems.addError(input.at("orbit_period_s"), "orbit_period_s must not be 0");
     if (camera.keys.empty()) checkView(input, input.table, input.place, camera.eye, camera.target);
     for (std::size_t i = 0; i < camera.keys.size(); ++i) {
-        const Node& item = input.table.find("keys")->value.items[i];
+        const Node& item = input.table.at("keys")->items[i];
         checkView(input, item, item.place, camera.keys[i].eye, camera.keys[i].target);
     }
 }

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "taut/scene/private/body_index.h"
-#include "taut/scene/private/by_key.h"
 #include "taut/scene/private/fabrics.h"
 
 namespace taut::scene {
@@ -36,20 +35,16 @@ const Field* rowOf(const std::vector<std::string>& parts, const std::vector<Scen
 const Node* numberAt(const Node& root, const std::string& key, TargetFault& fault) {
     const Node* node = &root;
     std::string path;
-    for (const std::string& part : keyParts(key)) {
-        std::vector<std::string> names;
-        for (const Member& member : node->members) names.push_back(member.key);
-        for (std::size_t i = 0; i < node->items.size(); ++i) names.push_back(std::to_string(i));
-        const auto name = std::find(names.begin(), names.end(), part);
-        if (name == names.end()) {
+    for (const std::string& part : fields::keyPath(key)) {
+        const Node* next = node->at(part);
+        if (next == nullptr) {
             fault = {path.empty() ? fmt::format("the scene has no \"{}\"", part)
                                   : fmt::format("{} has no \"{}\" to begin from", path, part),
-                     suggestion(part, names)};
+                     suggestion(part, node->keys())};
             if (fault.remedy.empty() && !path.empty()) fault.remedy = "give it a value in the scene";
             return nullptr;
         }
-        const auto i = static_cast<std::size_t>(name - names.begin());
-        node = node->kind == NodeKind::list ? &node->items[i] : &node->members[i].value;
+        node = next;
         path += (path.empty() ? "" : ".") + part;
         if (isFabric(part)) {
             fault = {fmt::format("{} is of the library, and the same for all scenes", path),
@@ -76,7 +71,7 @@ void checkFitKeys(const Node& root, const std::vector<SceneSection>& sections, R
     if (member == nullptr || scene.faulty.contains("fit")) return;
     const Node& table = member->value;
     world::FitSpec& fit = scene.spec.fit;
-    const Node& keys = table.find("keys")->value;
+    const Node& keys = *table.at("keys");
     if (fit.keys.empty() || fit.keys.size() > mostKeys)
         return problems.addError(keys.place,
                                  fmt::format("a fit seeks 1 to {} numbers, not {}", mostKeys, fit.keys.size()));
@@ -85,7 +80,7 @@ void checkFitKeys(const Node& root, const std::vector<SceneSection>& sections, R
     for (const auto& [bound, values] : {std::pair("low", &fit.low), std::pair("high", &fit.high)})
         if (values->size() != fit.keys.size())
             return problems.addError(
-                table.find(bound)->value.place,
+                table.at(bound)->place,
                 fmt::format("there are {} keys and {} numbers here", fit.keys.size(), values->size()),
                 fmt::format("write one for each key"));
     for (std::size_t i = 0; i < fit.keys.size(); ++i) {
@@ -101,14 +96,14 @@ void checkFitKeys(const Node& root, const std::vector<SceneSection>& sections, R
             problems.addError(place, fault.message, fault.remedy);
             continue;
         }
-        const Field* row = rowOf(keyParts(key), sections);
+        const Field* row = rowOf(fields::keyPath(key), sections);
         if (row != nullptr && (row->kind == FieldKind::whole || row->kind == FieldKind::wholeVector)) {
             problems.addError(place, fmt::format("{} is a whole number, which nothing can be fitted with", key));
             continue;
         }
         fit.start.push_back(number->number);
         const double low = fit.low[i], high = fit.high[i];
-        const Place lowPlace = placeOf(table.find("low")->value, i), highPlace = placeOf(table.find("high")->value, i);
+        const Place lowPlace = placeOf(*table.at("low"), i), highPlace = placeOf(*table.at("high"), i);
         const Range range = row != nullptr ? row->range : anyNumber;
         if (!(low < high))
             problems.addError(lowPlace, fmt::format("low of {} is {:g}, high is {:g}", key, low, high),

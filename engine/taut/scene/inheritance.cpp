@@ -104,16 +104,15 @@ class Elements {
         for (const Node* layer : below)
             if (name == nullptr) name = layer->find("material");
         if (name == nullptr || materials_ == nullptr) return;
-        const Member* material = materials_->find(name->value.text);
-        if (material == nullptr) return;  // reported with the references
-        if (const Member* things = material->value.find(section_.name))
-            below.insert(below.end() - (defaults_ != nullptr ? 1 : 0), &things->value);
+        // One that is missing is reported with the references.
+        if (const Node* things = materials_->along({name->value.text, section_.name}))
+            below.insert(below.end() - (defaults_ != nullptr ? 1 : 0), things);
     }
 
     void reportChain(const std::vector<const Member*>& chain, const std::string& what) {
         std::vector<std::string> titles;
         for (const Member* element : chain) titles.push_back(titleOf(*element));
-        problems_.addError(chain.front()->value.find("like")->value.place,
+        problems_.addError(chain.front()->value.at("like")->place,
                            fmt::format("{} {}: {}", titles.front(), what, joined(titles, " -> ")));
     }
 
@@ -151,17 +150,14 @@ void inherit(const std::vector<SceneSection>& sections, Node& root, Problems& pr
     const auto stands = std::find_if(root.members.begin(), root.members.end(),
                                      [](const Member& member) { return member.key == "defaults"; });
     if (stands != root.members.end()) std::rotate(root.members.begin(), stands, stands + 1);
-    const Member* defaults = root.find("defaults");
     std::size_t taken = 0;
     for (const SceneSection& section : sections) {
         Member* elements = root.find(section.name);
         if (section.layout != Layout::named || elements == nullptr || elements->value.kind != NodeKind::table) continue;
-        const Member* own = defaults != nullptr ? defaults->value.find(section.name) : nullptr;
-        const bool isTable = own != nullptr && own->value.kind == NodeKind::table;
-        const Member* materials = section.name != "material" ? root.find("material") : nullptr;
-        Elements(section, isTable ? &own->value : nullptr, materials != nullptr ? &materials->value : nullptr,
-                 elements->value, taken, problems)
-            .inherit();
+        const Node* own = root.along({"defaults", section.name});
+        const bool isTable = own != nullptr && own->kind == NodeKind::table;
+        const Node* materials = section.name != "material" ? root.at("material") : nullptr;
+        Elements(section, isTable ? own : nullptr, materials, elements->value, taken, problems).inherit();
     }
 }
 

@@ -62,7 +62,7 @@ void readCurves(const Node& root, const Confinement& confinement, ReadScene& sce
     for (std::size_t i = 0; i < scene.spec.fit.targets.size(); ++i) {
         world::FitTarget& target = scene.spec.fit.targets[i];
         if (target.curve.empty()) continue;
-        const Place place = root.find("fit")->value.find("target")->value.items[i].find("curve")->value.place;
+        const Place place = root.along({"fit", "target"})->items[i].at("curve")->place;
         const std::filesystem::path namedIn(place.origin > 0 ? scene.spec.file : problems.fileOf(place));
         const std::filesystem::path file = namedIn.parent_path() / target.curve;
         std::error_code ignored;

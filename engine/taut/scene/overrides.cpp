@@ -8,7 +8,6 @@
 
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
-#include "taut/scene/private/by_key.h"
 #include "taut/scene/private/document.h"
 #include "taut/scene/private/inheritance.h"
 
@@ -51,12 +50,6 @@ std::optional<Node> valueOf(const std::string& text, Place place, Problems& prob
     return std::nullopt;
 }
 
-std::vector<std::string> keysOf(const Node& table) {
-    std::vector<std::string> keys;
-    for (const Member& member : table.members) keys.push_back(member.key);
-    return keys;
-}
-
 // Puts one value at the place of a key.
 class Override {
   public:
@@ -92,11 +85,10 @@ class Override {
     void setInList(Node& list, std::size_t depth, const std::string& path) {
         const std::string& part = parts_[depth];
         bool isThere = false;
-        for (std::size_t i = 0; i < list.items.size(); ++i) {
-            const std::string number = std::to_string(i);
+        for (const std::string& number : list.keys()) {
             if (!core::matches(part, number)) continue;
             isThere = true;
-            setIn(list.items[i], depth + 1, path + "." + number);
+            setIn(*list.at(number), depth + 1, path + "." + number);
         }
         if (isThere) return;
         report(fmt::format("{} has no element \"{}\"", path, part),
@@ -118,7 +110,7 @@ class Override {
             return report(fmt::format("the scene has no [[{}]]", part));
         // One value cannot make a new body, collider, …, so this is a slip.
         if (isNameOfElement)
-            return report(fmt::format("there is no {} \"{}\"", section_->name, part), suggestion(part, keysOf(table)));
+            return report(fmt::format("there is no {} \"{}\"", section_->name, part), suggestion(part, table.keys()));
         Member fresh{part, place_, Node{}};
         fresh.value.place = place_;
         if (depth == 2 && depth + 1 < parts_.size()) takeList(path, fresh);
@@ -137,9 +129,8 @@ class Override {
         Node whole = root_;
         Problems unheard("", "", {});
         inherit(sections_, whole, unheard);
-        const Member* element = whole.find(section_->name)->value.find(path.substr(section_->name.size() + 1));
-        const Member* taken = element->value.find(fresh.key);
-        if (taken != nullptr && taken->value.kind == NodeKind::list) fresh.value = taken->value;
+        const Node* taken = whole.along({section_->name, path.substr(section_->name.size() + 1), fresh.key});
+        if (taken != nullptr && taken->kind == NodeKind::list) fresh.value = *taken;
     }
 
     void report(const std::string& message, const std::string& remedy = "") {
@@ -172,7 +163,7 @@ void applyOverride(const std::string& text, int origin, const std::vector<SceneS
                    Problems& problems) {
     const Place place{origin, 1, 1};
     const std::size_t equals = text.find('=');
-    const std::vector<std::string> parts = keyParts(withoutBlanks(std::string_view(text).substr(0, equals)));
+    const std::vector<std::string> parts = fields::keyPath(withoutBlanks(std::string_view(text).substr(0, equals)));
     const std::optional<Node> value =
         valueOf(withoutBlanks(std::string_view(text).substr(equals + 1)), place, problems);
     if (!value) return;

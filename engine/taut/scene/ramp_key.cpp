@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "taut/fields/private/problems.h"
-#include "taut/scene/private/by_key.h"
 
 namespace taut::scene {
 
@@ -46,21 +45,6 @@ std::vector<double> numbersIn(const Value& value) {
     return {};
 }
 
-// The names of a kind's elements in the document.
-std::vector<std::string> namesIn(const Node& root, const std::string& kind) {
-    std::vector<std::string> names;
-    const Member* section = root.find(kind);
-    if (section == nullptr) return names;
-    for (const Member& member : section->value.members) names.push_back(member.key);
-    return names;
-}
-
-const Node* tableOf(const Node& root, const SceneSection& section, const std::string& name) {
-    const Member* member = root.find(section.name);
-    if (member != nullptr && section.layout == Layout::named) member = member->value.find(name);
-    return member == nullptr ? nullptr : &member->value;
-}
-
 // A row of a section's struct.
 struct RowField final : world::RampField {
     std::string name;  // of the struct
@@ -84,7 +68,7 @@ struct RowField final : world::RampField {
 
 std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<SceneSection>& sections,
                                world::SceneSpec& scene, TargetFault& fault) {
-    const std::vector<std::string> parts = keyParts(key);
+    const std::vector<std::string> parts = fields::keyPath(key);
     const auto section = std::find_if(sections.begin(), sections.end(),
                                       [&](const Section& s) { return !s.name.empty() && s.name == parts[0]; });
     const auto fail = [&](std::string message, std::string remedy) {
@@ -105,8 +89,9 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     const std::string name = isNamed && parts.size() > 1 ? parts[1] : "";
     const std::string owner = isNamed ? section->name + "." + name : section->name;
     if (isNamed && section->existing(scene, name) == nullptr) {
-        const std::vector<std::string> names = namesIn(root, section->name);
-        const std::string remedy = names.empty() ? "the scene has none" : suggestion(name, names);
+        const Node* named = root.at(section->name);
+        const bool hasNone = named == nullptr || named->members.empty();
+        const std::string remedy = hasNone ? "the scene has none" : suggestion(name, named->keys());
         return fail(fmt::format("there is no {} \"{}\"", section->name, name), remedy);
     }
     std::string path;
@@ -123,7 +108,7 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     }
     if (!row->field->ramp)
         return fail(fmt::format("{} cannot change while the scene runs", key), "what may of it: " + joined(paths));
-    const Node* table = tableOf(root, *section, name);
+    const Node* table = root.along(fields::keyPath(owner));
     const std::string variant = section->variant && table != nullptr ? section->variant(*table) : "";
     const std::vector<std::string>& only = row->field->only;
     if (!variant.empty() && !only.empty() && std::find(only.begin(), only.end(), variant) == only.end())

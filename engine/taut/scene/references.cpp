@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "taut/bodies/private/ties.h"
+#include "taut/spec/targets.h"
 
 namespace taut::scene {
 
@@ -31,9 +32,8 @@ void checkCollider(const NameReference& reference, const std::vector<std::string
     };
     if (!world::isCollider(reference.text))
         return say(fmt::format("\"{}\" names no collider", reference.text), "write collider.NAME");
-    if (const std::size_t selector = reference.text.find('@'); selector != std::string::npos)
-        return say("a collider has no points to choose from",
-                   fmt::format("write {}", reference.text.substr(0, selector)));
+    if (const std::string_view title = world::withoutSelector(reference.text); title != reference.text)
+        return say("a collider has no points to choose from", fmt::format("write {}", title));
     std::string remedy = suggestion(reference.text, colliders);
     if (remedy.empty()) remedy = fmt::format("add a table [{}]", reference.text);
     say(fmt::format("there is no {}", reference.text), remedy);

@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/scene/private/by_key.h"
 #include "taut/scene/private/document.h"
 
 namespace taut::scene {
 
 namespace {
 
-// Keys from the root; list elements by number.
-using KeyPath = std::vector<std::string>;
+using fields::KeyPath;
 
 [[noreturn]] void fail(const Change& change, const std::string& why) {
     throw core::Error(core::ErrorKind::badContent,
@@ -47,18 +45,12 @@ bool isSame(const Node& a, const Node& b) {
 void set(Node& root, const KeyPath& path, const Node& value, const Change& change) {
     Node* node = &root;
     for (const std::string& key : path) {
-        if (node->kind == NodeKind::list) {
-            const bool isNumber = !key.empty() && key.size() < 9 &&
-                                  std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
-            const std::size_t index = isNumber ? std::stoul(key) : node->items.size();
-            if (index >= node->items.size()) fail(change, "the list has no such element");
-            node = &node->items[index];
-        } else if (node->kind == NodeKind::table) {
-            if (node->find(key) == nullptr) node->members.push_back({key, {}, Node{}});
-            node = &node->find(key)->value;
-        } else {
-            fail(change, "there is a plain value on its way");
-        }
+        if (node->kind == NodeKind::table && node->find(key) == nullptr) node->members.push_back({key, {}, Node{}});
+        Node* next = node->at(key);
+        if (next == nullptr)
+            fail(change, node->kind == NodeKind::list ? "the list has no such element"
+                                                      : "there is a plain value on its way");
+        node = next;
     }
     *node = value;
 }
@@ -72,20 +64,6 @@ std::string keyText(const KeyPath& path, std::size_t from) {
         text += (i == from ? "" : ".") + (isBare ? path[i] : "\"" + path[i] + "\"");
     }
     return text;
-}
-
-const Node* nodeAt(const Node& root, const KeyPath& path) {
-    const Node* node = &root;
-    for (const std::string& key : path) {
-        if (node->kind == NodeKind::list) {
-            node = &node->items[std::stoul(key)];  // set() has refused non-numbers
-            continue;
-        }
-        const Member* member = node->find(key);
-        if (member == nullptr) return nullptr;
-        node = &member->value;
-    }
-    return node;
 }
 
 // A text, and the places of everything in it.
@@ -111,13 +89,13 @@ class Written {
 
     // The text with that value in its place, or else after the last value of its table, in that table's style.
     std::string with(const KeyPath& path, const std::string& value) const {
-        if (const Node* there = nodeAt(tree_, path)) return replaced(at(there->place), at(there->end), value);
+        if (const Node* there = tree_.along(path)) return replaced(at(there->place), at(there->end), value);
         const auto pair = [&](std::size_t from) { return keyText(path, from) + " = " + value; };
         // The innermost table on the way that has braces, a header of its own, or dotted keys.
         const Node* table = path.size() == 1 ? &tree_ : nullptr;
         std::size_t depth = 0, header = 0;  // number of keys that lead to it, and to the header above it
         for (std::size_t d = 1; d < path.size(); ++d) {
-            const Node* next = nodeAt(tree_, KeyPath(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(d)));
+            const Node* next = tree_.along(KeyPath(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(d)));
             if (next == nullptr) break;
             const bool isInBraces = table != nullptr && sign(*table) == '{';
             if (next->kind != NodeKind::table || (isInBraces && sign(*next) != '{') || isImplied(*next)) continue;
@@ -229,16 +207,16 @@ std::string spliced(std::string_view text, std::span<const Change> changes) {
     std::string result(text);
     Node expected = treeOf(text);
     for (const Change& change : changes) {
-        const KeyPath path = keyParts(change.key);
+        const KeyPath path = fields::keyPath(change.key);
         try {
             const std::string alone = "value = " + change.value;
             const Written given(alone);
             if (given.tree().members.size() != 1) fail(change, "it is more than one value");
-            const Node& value = given.tree().find("value")->value;
+            const Node& value = *given.tree().at("value");
             set(expected, path, value, change);
             const Written file(result);
             std::vector<PartChange> parts;
-            addParts(file, nodeAt(file.tree(), path), given, value, path, parts);
+            addParts(file, file.tree().along(path), given, value, path, parts);
             for (const auto& [place, part] : parts) result = Written(result).with(place, part);
             if (!isSame(documentTree(result, 0), expected)) fail(change, "other values would change with it");
         } catch (const SyntaxError& error) {

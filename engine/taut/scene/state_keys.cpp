@@ -88,8 +88,8 @@ void addSection(const Member& section, core::Hash& state, core::Hash& picture) {
 }
 
 double timeOf(const Node& action) {
-    const Member* t = action.find("t");
-    return t != nullptr ? t->value.number : 0.0;
+    const Node* t = action.at("t");
+    return t != nullptr ? t->number : 0.0;
 }
 
 }  // namespace
@@ -103,10 +103,10 @@ StateKeys::StateKeys(const Node& root, const world::SceneSpec& spec) {
         add(collider.meshData.get(), state);
         for (const world::ColliderSpec& part : collider.parts) add(part.meshData.get(), state);
     }
-    const Member* at = root.find("at");
+    const Node* at = root.at("at");
     if (at != nullptr) {
         const world::Ticks ticks(spec.run);
-        for (const Node& action : at->value.items) {
+        for (const Node& action : at->items) {
             core::Hash hash;
             add(action, hash);
             actions_.emplace_back(ticks.at(timeOf(action)), hash.value());

@@ -9,6 +9,7 @@
 #include "taut/scene/private/body_index.h"
 #include "taut/scene/private/ramp_key.h"
 #include "taut/spec/actions.h"
+#include "taut/spec/targets.h"
 #include "taut/spec/ticks.h"
 #include "taut/bodies/private/ties.h"
 
@@ -56,11 +57,11 @@ class Timeline {
   private:
     // Collects the actions without faults, in the order in which they happen.
     void collect() {
-        const Member* list = root_.find("at");
+        const Node* list = root_.at("at");
         for (std::size_t i = 0; i < scene_.spec.actions.size(); ++i) {
             if (scene_.faulty.contains(fmt::format("at[{}]", i))) continue;
             ActionSpec& action = scene_.spec.actions[i];
-            events_.push_back({&action, &list->value.items[i], ticks_.at(action.t), 0});
+            events_.push_back({&action, &list->items[i], ticks_.at(action.t), 0});
         }
         std::stable_sort(events_.begin(), events_.end(),
                          [](const Event& a, const Event& b) { return a.action->t < b.action->t; });
@@ -68,8 +69,8 @@ class Timeline {
     }
 
     static Place placeOf(const Event& event, const char* key) {
-        const Member* member = event.item->find(key);
-        return member == nullptr ? event.item->place : member->value.place;
+        const Node* value = event.item->at(key);
+        return value == nullptr ? event.item->place : value->place;
     }
     void error(const Event& event, const char* key, std::string message, std::string remedy = {}) {
         problems_.addError(placeOf(event, key), std::move(message), std::move(remedy));
@@ -205,7 +206,7 @@ class Timeline {
         std::optional<RampKey> key = rampKey(ramp.key, root_, sections_, scene_.spec, fault);
         if (!key) return void(report(event, "key", fault));
         ramp.field = key->access;
-        const Node& to = event.item->find("to")->value;
+        const Node& to = *event.item->at("to");
         const std::optional<Value> value = fieldValue(*key->field, to, problems_);
         if (!value) return;
         if (const double* number = std::get_if<double>(&*value)) ramp.value = {*number};
@@ -231,9 +232,8 @@ class Timeline {
     template <class Opposite>
     void checkHold(const Event& event, const PointsAction& own) {
         const auto selectorOf = [](const std::string& target) {
-            const std::size_t at = target.find('@');
-            const std::string selector = at == std::string::npos ? "all" : target.substr(at + 1);
-            return selector;
+            const std::string selector = world::parseTarget(target).selector;
+            return selector.empty() ? "all" : selector;
         };
         const std::string selector = selectorOf(own.target);
         const std::vector<std::string> names = bodies_.names(own.target);
@@ -286,9 +286,8 @@ void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, 
 }
 
 bool isLengthOverridden(const Node& root) {
-    const Member* run = root.find("run");
-    const Member* seconds = run != nullptr ? run->value.find("seconds") : nullptr;
-    return seconds != nullptr && seconds->value.place.origin > 0;
+    const Node* seconds = root.along({"run", "seconds"});
+    return seconds != nullptr && seconds->place.origin > 0;
 }
 
 }  // namespace taut::scene

@@ -11,14 +11,13 @@ namespace taut::world {
 namespace {
 
 std::vector<int> onePoint(const mechanics::Model& model, double index) {
-    if (!(index >= 0.0) || index >= model.pointCount()) return {};
+    if (index >= model.pointCount()) return {};
     return {static_cast<int>(index)};
 }
 
-std::vector<int> gridPoints(const mechanics::Model& model, std::string_view selector) {
-    const std::optional<GridPlace> place = gridPlace(selector);
-    if (!place || model.grid[0] == 0) return {};
-    const auto& [u, v, radius] = *place;
+std::vector<int> gridPoints(const mechanics::Model& model, const GridPlace& place) {
+    if (model.grid[0] == 0) return {};
+    const auto& [u, v, radius] = place;
     const int column = static_cast<int>(std::floor(u * model.grid[0] + 0.5));
     const int row = static_cast<int>(std::floor(v * model.grid[1] + 0.5));
     const int nearest = row * (model.grid[0] + 1) + column;
@@ -42,13 +41,29 @@ std::optional<GridPlace> gridPlace(std::string_view selector) {
     return GridPlace{numbers[0], numbers[1], numbers[2]};
 }
 
+std::optional<double> ropePlace(std::string_view selector) {
+    if (!selector.ends_with('%')) return std::nullopt;
+    const std::optional<double> percent = core::numberIn(selector.substr(0, selector.size() - 1));
+    return percent && *percent >= 0 && *percent <= 100 ? std::optional(*percent / 100) : std::nullopt;
+}
+
+std::optional<double> pointNumber(std::string_view selector) {
+    if (!selector.starts_with('#') || selector.find_first_not_of("0123456789", 1) != std::string_view::npos)
+        return std::nullopt;
+    return core::numberIn(selector.substr(1));
+}
+
+std::string_view withoutSelector(std::string_view target) {
+    return target.substr(0, target.find('@'));
+}
+
 Target parseTarget(std::string_view text) {
-    const std::size_t dot = text.find('.'), at = text.find('@');
+    const std::string_view title = withoutSelector(text);
+    const std::size_t dot = title.find('.');
     Target target;
-    target.kind = text.substr(0, dot);
-    if (dot != std::string_view::npos)
-        target.name = text.substr(dot + 1, at == std::string_view::npos ? at : at - dot - 1);
-    if (at != std::string_view::npos) target.selector = text.substr(at + 1);
+    target.kind = title.substr(0, dot);
+    if (dot != std::string_view::npos) target.name = title.substr(dot + 1);
+    if (title.size() < text.size()) target.selector = text.substr(title.size() + 1);
     return target;
 }
 
@@ -56,12 +71,10 @@ std::vector<int> selectPoints(const mechanics::Model& model, std::string_view se
     if (selector.starts_with('@')) selector.remove_prefix(1);
     if (selector.empty()) selector = "all";
     if (const auto group = model.groups.find(std::string(selector)); group != model.groups.end()) return group->second;
-    if (selector.front() == '#')
-        if (const auto index = core::numberIn(selector.substr(1))) return onePoint(model, *index);
-    if (selector.front() == '(') return gridPoints(model, selector);
-    if (selector.back() == '%')
-        if (const auto percent = core::numberIn(selector.substr(0, selector.size() - 1)); percent && *percent <= 100)
-            return onePoint(model, std::floor(*percent / 100.0 * (model.pointCount() - 1) + 0.5));
+    if (const auto number = pointNumber(selector)) return onePoint(model, *number);
+    if (const auto place = gridPlace(selector)) return gridPoints(model, *place);
+    if (const auto place = ropePlace(selector))
+        return onePoint(model, std::floor(*place * (model.pointCount() - 1) + 0.5));
     return {};
 }
 

@@ -20,6 +20,9 @@ struct Target {
 // Splits KIND.NAME@SELECTOR. Parts may be empty if the text is malformed; the loader has checked it.
 Target parseTarget(std::string_view text);
 
+// KIND.NAME of it.
+std::string_view withoutSelector(std::string_view target);
+
 using core::matches;
 
 // A place on a cloth grid, as a selector says it: "(u,v)" or "(u,v,r)".
@@ -29,6 +32,8 @@ struct GridPlace {
 };
 // None if the selector is no such place.
 std::optional<GridPlace> gridPlace(std::string_view selector);
+std::optional<double> ropePlace(std::string_view selector);    // "50%": 0.5
+std::optional<double> pointNumber(std::string_view selector);  // "#12": 12; not negative, but may be too large
 
 // The points of a selector, ascending: a group of the model ("left", "corners", "all" …), "#12" (by index), "(u,v)"
 // (the grid point nearest to that fraction of width and height, from the top left), "(u,v,r)" (besides all within r [m]

@@ -52,12 +52,6 @@ class ChildProcess {
     // first call waits.
     ChildEnd wait(const std::atomic<bool>* stop = nullptr);
 
-    // Whether it has not ended yet; does not wait.
-    bool isRunning();
-
-    // Asks it to end, as a system that shuts down does (SIGTERM); it may take its time.
-    void askToEnd();
-
     // What it said so far on standard output and on standard error, without blanks and line ends at the end.
     std::string output() const;
     std::string errors() const;

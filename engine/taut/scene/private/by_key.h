@@ -25,9 +25,6 @@ void eachNumber(world::SceneSpec& scene, const std::string& owner, std::span<con
 std::vector<Change> differences(const world::SceneSpec& before, const world::SceneSpec& after,
                                 std::span<const std::string_view> keys);
 
-// "cloth.flag.cells" at its dots.
-std::vector<std::string> keyParts(std::string_view key);
-
 // A number as TOML writes it: 2 as 2.0.
 std::string numberText(double value);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "taut/fields/private/problems.h"
+#include "taut/spec/targets.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/joints.h"
@@ -49,7 +50,7 @@ void GrabAction::perform(World& world) const {
     // All points of the bodies within the radius; then only those that are free.
     if (radius > 0) {
         GrabAction bodiesOnly = *this;
-        bodiesOnly.target = target.substr(0, target.find('@'));
+        bodiesOnly.target = withoutSelector(target);
         bodiesOnly.near.reset();
         const std::vector<Picked> named = points;
         points.clear();

@@ -16,12 +16,9 @@ TAUT_DECLARE(avx512)
 #undef TAUT_DECLARE
 
 DepthKernels depthKernels() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return {avx512::drawTriangles, avx512::findBounds, avx512::addHidden};
-        case core::InstructionSet::avx2: return {avx2::drawTriangles, avx2::findBounds, avx2::addHidden};
-        case core::InstructionSet::sse2: break;
-    }
-    return {sse2::drawTriangles, sse2::findBounds, sse2::addHidden};
+    return core::inUse<DepthKernels>({sse2::drawTriangles, sse2::findBounds, sse2::addHidden},
+                                     {avx2::drawTriangles, avx2::findBounds, avx2::addHidden},
+                                     {avx512::drawTriangles, avx512::findBounds, avx512::addHidden});
 }
 
 }  // namespace taut::render

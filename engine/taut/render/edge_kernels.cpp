@@ -19,12 +19,7 @@ TAUT_DECLARE(avx512)
 #undef TAUT_DECLARE
 
 EdgeKernels edgeKernels() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return avx512::kernels;
-        case core::InstructionSet::avx2: return avx2::kernels;
-        case core::InstructionSet::sse2: break;
-    }
-    return sse2::kernels;
+    return core::inUse(sse2::kernels, avx2::kernels, avx512::kernels);
 }
 
 }  // namespace taut::render

@@ -4,6 +4,8 @@
 // cases and chooses one.
 #include "taut/contact/closest_kernel.h"
 
+#include <immintrin.h>
+
 #include "taut/core/private/vectorise.h"
 #include "taut/core/private/vectors.h"
 

@@ -1,38 +1,21 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 #include "taut/core/private/vectorise.h"
+#include "taut/core/private/vectors.h"
 #include "taut/render/private/edge_kernels.h"
 
 namespace taut::render::TAUT_ISA {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int pixels = 4;
-#elif defined(__AVX2__)
-constexpr int pixels = 2;
-#else
-constexpr int pixels = 1;
-#endif
+using core::TAUT_ISA::load, core::TAUT_ISA::select, core::TAUT_ISA::store;
+
+// Four samples of each of so many pixels beside each other.
+constexpr int pixels = core::TAUT_ISA::vectorBytes / 16;
+using Floats = core::TAUT_ISA::WideVector<float>;
+using Ints = core::TAUT_ISA::WideVector<std::int32_t>;
+
 constexpr int tile = 16;  // [pixels]
 constexpr int group = 4;  // [pixels] beside each other, from whose first one numbers are reckoned
 constexpr int vectors = group / pixels;
-
-// Four samples of each of so many pixels beside each other.
-typedef float Floats __attribute__((vector_size(16 * pixels)));
-typedef std::int32_t Ints __attribute__((vector_size(16 * pixels)));
-
-Floats loaded(const float* from) {
-    Floats result;
-    __builtin_memcpy(&result, from, sizeof(result));
-    return result;
-}
-Ints loaded(const std::int32_t* from) {
-    Ints result;
-    __builtin_memcpy(&result, from, sizeof(result));
-    return result;
-}
-Ints chosen(Ints mask, Ints yes, Ints no) {
-    return (mask & yes) | (~mask & no);
-}
 
 // What each sample has more than the corner of a group's first pixel.
 struct Within {
@@ -89,14 +72,11 @@ void cover(const CoverageArgs& args) {
                 std::int32_t* marks = args.marks + first;
                 // A sign is that of what is outside, or of what is nearer.
                 const Ints sides = (Ints)(atA + inA.parts[i]) | (Ints)(atB + inB.parts[i]) | (Ints)(atC + inC.parts[i]);
-                const Floats here = atDepth + ahead.parts[i], before = loaded(nearest);
+                const Floats here = atDepth + ahead.parts[i], before = load<Floats>(nearest);
                 const Ints seen = ~(sides >> 31) & ((Ints)(here - before) >> 31);
-                const Ints near = chosen(seen, (Ints)here, (Ints)before);
-                const Ints deep = chosen(seen, (Ints)(atDepth + middle.parts[i]), (Ints)loaded(depths));
-                const Ints whose = chosen(seen, mark, loaded(marks));
-                __builtin_memcpy(nearest, &near, sizeof(near));
-                __builtin_memcpy(depths, &deep, sizeof(deep));
-                __builtin_memcpy(marks, &whose, sizeof(whose));
+                store(nearest, select(seen, here, before));
+                store(depths, select(seen, atDepth + middle.parts[i], load<Floats>(depths)));
+                store(marks, select(seen, mark, load<Ints>(marks)));
             }
         }
     }

@@ -123,12 +123,9 @@ void takeColours(std::size_t count, const std::uint32_t* from, std::uint8_t* to)
     std::size_t i = 0;
 #ifdef __AVX2__
     // Sixteen bytes are written for twelve: the next ones, or the loop below, go over the rest.
-    typedef std::uint8_t Bytes __attribute__((vector_size(16)));
     for (; i + 6 <= count; i += 4) {
-        Bytes bytes;
-        __builtin_memcpy(&bytes, from + i, sizeof(bytes));
-        bytes = __builtin_shufflevector(bytes, bytes, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15);
-        __builtin_memcpy(to + 3 * i, &bytes, sizeof(bytes));
+        const auto four = load<core::TAUT_ISA::NarrowVector<std::uint8_t>>(from + i);
+        store(to + 3 * i, __builtin_shufflevector(four, four, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15));
     }
 #endif
     for (; i < count; ++i) {

@@ -105,8 +105,6 @@ void drawTriangle(const MapTriangle& triangle, int edge, int low, int high, std:
     }
 }
 
-}  // namespace
-
 void drawTriangles(const MapTriangle* triangles, int count, int edge, int low, int high, std::uint16_t* map) {
     for (int i = 0; i < count; ++i) drawTriangle(triangles[i], edge, low, high, map);
 }
@@ -156,5 +154,9 @@ void addHidden(const SkyRing (&rings)[skyRings], int count, float* hidden) {
         }
     }
 }
+
+}  // namespace
+
+extern const DepthKernels depths{drawTriangles, findBounds, addHidden};
 
 }  // namespace taut::render::TAUT_ISA

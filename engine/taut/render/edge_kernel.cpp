@@ -47,8 +47,6 @@ void narrow(const TileSlope& side, int y, int& left, int& right) {
 
 constexpr int wide = 10;  // [pixels] narrowing a row pays where it is longer
 
-}  // namespace
-
 void cover(const CoverageArgs& args) {
     const TileSlope &a = args.sides[0], &b = args.sides[1], &c = args.sides[2], &depth = args.depth;
     const Within inA(a.along, a.samples), inB(b.along, b.samples), inC(c.along, c.samples);
@@ -134,5 +132,9 @@ void takeColours(std::size_t count, const std::uint32_t* from, std::uint8_t* to)
         to[3 * i + 2] = static_cast<std::uint8_t>(from[i] >> 16);
     }
 }
+
+}  // namespace
+
+extern const EdgeKernels edges{cover, findEdges, fillUndrawn, fillNearer, takeColours};
 
 }  // namespace taut::render::TAUT_ISA

@@ -34,6 +34,19 @@ void replace(std::string& text, const std::string& mark, const std::string& cont
         text.replace(at, mark.size(), content);
 }
 
+// Of taut's own pictures; of the page alone.
+constexpr std::array<const char*, 14> shaders = {
+    "background.frag", "background.vert", "environment.glsl", "frame.glsl",   "ground.frag",
+    "ground.vert",     "lamps.glsl",      "lit.glsl",         "pattern.glsl", "screen.vert",
+    "shadow.glsl",     "surface.vert",    "tone.glsl",        "weave.glsl"};
+constexpr std::array<const char*, 3> ownShaders = {"depth.vert", "forward.frag", "hidden.frag"};
+
+// Which look.js finds by its name.
+std::string shaderElement(const std::filesystem::path& file) {
+    return fmt::format("<script type=\"text/plain\" id=\"{}\">\n{}</script>\n", file.filename().string(),
+                       core::fileContent(file));
+}
+
 // "</script" within a string of it would end the element.
 std::string scriptElement(const std::filesystem::path& file) {
     std::string content = core::fileContent(file);
@@ -72,7 +85,9 @@ geometry::WebPage webPage(const std::string& title, const std::string& scene, co
         throw core::Error(core::ErrorKind::badContent, (own / "page.html").string() + ": there is no " + mark);
     std::string scriptElements;
     for (const char* script : scripts) scriptElements += scriptElement(library / script);
-    for (const char* script : {"film.js", "shaders.js", "look.js", "page.js"}) scriptElements += scriptElement(own / script);
+    for (const char* name : shaders) scriptElements += shaderElement(shaderFolder() / name);
+    for (const char* name : ownShaders) scriptElements += shaderElement(own / name);
+    for (const char* script : {"film.js", "look.js", "page.js"}) scriptElements += scriptElement(own / script);
     std::string before = whole.substr(0, at);
     replace(before, "@GENERATOR@", fmt::format("taut {}", TAUT_VERSION));
     replace(before, "@STYLE@", core::fileContent(own / "page.css"));

@@ -1,5 +1,5 @@
-// The page that `export --web` writes, without its geometry: the viewer of assets/viewer and the installed scripts of
-// three.js, in one text that needs nothing else. It knows no scene.
+// The page that `export --web` writes, without its geometry: the viewer of assets/viewer, the shaders of taut's own
+// pictures and the installed scripts of three.js, in one text that needs nothing else. It knows no scene.
 #pragma once
 
 #include <filesystem>

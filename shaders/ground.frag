@@ -26,16 +26,6 @@ float lines(float x, float width) {
     return mix(cover, width, clamp(2.0 * pixel - 0.5, 0.0, 1.0));
 }
 
-#ifdef TRANSPARENT
-// The sRGB curve (IEC 61966-2-1): what is left is a share of bytes, as programs lay one picture over another.
-vec3 encoded(vec3 light) {
-    return mix(1.055 * pow(max(light, 1e-6), vec3(1.0 / 2.4)) - 0.055, 12.92 * light, lessThan(light, vec3(0.0031308)));
-}
-vec3 decoded(vec3 bytes) {
-    return mix(pow((bytes + 0.055) / 1.055, vec3(2.4)), bytes / 12.92, lessThan(bytes, vec3(0.04045)));
-}
-#endif
-
 // Of a light that reaches it unhindered.
 vec3 onGround(vec4 colour, vec4 way) { return colour.rgb * max(way.y, 0.0); }
 

@@ -1,15 +1,5 @@
-// Surfaces in sun and sky, from what surface.frag has kept of them. LAMPS further lights shine on them besides.
-#include "tone.glsl"
-#include "shadow.glsl"
-#ifdef ENVIRONMENT
-#include "environment.glsl"
-#else
-vec3 lightOn(vec3 normal) { return hemisphere(normal); }
-vec3 lightFrom(vec3 way, float cone) { return hemisphere(way); }
-#endif
-#if LAMPS > 0
-#include "lamps.glsl"
-#endif
+// Surfaces in sun and sky, from what surface.frag has kept of them.
+#include "lit.glsl"
 uniform sampler2D tints;
 uniform usampler2D shapes;
 uniform sampler2D materials;  // three texels a row: colour of the back, roughness; sheen, dulled less greyed, translucency, woven; anisotropy
@@ -26,45 +16,11 @@ vec3 fromOctahedral(uint bits) {
     return normalize(n);
 }
 
-// The gloss around a normal of what stands between light and eye, of exponent.x along the fibres and exponent.y across
-// (Ashikhmin and Shirley 2000).
-float glossOf(vec3 normal, vec3 fibres, vec3 halfWay, vec2 exponent) {
-    float even = max(dot(normal, halfWay), 0.0);
-    if (exponent.x == exponent.y) return pow(even, exponent.x) * (exponent.x + 8.0) * 0.125;
-    float along = dot(fibres, halfWay), part = along * along / max(1.0 - even * even, 1e-5);
-    vec2 sides = exponent + 8.0;
-    return pow(even, mix(exponent.y, exponent.x, min(part, 1.0))) * sqrt(sides.x * sides.y) * 0.125;
-}
-
-#if LAMPS > 0
-// What the lamps add: on the side that is seen, from the other side, and mirrored.
-struct Lamplight {
-    vec3 direct, behind, mirrored;
-};
-
-void addLamp(int lamp, vec3 place, vec3 normal, vec3 smoothNormal, vec3 toEye, vec3 fibres, float pixel, float woven,
-             vec2 exponent, inout Lamplight sum) {
-    vec3 way = lamps[lamp].way.xyz;
-    float side = dot(smoothNormal, way);
-    float reached = lamplight(lamp, place, side < 0.0 ? -smoothNormal : smoothNormal, pixel, true);
-    float direct = max(dot(normal, way), 0.0) * reached * max(smoothstep(-0.02, 0.12, side), 1.0 - woven);
-    vec3 colour = lamps[lamp].colour.rgb;
-    sum.direct += colour * direct;
-    sum.behind += colour * (max(-side, 0.0) * reached);
-    float gloss = glossOf(normal, fibres, normalize(way + toEye), exponent);
-    sum.mirrored += colour * (gloss * direct);
-}
-#endif
-
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     uvec4 shape = texelFetch(shapes, here, 0);
     vec4 tint = texelFetch(tints, here, 0);
     int row = int(shape.w & 65535u);
-    vec4 backRoughness = texelFetch(materials, ivec2(0, row), 0);
-    vec4 kind = texelFetch(materials, ivec2(1, row), 0);
-    float roughness = backRoughness.a;
-    float sheen = kind.x;
     bool isBack = (shape.w & 65536u) != 0u;
     float ahead = 1.0 / uintBitsToFloat(shape.z);
     vec3 way = firstWay + gl_FragCoord.x * rightWay + gl_FragCoord.y * upWay;
@@ -72,67 +28,19 @@ void main() {
     vec3 toEye = -normalize(way);
     vec3 smoothNormal = fromOctahedral(shape.x);
     vec3 normal = fromOctahedral(shape.y);
-
-    vec3 pattern = tint.rgb * tint.rgb;
-    float open = tint.a;
-    vec3 albedo = isBack ? mix(backRoughness.rgb, pattern, 0.12) : pattern;
-    vec3 through = isBack ? pattern : backRoughness.rgb;
-    float lightness = dot(albedo, vec3(0.3, 0.6, 0.1));
-    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * lightness, max(kind.y, 0.0));
-    albedo = mix(albedo, vec3(0.12 + 0.2 * lightness), max(-kind.y, 0.0));
-
-    float lightSide = dot(smoothNormal, lightWay.xyz);
     float steep = max(dot(smoothNormal, toEye), 0.05);
     float pixel = ahead * inversesqrt(steep) * length(upWay);
-    float sun = sunlight(place, lightSide < 0.0 ? -smoothNormal : smoothNormal, pixel, true);
-    float facing = dot(normal, lightWay.xyz);
-    float direct = max(facing, 0.0) * sun;
-    direct *= max(smoothstep(-0.02, 0.12, lightSide), 1.0 - kind.w);  // threads on the far side stay dark
 
-    float alpha = mix(0.04, 1.0, roughness * roughness);
-    vec2 exponent = vec2(2.0 / (alpha * alpha));
-
-    // Threads that lie side by side, as in satin, are round: they spread the gloss across them. What goes through them
-    // takes their colour (Sadeghi and others 2013).
     float anisotropy = texelFetch(materials, ivec2(2, row), 0).x;
     vec3 fibres = vec3(0.0);
-    vec3 glossColour = vec3(0.04);
     if (anisotropy > 0.0) {
         float turn = float((shape.w >> 17) & 127u) / 40.743665;
         vec3 screenWay = cos(turn) * rightWay + sin(turn) * upWay;
-        fibres = normalize(screenWay * dot(normal, toEye) - toEye * dot(normal, screenWay));  // in the surface
-        float across = 1.0 - anisotropy;
-        exponent.y = max(exponent.y * across * across * across, 1.0);
-        glossColour += 0.5 * anisotropy * albedo;
+        fibres = normalize(screenWay * dot(normal, toEye) - toEye * dot(normal, screenWay));
     }
 
-    vec3 diffuse = lightColour.rgb * direct + lightOn(normal) * open;
-#if LAMPS > 0
-    Lamplight fromLamps = Lamplight(vec3(0.0), vec3(0.0), vec3(0.0));
-    addLamp(0, place, normal, smoothNormal, toEye, fibres, pixel, kind.w, exponent, fromLamps);
-#if LAMPS > 1
-    addLamp(1, place, normal, smoothNormal, toEye, fibres, pixel, kind.w, exponent, fromLamps);
-#endif
-    diffuse += fromLamps.direct;
-#endif
-    vec3 light = albedo * open * diffuse;
-    vec3 shining = sqrt(albedo * through);  // of the light that has come through both sides
-    light += kind.z * shining * lightColour.rgb * (max(-lightSide, 0.0) * sun);
-
-    // Gloss of a dielectric, and the bright rim of fibres.
-    vec3 halfWay = normalize(lightWay.xyz + toEye);
-    float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
-    float rim2 = rim * rim;
-    float gloss = glossOf(normal, fibres, halfWay, exponent);
-    float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
-    light += lightColour.rgb * (glossColour * gloss * direct * open);
-#if LAMPS > 0
-    light += kind.z * shining * fromLamps.behind + glossColour * open * fromLamps.mirrored;
-#endif
-    vec3 mirrored = reflect(-toEye, normal);
-    light += lightFrom(mirrored, 2.0 * roughness * roughness) * (fresnel * (1.0 - roughness) * 0.6 * open);
-    light += sheen * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight.rgb);
-
+    vec3 light = lit(place, toEye, smoothNormal, normal, fibres, pixel, isBack, vec4(tint.rgb * tint.rgb, tint.a),
+                     texelFetch(materials, ivec2(0, row), 0), texelFetch(materials, ivec2(1, row), 0), anisotropy);
     if (debug.x > 0.0) {
         float grey = dot(light, vec3(0.3, 0.6, 0.1));
         light = mix(light, vec3(0.4 * grey + 0.06), 0.85);

@@ -17,6 +17,22 @@ const int mostSearches = 8;
 const int mostTaps = 20;
 #endif
 
+// How much of the four texels around lies behind a depth.
+#ifdef GL_ES  // three.js cannot bind samplers that compare
+#define sampler2DShadow sampler2D
+float litAt(sampler2D map, vec3 at) {
+    vec2 texel = at.xy * vec2(textureSize(map, 0)) - 0.5;
+    ivec2 low = ivec2(floor(texel)), last = textureSize(map, 0) - 1;
+    vec4 lit;
+    for (int i = 0; i < 4; ++i)
+        lit[i] = step(at.z, texelFetch(map, clamp(low + ivec2(i & 1, i >> 1), ivec2(0), last), 0).r);
+    lit.xy = mix(lit.xy, lit.zw, fract(texel.y));
+    return mix(lit.x, lit.y, fract(texel.x));
+}
+#else
+float litAt(sampler2DShadow map, vec3 at) { return textureLod(map, at, 0.0); }
+#endif
+
 const mat2 goldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
 // `toMap`, `toLight` and `mapSize` are those of the light, `size` its apparent size, `reach` how far the second bounds
@@ -86,7 +102,7 @@ float reaching(vec3 place, vec3 facing, float pixel, bool casts, mat4 toMap, mat
     float reached = 0.0;
     for (int i = 0; i < taps; ++i) {
         vec2 off = way * (radius * sqrt((float(i) + 0.5) * share));
-        reached += textureLod(compared, vec3(at.xy + off * toUv, min(ref + dot(rising, off), 1.0)), 0.0);
+        reached += litAt(compared, vec3(at.xy + off * toUv, min(ref + dot(rising, off), 1.0)));
         way = goldenTurn * way;
     }
     return taps == 0 ? (dark && !clear ? 0.0 : 1.0) : share * reached;

@@ -1,4 +1,4 @@
-// What the fragment shaders share: noise, tone, ambient light.
+// What the fragment shaders share: noise, tone, the curve of displays, ambient light.
 #include "frame.glsl"
 
 // Between 0 and 1, different from pixel to pixel: interleaved gradient noise (Jimenez 2014).
@@ -12,5 +12,13 @@ vec3 filmic(vec3 light) {
 
 // Hides the steps of eight bits in slow gradients; the step is one of the sRGB curve.
 vec3 dithered(vec3 colour) { return colour + (pixelNoise() - 0.5) / 255.0 * (1.8 * sqrt(max(colour, 0.0)) + 0.08); }
+
+// The sRGB curve (IEC 61966-2-1).
+vec3 encoded(vec3 light) {
+    return mix(1.055 * pow(max(light, 1e-6), vec3(1.0 / 2.4)) - 0.055, 12.92 * light, lessThan(light, vec3(0.0031308)));
+}
+vec3 decoded(vec3 bytes) {
+    return mix(pow((bytes + 0.055) / 1.055, vec3(2.4)), bytes / 12.92, lessThan(bytes, vec3(0.04045)));
+}
 
 vec3 hemisphere(vec3 normal) { return mix(groundLight.rgb, skyLight.rgb, 0.5 + 0.5 * normal.y); }

@@ -1,28 +1,38 @@
 // How it looks: cloth, ground and sky in taut's own light, drawn by three.js.
 'use strict';
 
+const shadowTexels = 2048, skyTexels = 128;
 const skyMargin = 0.8;  // [m] how far things darken the ground around them
+const widestNarrow = 0.07, widestReach = 32;  // [rad], [128ths of the map], as lights.h and lights.cpp have them
 
-function shader(vertexShader, fragmentShader, uniforms, more = {}) {
-  for (const name of Object.keys(uniforms)) uniforms[name] = {value: uniforms[name]};
-  return new THREE.RawShaderMaterial({vertexShader, fragmentShader, uniforms, ...more});
+// A shader in the page, with what it includes.
+function shaderText(name) {
+  return document.getElementById(name).textContent.replace(/^#include "(.*)"$/gm, (_, other) => shaderText(other));
 }
 
-// Upright, seen from +z.
-function square(half) {
+function shader(vertex, fragment, uniforms, more = {}) {
+  const head = '#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n';
+  return new THREE.RawShaderMaterial({vertexShader: head + vertex, fragmentShader: head + fragment, uniforms, ...more});
+}
+
+function uniformsOf(values) {
+  return Object.fromEntries(Object.entries(values).map(([name, value]) => [name, {value}]));
+}
+
+// Whose corners shaders place.
+function triangle() {
   const geometry = new THREE.BufferGeometry();
-  const corners = [-half, -half, 0, half, -half, 0, -half, half, 0, half, half, 0];
-  geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(corners), 3));
-  geometry.setIndex([0, 1, 3, 0, 3, 2]);
+  geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(9), 3));
   return geometry;
 }
 
-// To draw into and to read from; `filter` is what lies between its texels.
-function drawnMap(texels, filter) {
-  return new THREE.WebGLRenderTarget(texels, texels, {minFilter: filter, magFilter: filter});
+function depthMap(texels) {
+  const depthTexture = new THREE.DepthTexture(texels, texels, THREE.FloatType);
+  return new THREE.WebGLRenderTarget(texels, texels, {depthTexture});
 }
 
 const vector = (numbers) => new THREE.Vector3(...numbers);
+const four = (three, last = 0) => new THREE.Vector4(...three, last);
 
 class Picture {
   constructor(canvas, context, film) {
@@ -32,15 +42,20 @@ class Picture {
     this.scene.add(film.scene);
     this.camera = film.camera.clone();
     const {light, background, ground} = film.around;
-    this.light = {
-      lightWay: vector(light.direction).normalize().negate(), lightColour: vector(light.colour).divideScalar(Math.PI),
-      skyLight: vector(light.sky), groundLight: vector(light.ground), ...this.shadowFrom(light),
-    };
+    this.frame = uniformsOf({  // of shaders/frame.glsl
+      viewProjection: new THREE.Matrix4(), toWorld: new THREE.Matrix4(), eye: new THREE.Vector4(),
+      lightWay: four(vector(light.direction).normalize().negate().toArray(), 2 * Math.tan(light.softness / 2)),
+      lightColour: four(light.colour.map((part) => part / Math.PI), widestReach),
+      skyLight: four(light.sky), groundLight: four(light.ground),
+      backgroundTop: four(background.top), backgroundHorizon: four(background.horizon), ...this.shadowFrom(light),
+    });
+    this.kind = ['LAMPS 0', 'LAMP_SHADOWS 0', ...(light.softness > widestNarrow ? ['WIDE'] : [])];
     this.around = [];
     this.views = [];
-    this.addSky(background);
+    this.addAround(triangle(), this.shown('background', 'background', [], {}, {depthWrite: false, depthTest: false}))
+      .renderOrder = -1;
     if (ground) this.addGround(ground, background);
-    for (const {mesh} of film.shapes) mesh.material = this.materialOf(mesh.material);
+    for (const {mesh} of film.shapes) mesh.material = this.materialOf(mesh);
     this.resize();
   }
 
@@ -63,35 +78,47 @@ class Picture {
     sun.far = -seen.min.z;
     sun.updateProjectionMatrix();
     this.sun = sun;
-    this.map = drawnMap(shadowTexels, THREE.NearestFilter);
-    this.depth = shader(depthVertex, depthFragment, {}, {side: THREE.DoubleSide});
+    this.map = depthMap(shadowTexels);
+    this.depth = shader(shaderText('depth.vert'), 'void main() {}', {}, {side: THREE.DoubleSide, colorWrite: false});
     const toMap = new THREE.Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
     toMap.multiply(sun.projectionMatrix).multiply(toSun);
     this.box = box;
+    const size = seen.getSize(new THREE.Vector3()).toArray(), {depthTexture} = this.map;
+    // Nowhere is it known beforehand what may lie in between: from least to largest depth.
+    const bounds = new THREE.DataTexture(new Uint8Array([0, 255, 0, 255]), 1, 1, THREE.RGBAFormat);
+    bounds.needsUpdate = true;
     return {
-      shadowMap: this.map.texture, toMap, toLight: new THREE.Matrix3().setFromMatrix4(toSun),
-      mapSize: seen.getSize(new THREE.Vector3()), softness: light.softness,
+      shadowMap: depthTexture, shadowDepth: depthTexture, shadowBounds: bounds, toMap, toLight: toSun,
+      mapSize: four(size, Math.max(size[0], size[1]) / shadowTexels),
     };
   }
 
-  materialOf(loaded) {
-    const finish = loaded.userData.taut, picture = loaded.map || null;
-    // The shader decodes it, in whatever words a release has for that.
-    if (picture) Object.assign(picture, {encoding: 3000, colorSpace: '', anisotropy: 8, needsUpdate: true});
-    return shader(surfaceVertex, surfaceFragment, {
-      ...this.light, front: vector(loaded.color.toArray()), back: vector(finish.back), accent: vector(finish.accent),
-      pattern: picture ? 4 : ['plain', 'checker', 'stripes', 'tartan'].indexOf(finish.pattern) % 4,
-      isTwoSided: loaded.side === THREE.DoubleSide, repeat: finish.repeat, weave: finish.weave, thread: finish.thread,
-      sheen: finish.sheen, translucency: loaded.side === THREE.DoubleSide ? finish.translucency : 0,
-      roughness: loaded.roughness, anisotropy: finish.anisotropy || 0, picture,
-    }, {side: loaded.side});
+  // One of taut's shaders, whose targets have the curve of displays: here it comes afterwards.
+  shown(vertex, fragment, definitions, uniforms, more) {
+    const defines = [...this.kind, ...definitions].map((name) => `#define ${name}\n`).join('');
+    const inLight = `${defines}#define main drawInLight\n${shaderText(fragment + '.frag')}\n#undef main\n`;
+    const main = 'void main() { drawInLight(); colour = vec4(encoded(colour.rgb), 1.0); }';
+    return shader(defines + shaderText(vertex + '.vert'), inLight + main, {...this.frame, ...uniforms}, more);
   }
 
-  addSky(background) {
-    const material = shader(skyVertex, skyFragment, {
-      ...this.light, top: vector(background.top), horizon: vector(background.horizon),
-    }, {depthWrite: false, depthTest: false});
-    this.addAround(square(1), material).renderOrder = -1;
+  materialOf(mesh) {
+    const loaded = mesh.material, finish = loaded.userData.taut, picture = loaded.map || null;
+    // The shader decodes it, in whatever words a release has for that.
+    if (picture) Object.assign(picture, {encoding: 3000, colorSpace: '', anisotropy: 8, needsUpdate: true});
+    const {uv} = mesh.geometry.attributes;  // of taut's own in metres, v upwards
+    for (let i = 0; i < uv.count; ++i) uv.setXY(i, finish.repeat * uv.getX(i), -finish.repeat * uv.getY(i));
+    const isTwoSided = loaded.side === THREE.DoubleSide, isWoven = finish.weave > 0;
+    const pattern = picture ? 4 : Math.max(['plain', 'checker', 'stripes', 'tartan'].indexOf(finish.pattern), 0);
+    const definitions = [`PATTERN ${pattern}`];
+    if (isTwoSided) definitions.push('TWO_SIDED');
+    if (isWoven) definitions.push('WEAVE');
+    if (finish.anisotropy > 0) definitions.push('FIBRES');
+    return this.shown('surface', 'forward', definitions, uniformsOf({
+      transform: mesh.matrixWorld, normalTransform: new THREE.Matrix3(), picture, repeat: finish.repeat,
+      frontColour: vector(loaded.color.toArray()), accentColour: vector(finish.accent), weave: finish.weave,
+      thread: finish.thread, back: four(finish.back, loaded.roughness), anisotropy: finish.anisotropy || 0,
+      kind: new THREE.Vector4(finish.sheen, 0, isTwoSided ? finish.translucency : 0, isWoven ? 1 : 0),
+    }), {side: loaded.side});
   }
 
   // Maps of what stands over the ground, seen from below and from above, and of what that hides of the sky.
@@ -105,16 +132,16 @@ class Picture {
         0, 0, 2 / size[1], -1 - 2 * low[1] / size[1],
         0, way * 2 / height, 0, -way * (1 + 2 * ground.height / height),
         0, 0, 0, 1);
-      return {camera, map: drawnMap(skyTexels, THREE.NearestFilter)};
+      return {camera, map: depthMap(skyTexels)};
     });
-    this.hidden = drawnMap(skyTexels, THREE.LinearFilter);
-    const material = shader(wholeVertex, hiddenFragment, {
-      lowest: this.views[0].map.texture, highest: this.views[1].map.texture, reach: skyMargin,
+    this.hidden = new THREE.WebGLRenderTarget(skyTexels / 2, skyTexels / 2);
+    const material = shader(shaderText('screen.vert'), shaderText('hidden.frag'), uniformsOf({
+      lowest: this.views[0].map.depthTexture, highest: this.views[1].map.depthTexture, reach: skyMargin,
       extent: new THREE.Vector3(size[0], height, size[1]),
-    }, {depthTest: false});
-    this.gathering = new THREE.Scene();
-    this.gathering.add(new THREE.Mesh(square(1), material));
-    return {hidden: this.hidden.texture, hiddenArea: new THREE.Vector4(low[0], low[1], 1 / size[0], 1 / size[1])};
+    }), {depthTest: false});
+    this.gathering = new THREE.Mesh(triangle(), material);
+    this.gathering.frustumCulled = false;
+    return {occlusion: this.hidden.texture, occlusionArea: new THREE.Vector4(...low, 1 / size[0], 1 / size[1])};
   }
 
   addGround(ground, background) {
@@ -122,14 +149,12 @@ class Picture {
     const reach = 2.5 * camera.getWorldPosition(new THREE.Vector3()).distanceTo(target) - 30;  // as fadeOf() has it
     const scale = background.fadesWithCamera ? Math.max(reach / background.fadeEnd, 1) : 1;
     const end = scale * background.fadeEnd;
-    const material = shader(groundVertex, groundFragment, {
-      ...this.light, ...this.hiddenOver(ground), groundColour: vector(ground.colour),
-      horizon: vector(background.horizon), gridSpacing: ground.gridSpacing,
+    const Plane = THREE.PlaneBufferGeometry || THREE.PlaneGeometry;  // older, newer releases
+    const plane = new Plane(2.2 * end, 2.2 * end).rotateX(-Math.PI / 2).translate(target.x, ground.height, target.z);
+    this.addAround(plane, this.shown('ground', 'ground', ['SHADED', 'DARKENED'], uniformsOf({
+      ...this.hiddenOver(ground), groundColour: four(ground.colour, ground.gridSpacing),
       fade: new THREE.Vector4(target.x, target.z, scale * background.fadeStart, end),
-    });
-    const plane = this.addAround(square(1.1 * end), material);
-    plane.rotation.x = -Math.PI / 2;
-    plane.position.set(target.x, ground.height, target.z);
+    })));
   }
 
   addAround(geometry, material) {
@@ -156,9 +181,15 @@ class Picture {
   }
 
   draw() {
+    const {frame, camera: eye} = this;
+    eye.updateMatrixWorld();
+    frame.viewProjection.value.multiplyMatrices(eye.projectionMatrix, eye.matrixWorldInverse);
+    frame.toWorld.value.multiplyMatrices(eye.matrixWorld, eye.projectionMatrixInverse);
+    frame.eye.value.copy(eye.position);
+    for (const {mesh} of this.film.shapes)
+      mesh.material.uniforms.normalTransform.value.setFromMatrix4(mesh.matrixWorld);
     for (const mesh of this.around) mesh.visible = false;
     this.scene.overrideMaterial = this.depth;
-    this.renderer.setClearColor(0xffffff, 1);
     for (const {camera, map} of [{camera: this.sun, map: this.map}, ...this.views]) {
       this.renderer.setRenderTarget(map);
       this.renderer.render(this.scene, camera);
@@ -170,6 +201,6 @@ class Picture {
     }
     this.renderer.setRenderTarget(null);
     for (const mesh of this.around) mesh.visible = true;
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.render(this.scene, eye);
   }
 }

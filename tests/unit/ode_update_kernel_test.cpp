@@ -1,4 +1,4 @@
-#include "taut/ode/private/update_kernels.h"
+#include "taut/ode/private/update_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ TYPED_TEST(UpdateKernelsOf, LeapfrogIsItsFormulaToTheBitOnEveryInstructionSet) {
                 fastest = std::max(fastest, std::abs(keep[i] * v0[i] + gain[i] * a[i]));
             const auto update = [&](Real limit) {
                 x = x0, v = v0, w = w0;
-                return updateKernels<Real>().leapfrog(n, a.data(), keep.data(), gain.data(), h, limit, x.data(),
-                                                      v.data(), w.data());
+                return leapfrogUpdate<Real>()(n, a.data(), keep.data(), gain.data(), h, limit, x.data(), v.data(),
+                                              w.data());
             };
             ASSERT_FALSE(update(fastest)) << core::nameOf(set) << ", n " << n;
             ASSERT_TRUE(update(std::nextafter(fastest, Real(10)))) << core::nameOf(set) << ", n " << n;

@@ -386,6 +386,8 @@ long contactMesh(const ContactArgs<Real>& s, ContactLanes& lanes) {
     return any;
 }
 
+}  // namespace
+
 template <class Real>
 long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
     if (s.feet.finder != nullptr) return contactMesh(s, lanes);
@@ -432,14 +434,7 @@ long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
     if ((any & anyTouched) != 0) store(s, lanes);
     return any;
 }
-
-}  // namespace
-
-long contactFloat(const ContactArgs<float>& s, ContactLanes& lanes) {
-    return contact(s, lanes);
-}
-long contactDouble(const ContactArgs<double>& s, ContactLanes& lanes) {
-    return contact(s, lanes);
-}
+template long contact(const ContactArgs<float>&, ContactLanes&);
+template long contact(const ContactArgs<double>&, ContactLanes&);
 
 }  // namespace taut::collision::TAUT_ISA

@@ -7,8 +7,11 @@
 #include "taut/collision/private/foot_finder.h"
 #include "taut/collision/private/impl.h"
 #include "taut/collision/private/response.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::collision {
+
+TAUT_KERNELS(template <class Real> long contact(const ContactArgs<Real>&, ContactLanes&);)
 
 namespace {
 
@@ -351,7 +354,8 @@ class Resolver {
     std::vector<int>& touched_;
     std::vector<Contact>& contacts_;
     const bool records_;  // whether the caller wants contacts
-    const ContactKernel<Real> kernel_ = contactKernel<Real>();
+    long (*const kernel_)(const ContactArgs<Real>&, ContactLanes&) =
+        core::inUse(sse2::contact<Real>, avx2::contact<Real>, avx512::contact<Real>);
     ContactLanes lanes_;
 };
 

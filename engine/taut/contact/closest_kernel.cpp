@@ -1,6 +1,8 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 #include "taut/contact/closest_kernel.h"
 
+#include <immintrin.h>
+
 #include "taut/contact/closest_text.h"
 #include "taut/core/private/vectorise.h"
 #include "taut/core/private/vectors.h"

@@ -14,6 +14,9 @@
 #include "taut/core/private/trial_kernel.h"
 
 namespace taut::core {
+
+TAUT_KERNELS(template <class Real> void pullSprings(const Real* x, Real* f);)
+
 namespace {
 
 constexpr std::array allSets{InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512};
@@ -40,9 +43,9 @@ std::vector<InstructionSetTime> trial() {
     std::vector<double> xx(size), ff(size);
     for (std::size_t i = 0; i < size; ++i) xx[i] = x[i] = static_cast<float>(i * i % 97);
     std::vector<Contestant> contestants;
-    for (const Contestant& c : {Contestant{InstructionSet::sse2, sse2::trialFloat, sse2::trialDouble},
-                                Contestant{InstructionSet::avx2, avx2::trialFloat, avx2::trialDouble},
-                                Contestant{InstructionSet::avx512, avx512::trialFloat, avx512::trialDouble}})
+    for (const Contestant& c : {Contestant{InstructionSet::sse2, sse2::pullSprings, sse2::pullSprings},
+                                Contestant{InstructionSet::avx2, avx2::pullSprings, avx2::pullSprings},
+                                Contestant{InstructionSet::avx512, avx512::pullSprings, avx512::pullSprings}})
         if (isSupported(c.set)) contestants.push_back(c);
     // By turns, so that whatever else the machine does hits all alike.
     for (int round = 0; round < rounds; ++round)

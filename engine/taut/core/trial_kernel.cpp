@@ -6,10 +6,9 @@
 #include "taut/core/private/vectors.h"
 
 namespace taut::core::TAUT_ISA {
-namespace {
 
 template <class Real>
-inline void springs(const Real* x, Real* f) {
+void pullSprings(const Real* x, Real* f) {
     using V = WideVector<Real>;
     constexpr int lanes = sizeof(V) / sizeof(Real), plane = trialPoints + trialReach;
     for (int i = 0; i < trialPoints; i += lanes) {
@@ -33,14 +32,7 @@ inline void springs(const Real* x, Real* f) {
         store(f + 2 * plane + i, sz);
     }
 }
-
-}  // namespace
-
-void trialFloat(const float* x, float* f) {
-    springs(x, f);
-}
-void trialDouble(const double* x, double* f) {
-    springs(x, f);
-}
+template void pullSprings(const float*, float*);
+template void pullSprings(const double*, double*);
 
 }  // namespace taut::core::TAUT_ISA

@@ -83,8 +83,10 @@ void addRow(const BendingBatch<Real>& batch, int row, const Moments<Real>& above
     }
 }
 
+}  // namespace
+
 template <class Real>
-void addAll(const BendingBatch<Real>& batch) {
+void addBending(const BendingBatch<Real>& batch) {
     const int pitch = bendingPitch(batch.columns);
     __builtin_memset(batch.room, 0, sizeof(Real) * static_cast<unsigned long>(bendingRoom(batch.columns)));
     Moments<Real> of[3][3];  // of each axis; row j is at j % 3
@@ -102,14 +104,7 @@ void addAll(const BendingBatch<Real>& batch) {
             addRow(batch, row, moments[above % 3], moments[row % 3], moments[below % 3], batch.f[axis]);
         }
 }
-
-}  // namespace
-
-void addBending(const BendingBatch<float>& batch) {
-    addAll(batch);
-}
-void addBending(const BendingBatch<double>& batch) {
-    addAll(batch);
-}
+template void addBending(const BendingBatch<float>&);
+template void addBending(const BendingBatch<double>&);
 
 }  // namespace taut::mechanics::TAUT_ISA

@@ -136,8 +136,10 @@ inline void dampSlice(const DashpotRun<Real>& s, int first, int n, Slice<Real>& 
     apply(s, first, n, b);
 }
 
+}  // namespace
+
 template <class Real>
-inline void run(const DashpotRun<Real>& s) {
+void dampRun(const DashpotRun<Real>& s) {
     Slice<Real> b;
     const int count = (s.n + slice - 1) / slice;
     for (int i = 0; i < count; ++i) {
@@ -145,11 +147,13 @@ inline void run(const DashpotRun<Real>& s) {
         dampSlice(s, first, s.n - first < slice ? s.n - first : slice, b);
     }
 }
+template void dampRun(const DashpotRun<float>&);
+template void dampRun(const DashpotRun<double>&);
 
 // The part from the places is computed for a whole batch at once, the part from the velocities one dashpot after the
 // other.
 template <class Real>
-inline void list(const DashpotList<Real>& s) {
+void dampList(const DashpotList<Real>& s) {
     constexpr int batch = 64;
     alignas(64) Real d[3][batch], factor[batch];
     const int count = (s.n + batch - 1) / batch;
@@ -182,20 +186,7 @@ inline void list(const DashpotList<Real>& s) {
         }
     }
 }
-
-}  // namespace
-
-void dampRun(const DashpotRun<float>& s) {
-    run(s);
-}
-void dampRun(const DashpotRun<double>& s) {
-    run(s);
-}
-void dampList(const DashpotList<float>& s) {
-    list(s);
-}
-void dampList(const DashpotList<double>& s) {
-    list(s);
-}
+template void dampList(const DashpotList<float>&);
+template void dampList(const DashpotList<double>&);
 
 }  // namespace taut::mechanics::TAUT_ISA

@@ -35,16 +35,4 @@ struct DashpotList {
     bool isForwards;
 };
 
-#define TAUT_DECLARE(isa)                      \
-    namespace isa {                            \
-    void dampRun(const DashpotRun<float>&);    \
-    void dampRun(const DashpotRun<double>&);   \
-    void dampList(const DashpotList<float>&);  \
-    void dampList(const DashpotList<double>&); \
-    }
-TAUT_DECLARE(sse2)
-TAUT_DECLARE(avx2)
-TAUT_DECLARE(avx512)
-#undef TAUT_DECLARE
-
 }  // namespace taut::mechanics

@@ -9,6 +9,10 @@
 #include "taut/core/private/parallel.h"
 
 namespace taut::mechanics {
+
+TAUT_KERNELS(template <class Real> void dampRun(const DashpotRun<Real>&);
+             template <class Real> void dampList(const DashpotList<Real>&);)
+
 namespace {
 
 constexpr int chainOffset = 1;  // offset of a run whose dashpots form a chain: a rope, a row of a sheet
@@ -32,22 +36,9 @@ void forEachOf(const SpringNetwork<Real>& network, const SpringRun<Real>& run, c
 }  // namespace
 
 template <class Real>
-DashpotSweep<Real>::DashpotSweep() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512:
-            run_ = avx512::dampRun;
-            list_ = avx512::dampList;
-            break;
-        case core::InstructionSet::avx2:
-            run_ = avx2::dampRun;
-            list_ = avx2::dampList;
-            break;
-        case core::InstructionSet::sse2:
-            run_ = sse2::dampRun;
-            list_ = sse2::dampList;
-            break;
-    }
-}
+DashpotSweep<Real>::DashpotSweep()
+    : run_(core::inUse(sse2::dampRun<Real>, avx2::dampRun<Real>, avx512::dampRun<Real>)),
+      list_(core::inUse(sse2::dampList<Real>, avx2::dampList<Real>, avx512::dampList<Real>)) {}
 
 template <class Real>
 void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real* w, double h) {

@@ -11,6 +11,9 @@
 #include "taut/mechanics/pose_path.h"
 
 namespace taut::mechanics {
+
+TAUT_KERNELS(template <class Real> ElementKernels<Real> elementKernels();)
+
 namespace {
 
 using glm::dvec3;
@@ -22,16 +25,6 @@ Real dotOf(const PackedVector<Real>& a, const PackedVector<Real>& b) {
 template <class Real>
 PackedVector<Real> crossOf(const PackedVector<Real>& a, const PackedVector<Real>& b) {
     return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0}};
-}
-
-template <class Real>
-ElementKernels<Real> elementKernels() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return {avx512::addCouplings, avx512::findSums, avx512::findPulls};
-        case core::InstructionSet::avx2: return {avx2::addCouplings, avx2::findSums, avx2::findPulls};
-        case core::InstructionSet::sse2: break;
-    }
-    return {sse2::addCouplings, sse2::findSums, sse2::findPulls};
 }
 
 template <class Real>
@@ -63,7 +56,7 @@ template <class Real>
 ElementBending<Real>::ElementBending(std::vector<BendingElement> elements, double dampingTime,
                                      std::span<const int> points, Turn turn)
     : points_(points.begin(), points.end()), slots_(points.size()), turn_(std::move(turn)) {
-    kernels_ = elementKernels<Real>();
+    kernels_ = core::inUse(sse2::elementKernels<Real>, avx2::elementKernels<Real>, avx512::elementKernels<Real>)();
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });

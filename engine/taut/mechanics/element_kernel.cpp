@@ -7,7 +7,7 @@ namespace taut::mechanics::TAUT_ISA {
 namespace {
 
 template <class Real>
-void addAll(const CouplingBatch<Real>& batch) {
+void addCouplings(const CouplingBatch<Real>& batch) {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     const Real *x = batch.couplings.vectors, *pull = batch.pulls.vectors;
     for (int i = batch.begin; i < batch.end; ++i) {
@@ -49,7 +49,7 @@ inline void sumUp(const WeightedRows<Real>& rows, int i, Four& sum) {
 }
 
 template <class Real>
-void findAll(const SumBatch<Real>& batch) {
+void findSums(const SumBatch<Real>& batch) {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     for (int i = batch.begin; i < batch.end; ++i) {
         Four sum;
@@ -67,7 +67,7 @@ inline double root(double x) {
 
 // With N = e1 × e2 the normal is n = N/|N|, and g_b·y = e2·m, g_c·y = -e1·m with m = n × y/|N|.
 template <class Real>
-void findAll(const PullBatch<Real>& batch) {
+void findPulls(const PullBatch<Real>& batch) {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     const Real* x = batch.rows.vectors;
     for (int i = batch.begin; i < batch.end; ++i) {
@@ -105,23 +105,11 @@ void findAll(const PullBatch<Real>& batch) {
 
 }  // namespace
 
-void addCouplings(const CouplingBatch<float>& batch) {
-    addAll(batch);
+template <class Real>
+ElementKernels<Real> elementKernels() {
+    return {addCouplings<Real>, findSums<Real>, findPulls<Real>};
 }
-void addCouplings(const CouplingBatch<double>& batch) {
-    addAll(batch);
-}
-void findSums(const SumBatch<float>& batch) {
-    findAll(batch);
-}
-void findSums(const SumBatch<double>& batch) {
-    findAll(batch);
-}
-void findPulls(const PullBatch<float>& batch) {
-    findAll(batch);
-}
-void findPulls(const PullBatch<double>& batch) {
-    findAll(batch);
-}
+template ElementKernels<float> elementKernels();
+template ElementKernels<double> elementKernels();
 
 }  // namespace taut::mechanics::TAUT_ISA

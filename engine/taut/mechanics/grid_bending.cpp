@@ -13,21 +13,14 @@
 #include "taut/mechanics/pose_path.h"
 
 namespace taut::mechanics {
+
+TAUT_KERNELS(template <class Real> void addBending(const BendingBatch<Real>&);)
+
 namespace {
 
 using glm::dvec3;
 
 constexpr int rowsATask = 64;
-
-template <class Real>
-auto bendingKernel() -> void (*)(const BendingBatch<Real>&) {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return avx512::addBending;
-        case core::InstructionSet::avx2: return avx2::addBending;
-        case core::InstructionSet::sse2: break;
-    }
-    return sse2::addBending;
-}
 
 template <class Real>
 dvec3 at(const Real* x, std::ptrdiff_t stride, int point) {
@@ -48,7 +41,9 @@ std::optional<double> evenTwist(const Bending& bending) {
 
 template <class Real>
 GridBending<Real>::GridBending(Bending bending, std::span<const int> points, Turn turn)
-    : points_(points.begin(), points.end()), turn_(std::move(turn)), add_(bendingKernel<Real>()) {
+    : points_(points.begin(), points.end()),
+      turn_(std::move(turn)),
+      add_(core::inUse(sse2::addBending<Real>, avx2::addBending<Real>, avx512::addBending<Real>)) {
     bending_.columns = bending.columns;
     bending_.rows = bending.rows;
     TAUT_EXPECTS(!bending.isEmpty() && std::ssize(points_) == size());

@@ -45,8 +45,10 @@ inline void addSlice(const ProductRun<Real>& s, int first, int n) {
     }
 }
 
+}  // namespace
+
 template <class Real>
-inline void add(const ProductRun<Real>& s) {
+void addProducts(const ProductRun<Real>& s) {
     for (int first = 0; first < s.n; first += slice) {
         const int n = s.n - first < slice ? s.n - first : slice;
         if (s.offset >= n)
@@ -55,14 +57,7 @@ inline void add(const ProductRun<Real>& s) {
             addSlice<Real, false>(s, first, n);
     }
 }
-
-}  // namespace
-
-void addProducts(const ProductRun<float>& run) {
-    add(run);
-}
-void addProducts(const ProductRun<double>& run) {
-    add(run);
-}
+template void addProducts(const ProductRun<float>&);
+template void addProducts(const ProductRun<double>&);
 
 }  // namespace taut::mechanics::TAUT_ISA

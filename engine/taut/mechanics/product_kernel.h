@@ -16,17 +16,4 @@ struct ProductRun {
     Real* out;         // likewise
 };
 
-namespace sse2 {
-void addProducts(const ProductRun<float>& run);
-void addProducts(const ProductRun<double>& run);
-}  // namespace sse2
-namespace avx2 {
-void addProducts(const ProductRun<float>& run);
-void addProducts(const ProductRun<double>& run);
-}  // namespace avx2
-namespace avx512 {
-void addProducts(const ProductRun<float>& run);
-void addProducts(const ProductRun<double>& run);
-}  // namespace avx512
-
 }  // namespace taut::mechanics

@@ -342,41 +342,11 @@ inline void accelerateAny(const AccelerationArgs<Real>& s) {
 
 }  // namespace
 
-void springBundleFloat(const SpringBundleArgs<float>& s) {
-    bundleAny(s);
+template <class Real>
+SpringKernels<Real> springKernels() {
+    return {bundleAny<Real>, list<Real>, packedList<Real>, pack<Real>, unpack<Real>, accelerateAny<Real>};
 }
-void springBundleDouble(const SpringBundleArgs<double>& s) {
-    bundleAny(s);
-}
-void springListFloat(const SpringListArgs<float>& s) {
-    list(s);
-}
-void springListDouble(const SpringListArgs<double>& s) {
-    list(s);
-}
-void packedListFloat(const PackedSpringArgs<float>& s) {
-    packedList(s);
-}
-void packedListDouble(const PackedSpringArgs<double>& s) {
-    packedList(s);
-}
-void packFloat(const PackArgs<float>& s) {
-    pack(s);
-}
-void packDouble(const PackArgs<double>& s) {
-    pack(s);
-}
-void unpackFloat(const UnpackArgs<float>& s) {
-    unpack(s);
-}
-void unpackDouble(const UnpackArgs<double>& s) {
-    unpack(s);
-}
-void accelerateFloat(const AccelerationArgs<float>& s) {
-    accelerateAny(s);
-}
-void accelerateDouble(const AccelerationArgs<double>& s) {
-    accelerateAny(s);
-}
+template SpringKernels<float> springKernels();
+template SpringKernels<double> springKernels();
 
 }  // namespace taut::mechanics::TAUT_ISA

@@ -111,9 +111,5 @@ struct SpringKernels {
 // For the instruction set in use.
 template <class Real>
 SpringKernels<Real> springKernels();
-template <>
-SpringKernels<float> springKernels();
-template <>
-SpringKernels<double> springKernels();
 
 }  // namespace taut::mechanics

@@ -6,17 +6,10 @@
 #include "taut/core/private/instruction_set.h"
 
 namespace taut::mechanics {
-namespace {
 
-template <class Real>
-auto productKernel() -> void (*)(const ProductRun<Real>&) {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return avx512::addProducts;
-        case core::InstructionSet::avx2: return avx2::addProducts;
-        case core::InstructionSet::sse2: break;
-    }
-    return sse2::addProducts;
-}
+TAUT_KERNELS(template <class Real> void addProducts(const ProductRun<Real>&);)
+
+namespace {
 
 template <class Real>
 std::size_t springsIn(const SpringNetwork<Real>& network) {
@@ -28,7 +21,8 @@ std::size_t springsIn(const SpringNetwork<Real>& network) {
 }  // namespace
 
 template <class Real>
-SpringProducts<Real>::SpringProducts() : addRun_(productKernel<Real>()) {}
+SpringProducts<Real>::SpringProducts()
+    : addRun_(core::inUse(sse2::addProducts<Real>, avx2::addProducts<Real>, avx512::addProducts<Real>)) {}
 
 template <class Real>
 void SpringProducts<Real>::lineariseOne(std::size_t at, const Real* xa, const Real* xb, int stride, Real k, Real rest,

@@ -7,6 +7,11 @@
 #include "taut/core/private/parallel.h"
 
 namespace taut::mechanics {
+
+// Whether any spring is beyond its limits.
+TAUT_KERNELS(template <class Real> bool isAnyBeyond(const WatchRun<Real>&);
+             template <class Real> bool isAnyInListBeyond(const WatchList<Real>&);)
+
 namespace {
 
 template <class Real>
@@ -17,22 +22,10 @@ Real squareOf(double length) {
 }  // namespace
 
 template <class Real>
-SpringWatch<Real>::SpringWatch() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512:
-            run_ = avx512::isAnyBeyond;
-            list_ = avx512::isAnyBeyond;
-            break;
-        case core::InstructionSet::avx2:
-            run_ = avx2::isAnyBeyond;
-            list_ = avx2::isAnyBeyond;
-            break;
-        case core::InstructionSet::sse2:
-            run_ = sse2::isAnyBeyond;
-            list_ = sse2::isAnyBeyond;
-            break;
-    }
-}
+SpringWatch<Real>::SpringWatch()
+    : run_(core::inUse(sse2::isAnyBeyond<Real>, avx2::isAnyBeyond<Real>, avx512::isAnyBeyond<Real>)),
+      list_(
+          core::inUse(sse2::isAnyInListBeyond<Real>, avx2::isAnyInListBeyond<Real>, avx512::isAnyInListBeyond<Real>)) {}
 
 template <class Real>
 void SpringWatch<Real>::set(const SpringNetwork<Real>& network, std::span<const LengthLimits> limits) {

@@ -9,20 +9,13 @@
 #include "taut/mechanics/private/cell_shape.h"
 
 namespace taut::mechanics {
+
+TAUT_KERNELS(template <class Real> void addVolume(const VolumeBatch<Real>&);)
+
 namespace {
 
 using glm::dvec3;
 using Corners = CellCorners;
-
-template <class Real>
-auto volumeKernel() -> void (*)(const VolumeBatch<Real>&) {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return avx512::addVolume;
-        case core::InstructionSet::avx2: return avx2::addVolume;
-        case core::InstructionSet::sse2: break;
-    }
-    return sse2::addVolume;
-}
 
 std::vector<std::array<int, 8>> pointsOf(std::span<const VolumeCell> cells) {
     std::vector<std::array<int, 8>> points;
@@ -56,7 +49,7 @@ VolumePreservation<Real>::VolumePreservation(std::span<const VolumeCell> cells,
       twelfthOfBulk_(runs_.sources().size()),
       inverseRestTwelvefold_(runs_.sources().size()),
       packed_(8 * static_cast<std::size_t>(runs_.lanes().loosePointCount)),
-      addBatch_(volumeKernel<Real>()) {
+      addBatch_(core::inUse(sse2::addVolume<Real>, avx2::addVolume<Real>, avx512::addVolume<Real>)) {
     TAUT_EXPECTS(workingStretch >= 1.0);
     for (const VolumeCell& cell : cells_) {
         TAUT_EXPECTS(cell.restVolume > 0.0);

@@ -200,19 +200,14 @@ void addLoose(const VolumeBatch<Real>& batch) {
     addPacked(sums, lanes.loosePoints, points, batch.f, batch.stride);
 }
 
+}  // namespace
+
 template <class Real>
-void addAll(const VolumeBatch<Real>& batch) {
+void addVolume(const VolumeBatch<Real>& batch) {
     for (int r = 0; r < batch.lanes.runCount; ++r) addRun(batch, batch.lanes.runs[r]);
     if (batch.lanes.looseCount > 0) addLoose(batch);
 }
-
-}  // namespace
-
-void addVolume(const VolumeBatch<float>& batch) {
-    addAll(batch);
-}
-void addVolume(const VolumeBatch<double>& batch) {
-    addAll(batch);
-}
+template void addVolume(const VolumeBatch<float>&);
+template void addVolume(const VolumeBatch<double>&);
 
 }  // namespace taut::mechanics::TAUT_ISA

@@ -18,8 +18,10 @@ struct MaskOf<double> {
     using Type = long long;
 };
 
+}  // namespace
+
 template <class Real>
-inline bool lookAtRun(const WatchRun<Real>& s) {
+bool isAnyBeyond(const WatchRun<Real>& s) {
     using Mask = typename MaskOf<Real>::Type;
     const Real *ax = s.x, *ay = ax + s.stride, *az = ay + s.stride;
     const Real *bx = ax + s.offset, *by = ay + s.offset, *bz = az + s.offset, *least = s.least, *most = s.most;
@@ -40,9 +42,11 @@ inline bool lookAtRun(const WatchRun<Real>& s) {
     }
     return beyond != 0;
 }
+template bool isAnyBeyond(const WatchRun<float>&);
+template bool isAnyBeyond(const WatchRun<double>&);
 
 template <class Real>
-inline bool lookAtList(const WatchList<Real>& s) {
+bool isAnyInListBeyond(const WatchList<Real>& s) {
     bool beyond = false;
     for (int i = 0; i < s.n; ++i) {
         const Real *a = s.x + s.a[i], *b = s.x + s.b[i];
@@ -53,20 +57,7 @@ inline bool lookAtList(const WatchList<Real>& s) {
     }
     return beyond;
 }
-
-}  // namespace
-
-bool isAnyBeyond(const WatchRun<float>& s) {
-    return lookAtRun(s);
-}
-bool isAnyBeyond(const WatchRun<double>& s) {
-    return lookAtRun(s);
-}
-bool isAnyBeyond(const WatchList<float>& s) {
-    return lookAtList(s);
-}
-bool isAnyBeyond(const WatchList<double>& s) {
-    return lookAtList(s);
-}
+template bool isAnyInListBeyond(const WatchList<float>&);
+template bool isAnyInListBeyond(const WatchList<double>&);
 
 }  // namespace taut::mechanics::TAUT_ISA

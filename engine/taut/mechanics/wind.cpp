@@ -7,17 +7,10 @@
 #include "taut/core/private/instruction_set.h"
 
 namespace taut::mechanics {
-namespace {
 
-template <class Real>
-auto windKernel() -> void (*)(const WindBatch<Real>&) {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return avx512::addWind;
-        case core::InstructionSet::avx2: return avx2::addWind;
-        case core::InstructionSet::sse2: break;
-    }
-    return sse2::addWind;
-}
+TAUT_KERNELS(template <class Real> void addWind(const WindBatch<Real>&);)
+
+namespace {
 
 // Of a triangle: the unit normal and the gradients of its corners' coordinates. 0 where it has no area.
 template <class Real>
@@ -52,7 +45,7 @@ Wind<Real>::Wind(std::span<const Triangle> triangles, const LinearPath& velocity
       weight_(runs_.sources().size()),
       velocity_(velocity),
       settings_(settings),
-      addBatch_(windKernel<Real>()) {
+      addBatch_(core::inUse(sse2::addWind<Real>, avx2::addWind<Real>, avx512::addWind<Real>)) {
     for (std::size_t lane = 0; lane < weight_.size(); ++lane)
         weight_[lane] = runs_.sources()[lane] >= 0 ? Real(1) : Real(0);
     if (triangles_.empty()) return;

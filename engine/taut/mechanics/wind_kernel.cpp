@@ -207,8 +207,10 @@ void addLoose(const WindBatch<Real>& batch, const Planes<Real>& slip) {
     addPacked(forces, lanes.loosePoints, points, batch.f, batch.stride);
 }
 
+}  // namespace
+
 template <class Real>
-void addAll(const WindBatch<Real>& batch) {
+void addWind(const WindBatch<Real>& batch) {
     Planes<Real> slip{batch.v, batch.stride};
     if (batch.gust != nullptr) {
         findSlip(batch);
@@ -217,14 +219,7 @@ void addAll(const WindBatch<Real>& batch) {
     for (int r = 0; r < batch.lanes.runCount; ++r) addRun(batch, slip, batch.lanes.runs[r]);
     if (batch.lanes.looseCount > 0) addLoose(batch, slip);
 }
-
-}  // namespace
-
-void addWind(const WindBatch<float>& batch) {
-    addAll(batch);
-}
-void addWind(const WindBatch<double>& batch) {
-    addAll(batch);
-}
+template void addWind(const WindBatch<float>&);
+template void addWind(const WindBatch<double>&);
 
 }  // namespace taut::mechanics::TAUT_ISA

@@ -9,12 +9,24 @@
 #include <algorithm>
 #include <atomic>
 
-#include "taut/ode/private/leapfrog_parts.h"
+#include "taut/core/private/instruction_set.h"
 #include "taut/ode/method.h"
+#include "taut/ode/private/leapfrog_parts.h"
 #include "taut/ode/private/step_limits.h"
-#include "taut/ode/private/update_kernels.h"
+#include "taut/ode/private/update_kernel.h"
 
 namespace taut::ode {
+
+TAUT_KERNELS(template <class Real> bool leapfrog(int n, const Real* a, const Real* keep, const Real* gain, Real h,
+                                                 Real limit, Real* x, Real* v, Real* w);)
+
+template <class Real>
+LeapfrogUpdate<Real> leapfrogUpdate() {
+    return core::inUse(sse2::leapfrog<Real>, avx2::leapfrog<Real>, avx512::leapfrog<Real>);
+}
+template LeapfrogUpdate<float> leapfrogUpdate();
+template LeapfrogUpdate<double> leapfrogUpdate();
+
 namespace {
 
 template <class Real>
@@ -55,7 +67,7 @@ class Leapfrog final : public Method<Real> {
   private:
     void prepare(SecondOrderSystem<Real>& system, double h, Layout layout) {
         h_ = h;
-        kernels_ = updateKernels<Real>();
+        update_ = leapfrogUpdate<Real>();
         const auto stride = static_cast<std::size_t>(layout.stride);
         keep_ = core::AlignedArray<Real>(stride);
         gain_ = core::AlignedArray<Real>(stride);
@@ -82,7 +94,7 @@ class Leapfrog final : public Method<Real> {
             const int entry = this->method.isDragUniform_ ? 0 : first;
             for (int p = 0; p < this->layout.planes; ++p) {
                 const std::ptrdiff_t at = this->plane(p) + first;
-                const bool isWithin = this->method.kernels_.leapfrog(
+                const bool isWithin = this->method.update_(
                     last - first, a[p], this->method.keep_.data() + entry, this->method.gain_.data() + entry, h,
                     this->method.speedLimit_, state.x.data() + at, state.v.data() + at, state.memory[0].data() + at);
                 if (!isWithin) isBeyond.store(true, std::memory_order_relaxed);
@@ -124,7 +136,7 @@ class Leapfrog final : public Method<Real> {
     };
 
     double h_ = 0;
-    UpdateKernels<Real> kernels_{};
+    LeapfrogUpdate<Real> update_ = nullptr;
     core::AlignedArray<Real> keep_, gain_;
     bool isDragUniform_ = false;
 };

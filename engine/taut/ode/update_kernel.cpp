@@ -15,9 +15,10 @@ struct BitsOf<double> {
     using Type = unsigned long;
 };
 
+}  // namespace
+
 template <class Real>
-inline bool leapfrog(int n, const Real* a, const Real* keep, const Real* gain, Real h, Real limit, Real* x, Real* v,
-                     Real* w) {
+bool leapfrog(int n, const Real* a, const Real* keep, const Real* gain, Real h, Real limit, Real* x, Real* v, Real* w) {
     // Without the sign, numbers are ordered as their bits, with infinity and NaN last. Adding `room` carries into the
     // sign's place for every number from the limit on.
     using Bits = typename BitsOf<Real>::Type;
@@ -35,16 +36,7 @@ inline bool leapfrog(int n, const Real* a, const Real* keep, const Real* gain, R
     }
     return (beyond & sign) == 0;
 }
-
-}  // namespace
-
-bool leapfrogFloat(int n, const float* a, const float* keep, const float* gain, float h, float limit, float* x,
-                   float* v, float* w) {
-    return leapfrog(n, a, keep, gain, h, limit, x, v, w);
-}
-bool leapfrogDouble(int n, const double* a, const double* keep, const double* gain, double h, double limit, double* x,
-                    double* v, double* w) {
-    return leapfrog(n, a, keep, gain, h, limit, x, v, w);
-}
+template bool leapfrog(int, const float*, const float*, const float*, float, float, float*, float*, float*);
+template bool leapfrog(int, const double*, const double*, const double*, double, double, double*, double*, double*);
 
 }  // namespace taut::ode::TAUT_ISA

@@ -1,31 +1,17 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 #include "taut/core/private/vectorise.h"
+#include "taut/core/private/vectors.h"
 #include "taut/render/private/depth_kernels.h"
 
 namespace taut::render::TAUT_ISA {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int lanes = 16;
-#elif defined(__AVX2__)
-constexpr int lanes = 8;
-#else
-constexpr int lanes = 4;
-#endif
-typedef float Floats __attribute__((vector_size(4 * lanes)));
-typedef std::int32_t Ints __attribute__((vector_size(4 * lanes)));
-typedef std::uint16_t Depths __attribute__((vector_size(2 * lanes)));
-
-Ints chosen(Ints mask, Ints yes, Ints no) {
-    return (mask & yes) | (~mask & no);
-}
-
-float least(float a, float b) {
-    return a < b ? a : b;
-}
-float largest(float a, float b) {
-    return a > b ? a : b;
-}
+using core::TAUT_ISA::larger, core::TAUT_ISA::load, core::TAUT_ISA::smaller, core::TAUT_ISA::store;
+using core::TAUT_ISA::vectorBytes;
+using Floats = core::TAUT_ISA::WideVector<float>;
+using Ints = core::TAUT_ISA::WideVector<std::int32_t>;
+using Depths = core::TAUT_ISA::Lanes<std::uint16_t, vectorBytes / 2>::Vector;
+constexpr int lanes = vectorBytes / 4;
 
 // Texels whose middles lie between two places, within low … high.
 struct Range {
@@ -33,8 +19,8 @@ struct Range {
 
     Range(float from, float to, int low, int high) {
         // Rounded inwards; the conversion rounds towards zero, places below 0 are cut off first.
-        from = largest(from + 0.5F, 0.0F);
-        to = least(to + 0.5F, static_cast<float>(high) + 1.0F);
+        from = larger(from + 0.5F, 0.0F);
+        to = smaller(to + 0.5F, static_cast<float>(high) + 1.0F);
         first = static_cast<int>(from);
         last = to < 0.0F ? -1 : static_cast<int>(to);
         first = first < low ? low : first;
@@ -58,9 +44,9 @@ struct Side {
 // Over 60 lines: what is worked out for the triangle stays in registers through its rows and columns.
 void drawTriangle(const MapTriangle& triangle, int edge, int low, int high, std::uint16_t* map) {
     const float *x = triangle.x, *y = triangle.y, *depth = triangle.depth;
-    const Range columns(least(least(x[0], x[1]), x[2]) - 0.002F, largest(largest(x[0], x[1]), x[2]) + 0.002F - 1.0F, 0,
-                        edge - 1);
-    const Range rows(least(least(y[0], y[1]), y[2]) - 0.002F, largest(largest(y[0], y[1]), y[2]) + 0.002F - 1.0F, low,
+    const Range columns(smaller(smaller(x[0], x[1]), x[2]) - 0.002F, larger(larger(x[0], x[1]), x[2]) + 0.002F - 1.0F,
+                        0, edge - 1);
+    const Range rows(smaller(smaller(y[0], y[1]), y[2]) - 0.002F, larger(larger(y[0], y[1]), y[2]) + 0.002F - 1.0F, low,
                      high);
     if (columns.first > columns.last || rows.first > rows.last) return;
 
@@ -78,8 +64,8 @@ void drawTriangle(const MapTriangle& triangle, int edge, int low, int high, std:
     const float rise = depth[1] - depth[0], riseOther = depth[2] - depth[0];
     const float depthAlong = 65535.0F * ((rise * (cy - ay) - riseOther * (by - ay)) / area);
     const float depthUp = 65535.0F * ((riseOther * (bx - ax) - rise * (cx - ax)) / area);
-    const float near = 65535.0F * least(least(depth[0], depth[1]), depth[2]) + 0.5F;
-    const float far = 65535.0F * largest(largest(depth[0], depth[1]), depth[2]) + 0.5F;
+    const float near = 65535.0F * smaller(smaller(depth[0], depth[1]), depth[2]) + 0.5F;
+    const float far = 65535.0F * larger(larger(depth[0], depth[1]), depth[2]) + 0.5F;
     const Floats nearest = near - Floats{}, farthest = far - Floats{};
     Floats steps;
     for (int i = 0; i < lanes; ++i) steps[i] = static_cast<float>(i);
@@ -97,8 +83,8 @@ void drawTriangle(const MapTriangle& triangle, int edge, int low, int high, std:
             float left = static_cast<float>(from), right = static_cast<float>(to);
             for (int i = 0; i < 3; ++i) {
                 const float crossing = starts[i] * inverse[i] + middleX;
-                if (sides[i].along > 0.0F) left = largest(left, least(crossing - 1.5F, right + 1.0F));
-                if (sides[i].along < 0.0F) right = least(right, largest(crossing + 0.5F, left - 1.0F));
+                if (sides[i].along > 0.0F) left = larger(left, smaller(crossing - 1.5F, right + 1.0F));
+                if (sides[i].along < 0.0F) right = smaller(right, larger(crossing + 0.5F, left - 1.0F));
             }
             from = static_cast<int>(left);
             to = static_cast<int>(right);
@@ -111,21 +97,13 @@ void drawTriangle(const MapTriangle& triangle, int edge, int low, int high, std:
             const Ints outside = (Ints)(starts[0] + sides[0].along * along) |
                                  (Ints)(starts[1] + sides[1].along * along) |
                                  (Ints)(starts[2] + sides[2].along * along);
-            Floats value = depthStart + depthAlong * (along - ax);
-            // A difference's sign tells which of two is less.
-            value = (Floats)chosen((Ints)(value - nearest) >> 31, (Ints)nearest, (Ints)value);
-            value = (Floats)chosen((Ints)(farthest - value) >> 31, (Ints)farthest, (Ints)value);
+            const Floats value = smaller(larger(depthStart + depthAlong * (along - ax), nearest), farthest);
             const Ints whole = __builtin_convertvector(value, Ints) | (outside >> 31);
             const Depths here = __builtin_convertvector(whole & 0xffff, Depths);
-            Depths before;
-            __builtin_memcpy(&before, texels + first, sizeof(before));
-            for (int i = 0; i < lanes; ++i) before[i] = here[i] < before[i] ? here[i] : before[i];
-            __builtin_memcpy(texels + first, &before, sizeof(before));
+            store(texels + first, smaller(here, load<Depths>(texels + first)));
         }
     }
 }
-
-}  // namespace
 
 void drawTriangles(const MapTriangle* triangles, int count, int edge, int low, int high, std::uint16_t* map) {
     for (int i = 0; i < count; ++i) drawTriangle(triangles[i], edge, low, high, map);
@@ -176,5 +154,9 @@ void addHidden(const SkyRing (&rings)[skyRings], int count, float* hidden) {
         }
     }
 }
+
+}  // namespace
+
+extern const DepthKernels depths{drawTriangles, findBounds, addHidden};
 
 }  // namespace taut::render::TAUT_ISA

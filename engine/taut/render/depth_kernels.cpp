@@ -4,24 +4,10 @@
 
 namespace taut::render {
 
-#define TAUT_DECLARE(isa)                                                            \
-    namespace isa {                                                                  \
-    void drawTriangles(const MapTriangle*, int, int, int, int, std::uint16_t*);      \
-    void findBounds(const std::uint16_t*, int, int, std::uint16_t*, std::uint16_t*); \
-    void addHidden(const SkyRing (&)[skyRings], int, float*);                        \
-    }
-TAUT_DECLARE(sse2)
-TAUT_DECLARE(avx2)
-TAUT_DECLARE(avx512)
-#undef TAUT_DECLARE
+TAUT_KERNELS(extern const DepthKernels depths;)
 
 DepthKernels depthKernels() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return {avx512::drawTriangles, avx512::findBounds, avx512::addHidden};
-        case core::InstructionSet::avx2: return {avx2::drawTriangles, avx2::findBounds, avx2::addHidden};
-        case core::InstructionSet::sse2: break;
-    }
-    return {sse2::drawTriangles, sse2::findBounds, sse2::addHidden};
+    return core::inUse(sse2::depths, avx2::depths, avx512::depths);
 }
 
 }  // namespace taut::render

@@ -1,38 +1,21 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 #include "taut/core/private/vectorise.h"
+#include "taut/core/private/vectors.h"
 #include "taut/render/private/edge_kernels.h"
 
 namespace taut::render::TAUT_ISA {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int pixels = 4;
-#elif defined(__AVX2__)
-constexpr int pixels = 2;
-#else
-constexpr int pixels = 1;
-#endif
+using core::TAUT_ISA::load, core::TAUT_ISA::select, core::TAUT_ISA::store;
+
+// Four samples of each of so many pixels beside each other.
+constexpr int pixels = core::TAUT_ISA::vectorBytes / 16;
+using Floats = core::TAUT_ISA::WideVector<float>;
+using Ints = core::TAUT_ISA::WideVector<std::int32_t>;
+
 constexpr int tile = 16;  // [pixels]
 constexpr int group = 4;  // [pixels] beside each other, from whose first one numbers are reckoned
 constexpr int vectors = group / pixels;
-
-// Four samples of each of so many pixels beside each other.
-typedef float Floats __attribute__((vector_size(16 * pixels)));
-typedef std::int32_t Ints __attribute__((vector_size(16 * pixels)));
-
-Floats loaded(const float* from) {
-    Floats result;
-    __builtin_memcpy(&result, from, sizeof(result));
-    return result;
-}
-Ints loaded(const std::int32_t* from) {
-    Ints result;
-    __builtin_memcpy(&result, from, sizeof(result));
-    return result;
-}
-Ints chosen(Ints mask, Ints yes, Ints no) {
-    return (mask & yes) | (~mask & no);
-}
 
 // What each sample has more than the corner of a group's first pixel.
 struct Within {
@@ -64,8 +47,6 @@ void narrow(const TileSlope& side, int y, int& left, int& right) {
 
 constexpr int wide = 10;  // [pixels] narrowing a row pays where it is longer
 
-}  // namespace
-
 void cover(const CoverageArgs& args) {
     const TileSlope &a = args.sides[0], &b = args.sides[1], &c = args.sides[2], &depth = args.depth;
     const Within inA(a.along, a.samples), inB(b.along, b.samples), inC(c.along, c.samples);
@@ -89,14 +70,11 @@ void cover(const CoverageArgs& args) {
                 std::int32_t* marks = args.marks + first;
                 // A sign is that of what is outside, or of what is nearer.
                 const Ints sides = (Ints)(atA + inA.parts[i]) | (Ints)(atB + inB.parts[i]) | (Ints)(atC + inC.parts[i]);
-                const Floats here = atDepth + ahead.parts[i], before = loaded(nearest);
+                const Floats here = atDepth + ahead.parts[i], before = load<Floats>(nearest);
                 const Ints seen = ~(sides >> 31) & ((Ints)(here - before) >> 31);
-                const Ints near = chosen(seen, (Ints)here, (Ints)before);
-                const Ints deep = chosen(seen, (Ints)(atDepth + middle.parts[i]), (Ints)loaded(depths));
-                const Ints whose = chosen(seen, mark, loaded(marks));
-                __builtin_memcpy(nearest, &near, sizeof(near));
-                __builtin_memcpy(depths, &deep, sizeof(deep));
-                __builtin_memcpy(marks, &whose, sizeof(whose));
+                store(nearest, select(seen, here, before));
+                store(depths, select(seen, atDepth + middle.parts[i], load<Floats>(depths)));
+                store(marks, select(seen, mark, load<Ints>(marks)));
             }
         }
     }
@@ -143,12 +121,9 @@ void takeColours(std::size_t count, const std::uint32_t* from, std::uint8_t* to)
     std::size_t i = 0;
 #ifdef __AVX2__
     // Sixteen bytes are written for twelve: the next ones, or the loop below, go over the rest.
-    typedef std::uint8_t Bytes __attribute__((vector_size(16)));
     for (; i + 6 <= count; i += 4) {
-        Bytes bytes;
-        __builtin_memcpy(&bytes, from + i, sizeof(bytes));
-        bytes = __builtin_shufflevector(bytes, bytes, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15);
-        __builtin_memcpy(to + 3 * i, &bytes, sizeof(bytes));
+        const auto four = load<core::TAUT_ISA::NarrowVector<std::uint8_t>>(from + i);
+        store(to + 3 * i, __builtin_shufflevector(four, four, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15));
     }
 #endif
     for (; i < count; ++i) {
@@ -157,5 +132,9 @@ void takeColours(std::size_t count, const std::uint32_t* from, std::uint8_t* to)
         to[3 * i + 2] = static_cast<std::uint8_t>(from[i] >> 16);
     }
 }
+
+}  // namespace
+
+extern const EdgeKernels edges{cover, findEdges, fillUndrawn, fillNearer, takeColours};
 
 }  // namespace taut::render::TAUT_ISA

@@ -4,27 +4,10 @@
 
 namespace taut::render {
 
-#define TAUT_DECLARE(isa)                                                                          \
-    namespace isa {                                                                                \
-    void cover(const CoverageArgs&);                                                               \
-    void findEdges(const std::uint32_t* const[3], const float* const[3], int, int, std::uint8_t*); \
-    void fillUndrawn(std::size_t, std::uint32_t, const std::uint32_t*, std::uint32_t*);            \
-    void fillNearer(std::size_t, const std::uint32_t*, const float*, std::uint32_t*, float*);      \
-    void takeColours(std::size_t, const std::uint32_t*, std::uint8_t*);                            \
-    constexpr EdgeKernels kernels{cover, findEdges, fillUndrawn, fillNearer, takeColours};         \
-    }
-TAUT_DECLARE(sse2)
-TAUT_DECLARE(avx2)
-TAUT_DECLARE(avx512)
-#undef TAUT_DECLARE
+TAUT_KERNELS(extern const EdgeKernels edges;)
 
 EdgeKernels edgeKernels() {
-    switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return avx512::kernels;
-        case core::InstructionSet::avx2: return avx2::kernels;
-        case core::InstructionSet::sse2: break;
-    }
-    return sse2::kernels;
+    return core::inUse(sse2::edges, avx2::edges, avx512::edges);
 }
 
 }  // namespace taut::render

@@ -14,10 +14,8 @@ constexpr int tilesATask = 16;
 
 // How badly a pixel fits each of the four samples of another.
 FourFloats misfit(FourInts marks, FourFloats depths, std::int32_t mark, float depth) {
-    const FourFloats off = depths - depth;
-    const FourFloats away = (FourFloats)((FourInts)off & FourInts{0x7fffffff, 0x7fffffff, 0x7fffffff, 0x7fffffff});
-    const FourFloats far = (FourFloats)((FourInts)away & (FourInts)(marks != 0));
-    return far + (FourFloats)((FourInts)fourTimes(10.0F) & (FourInts)(marks != mark));
+    const FourFloats off = depths - depth, away = off < 0.0F ? -off : off;
+    return (marks != 0 ? away : FourFloats{}) + (marks != mark ? fourTimes(10.0F) : FourFloats{});
 }
 
 // Colours are bytes of the sRGB curve; as light they are close to their squares. What is not opaque counts as far as it
@@ -32,11 +30,11 @@ struct Lights {
         float part = 1.0F;
         if constexpr (!isOpaque) {
             part = static_cast<float>(shaded.alpha[pixel]);
-            cover = chosen(samples, fourTimes(part), cover);
+            cover = samples ? fourTimes(part) : cover;
         }
-        red = chosen(samples, fourTimes(part * square(colour)), red);
-        green = chosen(samples, fourTimes(part * square(colour >> 8)), green);
-        blue = chosen(samples, fourTimes(part * square(colour >> 16)), blue);
+        red = samples ? fourTimes(part * square(colour)) : red;
+        green = samples ? fourTimes(part * square(colour >> 8)) : green;
+        blue = samples ? fourTimes(part * square(colour >> 16)) : blue;
     }
     static float square(std::uint32_t colour) {
         const auto byte = static_cast<float>(colour & 255U);
@@ -66,7 +64,7 @@ void smoothTile(const PixelBox& tile, const CoveredTile& covered, const ShadedPi
             const std::uint32_t colour = shaded.colour[here];
             const float depth = shaded.depth[here];
             FourFloats error = misfit(marks, depths, static_cast<std::int32_t>(colour >> 24), depth);
-            if (!isAny((FourInts)(error > fourTimes(0.0008F * (1.0F - depth) + 1e-6F)))) continue;
+            if (!isAny(error > 0.0008F * (1.0F - depth) + 1e-6F)) continue;
             Lights<isOpaque> lights(shaded, here);
             for (int row = std::max(y - 1, 0); row <= std::min(y + 1, box.height - 1); ++row) {
                 for (int column = std::max(x - 1, 0); column <= std::min(x + 1, box.width - 1); ++column) {
@@ -74,9 +72,9 @@ void smoothTile(const PixelBox& tile, const CoveredTile& covered, const ShadedPi
                     const std::uint32_t other = shaded.colour[beside];
                     const FourFloats badness =
                         misfit(marks, depths, static_cast<std::int32_t>(other >> 24), shaded.depth[beside]);
-                    const auto better = (FourInts)(badness < error);
+                    const FourInts better = badness < error;
                     lights.take(better, shaded, beside);
-                    error = chosen(better, badness, error);
+                    error = better ? badness : error;
                 }
             }
             const auto to = static_cast<std::size_t>((y + box.y) * width + x + box.x);

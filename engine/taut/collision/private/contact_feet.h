@@ -167,9 +167,9 @@ inline void recordTouches(ContactLanes& lanes, int at, int n) {
         TAUT_INDEPENDENT
         for (int i = 0; i < n; ++i) {
             const long mask = lanes.outcome[i] == anyTouched ? -1L : 0L;
-            lanes.last[k][at + i] = choose(mask, lanes.position[k][i], lanes.last[k][at + i]);
-            lanes.last[3 + k][at + i] = choose(mask, lanes.normal[k][i], lanes.last[3 + k][at + i]);
-            lanes.last[6 + k][at + i] = choose(mask, lanes.carried[k][i], lanes.last[6 + k][at + i]);
+            lanes.last[k][at + i] = select(mask, lanes.position[k][i], lanes.last[k][at + i]);
+            lanes.last[3 + k][at + i] = select(mask, lanes.normal[k][i], lanes.last[3 + k][at + i]);
+            lanes.last[6 + k][at + i] = select(mask, lanes.carried[k][i], lanes.last[6 + k][at + i]);
         }
     }
 }

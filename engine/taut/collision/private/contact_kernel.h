@@ -122,15 +122,4 @@ inline constexpr long isLost = 32;      // its foot on a mesh is not known
 inline constexpr long isOverFace = 64;  // the foot is inside of `triangle`
 inline constexpr long hasFoot = 128;    // `foot` is known
 
-template <class Real>
-using ContactKernel = long (*)(const ContactArgs<Real>& args, ContactLanes& lanes);
-
-// The kernel for the instruction set in use.
-template <class Real>
-ContactKernel<Real> contactKernel();
-template <>
-ContactKernel<float> contactKernel();
-template <>
-ContactKernel<double> contactKernel();
-
 }  // namespace taut::collision

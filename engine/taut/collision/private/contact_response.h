@@ -4,18 +4,14 @@
 
 #include "taut/collision/private/contact_kernel.h"
 #include "taut/core/private/vectorise.h"
+#include "taut/core/private/vectors.h"
 
 namespace taut::collision::TAUT_ISA {
 namespace {
 
+using core::TAUT_ISA::select;
 using Row = double[contactRow];
 using Rows = Row[3];
-
-// a if all bits of `mask` are set, b if none are. It always reads both. Compilers turn a selection into masked reads
-// and writes, which are slow on some processors.
-inline double choose(long mask, double a, double b) {
-    return __builtin_bit_cast(double, (mask & __builtin_bit_cast(long, a)) | (~mask & __builtin_bit_cast(long, b)));
-}
 
 // A loop of its own: inside the loops that set `outcome` it would keep compilers from vectorising them.
 inline long anyOf(const long (&outcome)[contactRow], int n) {
@@ -147,9 +143,9 @@ inline void lift(ContactLanes& lanes, int n) {
             const double skin = lanes.skin[i];
             const bool rests = (pressed > 0.0) & (moves == 0) & (bounce == 0.0) & (__builtin_fabs(height) <= skin);
             const long mask = rests ? -1L : 0L;
-            lanes.along[0][i] = choose(mask, fromX, heldX);
-            lanes.along[1][i] = choose(mask, fromY, heldY);
-            lanes.along[2][i] = choose(mask, fromZ, heldZ);
+            lanes.along[0][i] = select(mask, fromX, heldX);
+            lanes.along[1][i] = select(mask, fromY, heldY);
+            lanes.along[2][i] = select(mask, fromZ, heldZ);
         } else {
             lanes.along[0][i] = heldX;
             lanes.along[1][i] = heldY;
@@ -176,12 +172,12 @@ inline void take(ContactLanes& lanes, int n) {
         const bool arrives = ((found & isNear) != 0) & (depth > -skin) & (arrival < 0.0);
         const bool touched = arrives & (rise > 0.0);
         const long mask = (again ? arrives : touched) ? -1L : 0L;
-        lanes.end[0][i] = choose(mask, newX, x);
-        lanes.end[1][i] = choose(mask, newY, y);
-        lanes.end[2][i] = choose(mask, newZ, z);
-        lanes.v[0][i] = choose(mask, newVx, vx);
-        lanes.v[1][i] = choose(mask, newVy, vy);
-        lanes.v[2][i] = choose(mask, newVz, vz);
+        lanes.end[0][i] = select(mask, newX, x);
+        lanes.end[1][i] = select(mask, newY, y);
+        lanes.end[2][i] = select(mask, newZ, z);
+        lanes.v[0][i] = select(mask, newVx, vx);
+        lanes.v[1][i] = select(mask, newVy, vy);
+        lanes.v[2][i] = select(mask, newVz, vz);
         lanes.outcome[i] = touched ? anyTouched : found & anyLeft;
     }
 }

@@ -20,6 +20,18 @@ bool isSupported(InstructionSet set);
 // ask.
 InstructionSet instructionSet();
 
+// Declares kernels, each of which has a copy for each set (taut_kernel in engine/taut.cmake).
+#define TAUT_KERNELS(...) \
+    namespace sse2 {      \
+    __VA_ARGS__           \
+    }                     \
+    namespace avx2 {      \
+    __VA_ARGS__           \
+    }                     \
+    namespace avx512 {    \
+    __VA_ARGS__           \
+    }
+
 // Of the copies of a kernel, that of the set in use.
 template <class Kernels>
 Kernels inUse(Kernels sse2, Kernels avx2, Kernels avx512) {

@@ -2,8 +2,6 @@
 // Include it in files of taut_kernel only: everything in it is TAUT_ISA's own.
 #pragma once
 
-#include <immintrin.h>
-
 namespace taut::core::TAUT_ISA {
 namespace {
 
@@ -15,46 +13,47 @@ inline constexpr int vectorBytes = 32;
 inline constexpr int vectorBytes = 16;
 #endif
 
-// + - * / go lane by lane, and mix with plain numbers.
-template <class Real, int bytes>
-struct Lanes;
-template <int bytes>
-struct Lanes<float, bytes> {
-    typedef float Vector __attribute__((vector_size(bytes)));
+// + - * / go lane by lane, and mix with plain numbers. So do < and ==, which give a mask: all bits of a lane, or none.
+// mask ? a : b chooses lane by lane.
+template <class Number, int bytes>
+struct Lanes {
+    typedef Number Vector __attribute__((vector_size(bytes)));
 };
-template <int bytes>
-struct Lanes<double, bytes> {
-    typedef double Vector __attribute__((vector_size(bytes)));
-};
-template <class Real>
-using WideVector = typename Lanes<Real, vectorBytes>::Vector;
-template <class Real>
-using NarrowVector = typename Lanes<Real, 16>::Vector;
+template <class Number>
+using WideVector = typename Lanes<Number, vectorBytes>::Vector;
+template <class Number>
+using NarrowVector = typename Lanes<Number, 16>::Vector;
 
-// From and to any address. V is a vector or a number itself.
-template <class V, class Real>
-inline V load(const Real* from) {
+// In all that follows V is a vector or a number itself.
+
+// From and to any address.
+template <class V, class Number>
+inline V load(const Number* from) {
     V v;
     __builtin_memcpy(&v, from, sizeof v);
     return v;
 }
-template <class V, class Real>
-inline void store(Real* to, V v) {
+template <class V, class Number>
+inline void store(Number* to, V v) {
     __builtin_memcpy(to, &v, sizeof v);
 }
 
-// The larger of two numbers; the second if the first is none.
-inline float larger(float x, float y) {
+// a where all bits of the whole numbers `mask` are set, b where none are. For masks that are no comparison, as of
+// signs, it costs less than mask ? a : b. It always reads both: compilers turn a selection of numbers into masked reads
+// and writes, which are slow on some processors.
+template <class V, class Mask>
+inline V select(Mask mask, V a, V b) {
+    return __builtin_bit_cast(V, (mask & __builtin_bit_cast(Mask, a)) | (~mask & __builtin_bit_cast(Mask, b)));
+}
+
+// The larger or the smaller of two numbers; the second if one is none.
+template <class V>
+inline V larger(V x, V y) {
     return x > y ? x : y;
 }
-inline double larger(double x, double y) {
-    return x > y ? x : y;
-}
-inline NarrowVector<float> larger(NarrowVector<float> x, NarrowVector<float> y) {
-    return _mm_max_ps(x, y);
-}
-inline NarrowVector<double> larger(NarrowVector<double> x, NarrowVector<double> y) {
-    return _mm_max_pd(x, y);
+template <class V>
+inline V smaller(V x, V y) {
+    return x < y ? x : y;
 }
 
 inline float root(float x) {
@@ -63,40 +62,11 @@ inline float root(float x) {
 inline double root(double x) {
     return __builtin_sqrt(x);
 }
-inline NarrowVector<float> root(NarrowVector<float> x) {
-    return _mm_sqrt_ps(x);
+template <class V>
+inline V root(V x) {
+    for (unsigned k = 0; k < sizeof x / sizeof x[0]; ++k) x[k] = root(x[k]);  // compilers see one instruction
+    return x;
 }
-inline NarrowVector<double> root(NarrowVector<double> x) {
-    return _mm_sqrt_pd(x);
-}
-// The plain 512-bit ones make g++ 12 warn.
-#if defined(__AVX512F__)
-inline WideVector<float> larger(WideVector<float> x, WideVector<float> y) {
-    return _mm512_maskz_max_ps(0xffff, x, y);
-}
-inline WideVector<double> larger(WideVector<double> x, WideVector<double> y) {
-    return _mm512_maskz_max_pd(0xff, x, y);
-}
-inline WideVector<float> root(WideVector<float> x) {
-    return _mm512_maskz_sqrt_ps(0xffff, x);
-}
-inline WideVector<double> root(WideVector<double> x) {
-    return _mm512_maskz_sqrt_pd(0xff, x);
-}
-#elif defined(__AVX2__)
-inline WideVector<float> larger(WideVector<float> x, WideVector<float> y) {
-    return _mm256_max_ps(x, y);
-}
-inline WideVector<double> larger(WideVector<double> x, WideVector<double> y) {
-    return _mm256_max_pd(x, y);
-}
-inline WideVector<float> root(WideVector<float> x) {
-    return _mm256_sqrt_ps(x);
-}
-inline WideVector<double> root(WideVector<double> x) {
-    return _mm256_sqrt_pd(x);
-}
-#endif
 
 }  // namespace
 }  // namespace taut::core::TAUT_ISA

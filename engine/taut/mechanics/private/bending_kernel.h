@@ -23,17 +23,4 @@ inline int bendingRoom(int columns) {
     return 27 * bendingPitch(columns);
 }
 
-namespace sse2 {
-void addBending(const BendingBatch<float>& batch);
-void addBending(const BendingBatch<double>& batch);
-}  // namespace sse2
-namespace avx2 {
-void addBending(const BendingBatch<float>& batch);
-void addBending(const BendingBatch<double>& batch);
-}  // namespace avx2
-namespace avx512 {
-void addBending(const BendingBatch<float>& batch);
-void addBending(const BendingBatch<double>& batch);
-}  // namespace avx512
-
 }  // namespace taut::mechanics

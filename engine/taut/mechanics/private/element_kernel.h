@@ -56,18 +56,4 @@ struct ElementKernels {
     void (*pulls)(const PullBatch<Real>&);
 };
 
-#define TAUT_DECLARE(isa)                            \
-    namespace isa {                                  \
-    void addCouplings(const CouplingBatch<float>&);  \
-    void addCouplings(const CouplingBatch<double>&); \
-    void findSums(const SumBatch<float>&);           \
-    void findSums(const SumBatch<double>&);          \
-    void findPulls(const PullBatch<float>&);         \
-    void findPulls(const PullBatch<double>&);        \
-    }
-TAUT_DECLARE(sse2)
-TAUT_DECLARE(avx2)
-TAUT_DECLARE(avx512)
-#undef TAUT_DECLARE
-
 }  // namespace taut::mechanics

@@ -17,17 +17,4 @@ struct VolumeBatch {
     Real* packed;   // (8 · loosePointCount) scratch for x and forces of points of loose cells
 };
 
-namespace sse2 {
-void addVolume(const VolumeBatch<float>& batch);
-void addVolume(const VolumeBatch<double>& batch);
-}  // namespace sse2
-namespace avx2 {
-void addVolume(const VolumeBatch<float>& batch);
-void addVolume(const VolumeBatch<double>& batch);
-}  // namespace avx2
-namespace avx512 {
-void addVolume(const VolumeBatch<float>& batch);
-void addVolume(const VolumeBatch<double>& batch);
-}  // namespace avx512
-
 }  // namespace taut::mechanics

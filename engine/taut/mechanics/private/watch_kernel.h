@@ -26,17 +26,4 @@ struct WatchList {
     const Real* most;
 };
 
-// Whether any spring is beyond its limits.
-#define TAUT_DECLARE(isa)                       \
-    namespace isa {                             \
-    bool isAnyBeyond(const WatchRun<float>&);   \
-    bool isAnyBeyond(const WatchRun<double>&);  \
-    bool isAnyBeyond(const WatchList<float>&);  \
-    bool isAnyBeyond(const WatchList<double>&); \
-    }
-TAUT_DECLARE(sse2)
-TAUT_DECLARE(avx2)
-TAUT_DECLARE(avx512)
-#undef TAUT_DECLARE
-
 }  // namespace taut::mechanics

@@ -37,17 +37,4 @@ struct WindBatch {
     Real* packed;                 // (12 · loosePointCount) scratch for x, slip and forces of points of loose triangles
 };
 
-namespace sse2 {
-void addWind(const WindBatch<float>& batch);
-void addWind(const WindBatch<double>& batch);
-}  // namespace sse2
-namespace avx2 {
-void addWind(const WindBatch<float>& batch);
-void addWind(const WindBatch<double>& batch);
-}  // namespace avx2
-namespace avx512 {
-void addWind(const WindBatch<float>& batch);
-void addWind(const WindBatch<double>& batch);
-}  // namespace avx512
-
 }  // namespace taut::mechanics

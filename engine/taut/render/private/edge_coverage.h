@@ -10,18 +10,10 @@
 namespace taut::render {
 
 typedef float FourFloats __attribute__((vector_size(16)));
-typedef std::int32_t FourInts __attribute__((vector_size(16)));  // as a mask: all bits, or none
+typedef std::int32_t FourInts __attribute__((vector_size(16)));
 
-inline bool isAny(FourInts mask) {
-    typedef std::int64_t TwoInts __attribute__((vector_size(16)));
-    const auto halves = (TwoInts)mask;
-    return (halves[0] | halves[1]) != 0;
-}
-inline FourInts chosen(FourInts mask, FourInts yes, FourInts no) {
-    return (mask & yes) | (~mask & no);
-}
-inline FourFloats chosen(FourInts mask, FourFloats yes, FourFloats no) {
-    return (FourFloats)chosen(mask, (FourInts)yes, (FourInts)no);
+inline bool isAny(FourInts four) {
+    return (four[0] | four[1] | four[2] | four[3]) != 0;
 }
 inline FourFloats fourTimes(float x) {
     return FourFloats{x, x, x, x};

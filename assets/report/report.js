@@ -1,9 +1,3 @@
-#include "taut/report/page_parts.h"
-
-namespace taut::report {
-
-std::string_view pageScript() {
-    return R"js(
 'use strict';
 const root = document.documentElement;
 const setTheme = name => {
@@ -87,7 +81,3 @@ for (const button of document.querySelectorAll('.copy'))
     catch { getSelection().selectAllChildren(button.parentElement.querySelector('code')); button.textContent = 'Selected'; }
     setTimeout(() => { button.textContent = 'Copy'; }, 1500);
   });
-)js";
-}
-
-}  // namespace taut::report

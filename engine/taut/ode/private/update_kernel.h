@@ -1,4 +1,4 @@
-// The inner loops of the methods. There is one copy for each instruction set, and every copy gives the same bits.
+// The inner loop of leap-frog. There is one copy for each instruction set, and every copy gives the same bits.
 #pragma once
 
 namespace taut::ode {
@@ -10,17 +10,8 @@ template <class Real>
 using LeapfrogUpdate = bool (*)(int n, const Real* a, const Real* keep, const Real* gain, Real h, Real limit, Real* x,
                                 Real* v, Real* w);
 
+// That of the instruction set in use.
 template <class Real>
-struct UpdateKernels {
-    LeapfrogUpdate<Real> leapfrog;
-};
-
-// The kernels for the instruction set in use.
-template <class Real>
-UpdateKernels<Real> updateKernels();
-template <>
-UpdateKernels<float> updateKernels();
-template <>
-UpdateKernels<double> updateKernels();
+LeapfrogUpdate<Real> leapfrogUpdate();
 
 }  // namespace taut::ode

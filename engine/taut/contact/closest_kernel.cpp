@@ -58,7 +58,7 @@ inline Place placeOf(const ClosestLanes& lanes, int corner, int i) {
 }
 
 template <class Find>
-inline void closest(ClosestLanes& lanes, int n, const Find& find) {
+inline void findClosest(ClosestLanes& lanes, int n, const Find& find) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const Place p = placeOf(lanes, 0, i), q = placeOf(lanes, 1, i);
@@ -74,16 +74,14 @@ inline void closest(ClosestLanes& lanes, int n, const Find& find) {
     }
 }
 
-}  // namespace
-
 void onTriangles(ClosestLanes& lanes, int n) {
-    closest(lanes, n, [](const Place& p, const Place& a, const Place& b, const Place& c) {
+    findClosest(lanes, n, [](const Place& p, const Place& a, const Place& b, const Place& c) {
         return onTriangle(p, a, b, c);
     });
 }
 
 void onSegments(ClosestLanes& lanes, int n) {
-    closest(lanes, n, [](const Place& a, const Place& b, const Place& c, const Place& d) {
+    findClosest(lanes, n, [](const Place& a, const Place& b, const Place& c, const Place& d) {
         return onSegment(a, b, c, d);
     });
 }
@@ -151,5 +149,9 @@ int findDue(CandidateRows& rows) {
     }
     return count;
 }
+
+}  // namespace
+
+extern const ClosestKernels closest{onTriangles, onSegments, findOverlapping, findDue};
 
 }  // namespace taut::contact::TAUT_ISA

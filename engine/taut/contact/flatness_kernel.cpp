@@ -4,6 +4,7 @@
 #include "taut/core/private/vectorise.h"
 
 namespace taut::contact::TAUT_ISA {
+namespace {
 
 void findGradients(const EdgeRows& edges, double* rows, int stride) {
     const double *a = edges.inverse[0], *b = edges.inverse[1], *c = edges.inverse[2], *d = edges.inverse[3];
@@ -42,5 +43,9 @@ void findMost(const GradientRows& gradients, double* most) {
         most[i] = 0.5 * (p + q) + __builtin_sqrt(0.25 * (p - q) * (p - q) + r * r);
     }
 }
+
+}  // namespace
+
+extern const FlatnessKernels flatness{findGradients, findLeast, findMost};
 
 }  // namespace taut::contact::TAUT_ISA

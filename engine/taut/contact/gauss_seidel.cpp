@@ -6,6 +6,9 @@
 #include "taut/core/private/instruction_set.h"
 
 namespace taut::contact {
+
+TAUT_KERNELS(int sweep(const Sweeps&);)
+
 namespace {
 
 struct Scratch {

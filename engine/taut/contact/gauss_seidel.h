@@ -57,14 +57,5 @@ struct Sweeps {
     int most;
     double tolerance;  // [m/s]
 };
-namespace sse2 {
-int sweep(const Sweeps& sweeps);
-}
-namespace avx2 {
-int sweep(const Sweeps& sweeps);
-}
-namespace avx512 {
-int sweep(const Sweeps& sweeps);
-}
 
 }  // namespace taut::contact

@@ -1,7 +1,7 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 //
-// The kernel does what resolve.cpp and response.h do to one point, with the same order of operations, in loops over a
-// batch: where the path ends, its distance there, then the response. It finds out whether a path may have come through
+// The kernel does what resolve.cpp does to one point, with the same order of operations, in loops over a batch: where
+// the path ends, its distance there, then the response (response.h). It finds out whether a path may have come through
 // the solid, but not where. It leaves such points to resolve.cpp. For meshes see contact_feet.h.
 #include "taut/collision/private/contact_kernel.h"
 
@@ -248,13 +248,12 @@ inline void flatTouch(const double (&normal)[3], double offset, ContactLanes& la
 inline void findPlaces(double thickness, ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
-        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
-        const double x = lanes.end[0][i], y = lanes.end[1][i], z = lanes.end[2][i];
-        const double depth = lanes.distance[i] - (nx * x + ny * y + nz * z);
-        const double out = depth > 0.0 ? depth : 0.0;
-        lanes.position[0][i] = x + (out - thickness) * nx;
-        lanes.position[1][i] = y + (out - thickness) * ny;
-        lanes.position[2][i] = z + (out - thickness) * nz;
+        const Triple<double> end{lanes.end[0][i], lanes.end[1][i], lanes.end[2][i]};
+        const Triple<double> normal{lanes.normal[0][i], lanes.normal[1][i], lanes.normal[2][i]};
+        const Triple<double> place = placeUnder(end, normal, lanes.distance[i], thickness);
+        lanes.position[0][i] = place.x;
+        lanes.position[1][i] = place.y;
+        lanes.position[2][i] = place.z;
     }
 }
 
@@ -327,6 +326,7 @@ inline long contactPiece(ContactArgs<Real>& s, int at, ContactLanes& lanes) {
             for (int i = 0; i < n; ++i) carriedStart[k][i] = lanes.localStart[k][i];
         toWorld(s.to, carriedStart, n);
     }
+    const Surface surface{s.still, s.friction, s.restitution, s.restSpeed};
     long any = 0;
     for (int pass = 0; pass < mostPasses; ++pass) {
         toLocal(s.to, lanes.end, lanes.localEnd, n);
@@ -337,12 +337,8 @@ inline long contactPiece(ContactArgs<Real>& s, int at, ContactLanes& lanes) {
         if ((anyOf(lanes.outcome, n) & isNear) != 0) {
             placeOffset(s.to, lanes, n);
             if (!s.still || s.records) findPlaces(s.thickness, lanes, n);
-            if (s.still) {
-                respond<Real, true>(s, lanes, lanes.start, lanes.carried, pass > 0);
-            } else {
-                findSpeeds(s, lanes, lanes.carried);
-                respond<Real, false>(s, lanes, carriedStart, lanes.carried, pass > 0);
-            }
+            if (!s.still) findSpeeds(s, lanes, lanes.carried);
+            respondAll(surface, s.still ? lanes.start : carriedStart, pass > 0, lanes, n);
         }
         const long found = anyOf(lanes.outcome, n);
         if (found == 0) break;
@@ -421,15 +417,13 @@ long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
         if (!isLevel) placeTouch(s.thickness, s.to, lanes, n);
     }
     // The response, on a still or a moving surface.
-    if (s.still) {
-        if (s.records) findPlaces(s.thickness, lanes, n);
-        respond<Real, true>(s, lanes, lanes.start, lanes.carried);
-    } else {
-        findPlaces(s.thickness, lanes, n);
+    const Surface surface{s.still, s.friction, s.restitution, s.restSpeed};
+    if (!s.still || s.records) findPlaces(s.thickness, lanes, n);
+    if (!s.still) {
         findSpeeds(s, lanes, lanes.carried);
         toWorld(s.to, lanes.localStart, n);
-        respond<Real, false>(s, lanes, lanes.localStart, lanes.carried);
     }
+    respondAll(surface, s.still ? lanes.start : lanes.localStart, false, lanes, n);
     const long any = anyOf(lanes.outcome, n);
     if ((any & anyTouched) != 0) store(s, lanes);
     return any;

@@ -1,26 +1,18 @@
 #include "taut/collision/private/cull.h"
 
-#include <cstring>
+#include "taut/core/private/vectors.h"
 
 namespace taut::collision {
 
 namespace {
 
-// Sixteen bytes of numbers. Every x86-64 processor handles them at once; elsewhere compilers split or emulate them.
-template <class Real>
-struct Pack;
-template <>
-struct Pack<float> {
-    using Type = float __attribute__((vector_size(16)));
-};
-template <>
-struct Pack<double> {
-    using Type = double __attribute__((vector_size(16)));
-};
+using core::TAUT_ISA::larger;
+using core::TAUT_ISA::load;
+using core::TAUT_ISA::smaller;
 
 template <class Real>
 void rowBounds(const Real* a, const Real* b, int count, double& low, double& high) {
-    using Vector = typename Pack<Real>::Type;
+    using Vector = core::TAUT_ISA::NarrowVector<Real>;
     constexpr int width = static_cast<int>(sizeof(Vector) / sizeof(Real));
     constexpr Real infinite = std::numeric_limits<Real>::infinity();
     Vector least{};
@@ -28,26 +20,19 @@ void rowBounds(const Real* a, const Real* b, int count, double& low, double& hig
     Vector most = -least;
     int i = 0;
     for (; i + width <= count; i += width) {
-        Vector va;
-        Vector vb;
-        std::memcpy(&va, a + i, sizeof va);
-        std::memcpy(&vb, b + i, sizeof vb);
-        least = va < least ? va : least;
-        most = va > most ? va : most;
-        least = vb < least ? vb : least;
-        most = vb > most ? vb : most;
+        const Vector va = load<Vector>(a + i), vb = load<Vector>(b + i);
+        least = smaller(vb, smaller(va, least));
+        most = larger(vb, larger(va, most));
     }
     Real l = infinite;
     Real m = -infinite;
     for (; i < count; ++i) {
-        l = a[i] < l ? a[i] : l;
-        m = a[i] > m ? a[i] : m;
-        l = b[i] < l ? b[i] : l;
-        m = b[i] > m ? b[i] : m;
+        l = smaller(b[i], smaller(a[i], l));
+        m = larger(b[i], larger(a[i], m));
     }
     for (int k = 0; k < width; ++k) {
-        l = least[k] < l ? least[k] : l;
-        m = most[k] > m ? most[k] : m;
+        l = smaller(least[k], l);
+        m = larger(most[k], m);
     }
     low = l;
     high = m;

@@ -18,6 +18,23 @@ namespace {
 constexpr int mostAtOnce = 32;  // solids that a block of points is tried against: the bits of a mask
 constexpr int smallBlock = 16;  // points; a block that is near to several solids is not halved below this size
 
+using namespace TAUT_ISA;  // of response.h
+
+// A point during a step, in the world.
+struct MovingPoint {
+    dvec3 before;  // [m]
+    dvec3 x;       // [m]
+    dvec3 v;       // [m/s]
+};
+
+struct Impact {
+    double impulse;  // normal, per mass [m/s]
+    dvec3 position;  // on the surface [m]
+    dvec3 normal;
+    dvec3 carried;  // velocity of the surface [m/s]
+    bool isMoved;   // the point, by more than rounding
+};
+
 template <class Real>
 class Resolver {
   public:
@@ -266,7 +283,7 @@ class Resolver {
                 const Solid& solid = *near[static_cast<std::size_t>(__builtin_ctz(rest))];
                 if (!resolveOne(solid, skin, pass == mostPasses - 1, point, impact)) continue;
                 touches = true;
-                again |= impact.shifted;
+                again |= impact.isMoved;
                 report(firstContact, i, solid, impact);
             }
             if (!again) break;
@@ -275,27 +292,24 @@ class Resolver {
         if (!touches) return;
         touched_.push_back(i);
         for (int k = 0; k < 3; ++k) {
-            x[k * s] = point.rests ? before[k * s] : static_cast<Real>(point.x[k]);
+            x[k * s] = static_cast<Real>(point.x[k]);
             v[k * s] = static_cast<Real>(point.v[k]);
         }
     }
 
     bool resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point, Impact& impact) const {
-        const bool jumped = hasJumped(solid);
-        const MovingSurface surface{
-            solid.from, solid.to,   jumped || solid.still, frictionOn(solid), solid.material.restitution,
-            h_,         restSpeed_, fastestSurface};
+        const bool jumped = hasJumped(solid), still = jumped || solid.still;
         Path world{point.before, point.x, points_.thickness, skin};
         HalfSpace touch{};
         bool crossed = false;
         if (!solid.bounded) {
-            if (!surface.still) world.from = solid.to.toWorld(solid.from.toLocal(point.before));
+            if (!still) world.from = solid.to.toWorld(solid.from.toLocal(point.before));
             touch = {solid.above.normal, solid.above.offset + world.thickness};
         } else {
             const double least = solid.convex ? 0.0 : 8.0 * skin;
             if (world.thickness < least) world.thickness = least;
             const dvec3 localStart = (jumped ? solid.to : solid.from).toLocal(point.before);
-            if (!surface.still) world.from = solid.to.toWorld(localStart);
+            if (!still) world.from = solid.to.toWorld(localStart);
             const Path local{localStart, solid.to.toLocal(point.x), world.thickness, skin};
             if (jumped || solid.turn.empty()) {
                 if (!solid.form->sweep(local, touch, crossed)) return false;
@@ -305,13 +319,32 @@ class Resolver {
             touch.normal = solid.to.directionToWorld(touch.normal);
             touch.offset += glm::dot(touch.normal, solid.to.position);
         }
-        if (!respond(surface, world, touch, point, impact)) return false;
+        const dvec3 onSurface = vectorOf(placeUnder(of(world.to), of(touch.normal), touch.offset, world.thickness));
+        const dvec3 carried = still ? dvec3(0.0) : velocityAt(solid, onSurface);
+        const Surface surface{still, frictionOn(solid), solid.material.restitution, restSpeed_};
+        const Touch<double> met{of(world.from), of(point.x), of(point.v), of(touch.normal),
+                                touch.offset,   world.skin,  of(carried)};
+        const Response<double> response = respond(surface, met);
+        if (!response.arrives) return false;
+        point.x = vectorOf(response.x);
+        point.v = vectorOf(response.v);
+        impact = {response.impulse, onSurface, touch.normal, carried, response.isMoved != 0};
+        if (!response.reports) return false;
         if (isLast && crossed) {  // it is wedged in a fold of the mesh, so it goes where the mesh goes
             point.x = world.from;
-            point.v = surfaceVelocity(surface, world.from);
-            point.rests = surface.still;
+            point.v = still ? dvec3(0.0) : velocityAt(solid, world.from);
         }
         return true;
+    }
+
+    static Triple<double> of(const dvec3& v) { return {v.x, v.y, v.z}; }
+    static dvec3 vectorOf(const Triple<double>& v) { return {v.x, v.y, v.z}; }
+
+    // The velocity of the surface's place that ends the step at `place`: its way during the step over h.
+    dvec3 velocityAt(const Solid& solid, const dvec3& place) const {
+        const dvec3 v = (place - solid.from.toWorld(solid.to.toLocal(place))) / h_;
+        const double speed = std::sqrt(glm::dot(v, v));
+        return speed > fastestSurface ? v * (fastestSurface / speed) : v;
     }
 
     // A solid that turns far is followed frame by frame; the first touch counts.

@@ -3,26 +3,30 @@
 // precision loses as little as possible.
 #include "taut/mechanics/private/element_kernel.h"
 
+#include "taut/core/private/vectorise.h"
+#include "taut/mechanics/private/packed_points.h"
+
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
+using core::TAUT_ISA::root;
+
 template <class Real>
 void addCouplings(const CouplingBatch<Real>& batch) {
-    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     const Real *x = batch.couplings.vectors, *pull = batch.pulls.vectors;
     for (int i = batch.begin; i < batch.end; ++i) {
-        Four own, sum{};
-        __builtin_memcpy(&own, x + 4L * i, sizeof own);
+        Four<Real> own, sum{};
+        fetch(x + 4L * i, own);
         for (int k = batch.couplings.first[i]; k < batch.couplings.first[i + 1]; ++k) {
             const WeightedPoint<Real>& entry = batch.couplings.entries[k];
-            Four other;
-            __builtin_memcpy(&other, x + 4L * entry.from, sizeof other);
+            Four<Real> other;
+            fetch(x + 4L * entry.from, other);
             sum += entry.weight * (other - own);
         }
         for (int k = batch.pulls.first[i]; k < batch.pulls.first[i + 1]; ++k) {
             const WeightedPoint<Real>& entry = batch.pulls.entries[k];
-            Four other;
-            __builtin_memcpy(&other, pull + 4L * entry.from, sizeof other);
+            Four<Real> other;
+            fetch(pull + 4L * entry.from, other);
             sum += entry.weight * other;
         }
         sum *= batch.scale;
@@ -33,53 +37,44 @@ void addCouplings(const CouplingBatch<Real>& batch) {
     }
 }
 
-template <class Four, class Real>
-inline void sumUp(const WeightedRows<Real>& rows, int i, Four& sum) {
+template <class Real>
+inline void sumUp(const WeightedRows<Real>& rows, int i, Four<Real>& sum) {
     const int begin = rows.first[i], end = rows.first[i + 1];
     const Real* x = rows.vectors;
-    Four from;
-    sum = Four{};
-    __builtin_memcpy(&from, x + 4L * rows.entries[begin].from, sizeof from);
+    Four<Real> from;
+    sum = Four<Real>{};
+    fetch(x + 4L * rows.entries[begin].from, from);
     for (int k = begin + 1; k < end; ++k) {
         const WeightedPoint<Real>& entry = rows.entries[k];
-        Four other;
-        __builtin_memcpy(&other, x + 4L * entry.from, sizeof other);
+        Four<Real> other;
+        fetch(x + 4L * entry.from, other);
         sum += entry.weight * (other - from);
     }
 }
 
 template <class Real>
 void findSums(const SumBatch<Real>& batch) {
-    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     for (int i = batch.begin; i < batch.end; ++i) {
-        Four sum;
+        Four<Real> sum;
         sumUp(batch.rows, i, sum);
-        __builtin_memcpy(batch.sums + 4L * i, &sum, sizeof sum);
+        put(batch.sums + 4L * i, sum);
     }
-}
-
-inline float root(float x) {
-    return __builtin_sqrtf(x);
-}
-inline double root(double x) {
-    return __builtin_sqrt(x);
 }
 
 // With N = e1 × e2 the normal is n = N/|N|, and g_b·y = e2·m, g_c·y = -e1·m with m = n × y/|N|.
 template <class Real>
 void findPulls(const PullBatch<Real>& batch) {
-    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     const Real* x = batch.rows.vectors;
     for (int i = batch.begin; i < batch.end; ++i) {
-        Four y;
+        Four<Real> y;
         sumUp(batch.rows, i, y);
         if (batch.held != nullptr) {
-            Four held;
-            __builtin_memcpy(&held, batch.held + 4L * i, sizeof held);
+            Four<Real> held;
+            fetch(batch.held + 4L * i, held);
             y += held;
         }
         const int* corners = batch.corners + 3L * i;
-        Four normal = y;
+        Four<Real> normal = y;
         Real b = 0, c = 0;
         if (corners[0] < 0) {
             const Real length = root(y[0] * y[0] + y[1] * y[1] + y[2] * y[2]);
@@ -91,14 +86,14 @@ void findPulls(const PullBatch<Real>& batch) {
             const Real nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
             const Real length = root(nx * nx + ny * ny + nz * nz);
             const Real inverse = length > 0 ? 1 / length : Real(0);
-            normal = Four{nx, ny, nz, 0} * inverse;
+            normal = Four<Real>{nx, ny, nz, 0} * inverse;
             const Real mx = (normal[1] * y[2] - normal[2] * y[1]) * inverse,
                        my = (normal[2] * y[0] - normal[0] * y[2]) * inverse,
                        mz = (normal[0] * y[1] - normal[1] * y[0]) * inverse;
             b = -(vx * mx + vy * my + vz * mz);
             c = ux * mx + uy * my + uz * mz;
         }
-        const Four all[4] = {normal, -(b + c) * normal, b * normal, c * normal};
+        const Four<Real> all[4] = {normal, -(b + c) * normal, b * normal, c * normal};
         __builtin_memcpy(batch.pulls + 16L * i, all, sizeof all);
     }
 }

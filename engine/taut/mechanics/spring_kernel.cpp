@@ -6,6 +6,7 @@
 // k d, linear through l = 0.
 #include "taut/core/private/vectorise.h"
 #include "taut/core/private/vectors.h"
+#include "taut/mechanics/private/packed_points.h"
 #include "taut/mechanics/spring_kernels.h"
 
 namespace taut::mechanics::TAUT_ISA {
@@ -242,7 +243,6 @@ inline void list(const SpringListArgs<Real>& s) {
 // The same for packed points: a point's state is two vectors, its force is one.
 template <class Real>
 inline void packedList(const PackedSpringArgs<Real>& s) {
-    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     constexpr int batch = 64;
     alignas(64) Real c[batch][4], u[batch][4], pull[batch];
     const Real* state = s.state - static_cast<long>(s.windowFirst) * packedState;
@@ -254,15 +254,15 @@ inline void packedList(const PackedSpringArgs<Real>& s) {
         for (int i = 0; i < n; ++i) {
             const Real *from = state + static_cast<long>(a[i]) * packedState,
                        *to = state + static_cast<long>(b[i]) * packedState;
-            Four xa, xb, va, vb;
-            __builtin_memcpy(&xa, from, sizeof xa);
-            __builtin_memcpy(&xb, to, sizeof xb);
-            __builtin_memcpy(&va, from + 4, sizeof va);
-            __builtin_memcpy(&vb, to + 4, sizeof vb);
+            Four<Real> xa, xb, va, vb;
+            fetch(from, xa);
+            fetch(to, xb);
+            fetch(from + 4, va);
+            fetch(to + 4, vb);
             xa -= xb;
             va -= vb;
-            __builtin_memcpy(c[i], &xa, sizeof xa);
-            __builtin_memcpy(u[i], &va, sizeof va);
+            put(c[i], xa);
+            put(u[i], va);
         }
         const Real *k = s.k + first, *rest = s.restLength + first, *tau = s.tau + first;
         TAUT_INDEPENDENT
@@ -273,15 +273,15 @@ inline void packedList(const PackedSpringArgs<Real>& s) {
         // Scatter in order, because springs share points.
         for (int i = 0; i < n; ++i) {
             Real *atA = f + static_cast<long>(a[i]) * packedForce, *atB = f + static_cast<long>(b[i]) * packedForce;
-            Four d, fa, fb;
-            __builtin_memcpy(&d, c[i], sizeof d);
-            __builtin_memcpy(&fa, atA, sizeof fa);
-            __builtin_memcpy(&fb, atB, sizeof fb);
+            Four<Real> d, fa, fb;
+            fetch(c[i], d);
+            fetch(atA, fa);
+            fetch(atB, fb);
             d *= pull[i];
             fa += d;
             fb -= d;
-            __builtin_memcpy(atA, &fa, sizeof fa);
-            __builtin_memcpy(atB, &fb, sizeof fb);
+            put(atA, fa);
+            put(atB, fb);
         }
     }
 }

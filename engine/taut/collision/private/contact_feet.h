@@ -29,8 +29,7 @@ inline void findNear(const ContactArgs<Real>& s, ContactLanes& lanes) {
         const double x = static_cast<double>(s.x[0][i]) - tx;
         const double y = static_cast<double>(s.x[1][i]) - ty;
         const double z = static_cast<double>(s.x[2][i]) - tz;
-        const double skin =
-            skinPerMetre * (__builtin_fabs(bx) + __builtin_fabs(by) + __builtin_fabs(bz) + thickness);
+        const double skin = skinPerMetre * (__builtin_fabs(bx) + __builtin_fabs(by) + __builtin_fabs(bz) + thickness);
         const double sx = bx - fx, sy = by - fy, sz = bz - fz;
         const double ex = to[0][0] * x + to[0][1] * y + to[0][2] * z;
         const double ey = to[1][0] * x + to[1][1] * y + to[1][2] * z;
@@ -191,9 +190,8 @@ inline bool addResults(ContactLanes& lanes, int at, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const long found = lanes.outcome[i], before = lanes.result[at + i];
-        const bool isShifted = (lanes.depth[i] > lanes.skin[i]) | (lanes.bounce[i] > 0.0);
         lanes.result[at + i] = found != 0 ? found : before;
-        lanes.outcome[i] = ((found == anyTouched) & isShifted) ? isLive : 0L;
+        lanes.outcome[i] = ((found == anyTouched) & (lanes.isMoved[i] != 0)) ? isLive : 0L;
     }
     return anyOf(lanes.outcome, n) != 0;
 }

@@ -83,20 +83,9 @@ struct ContactLanes {
     alignas(64) double localEnd[3][contactRow];
     alignas(64) double skin[contactRow];
     alignas(64) double distance[contactRow];  // at the end; later the offset of the half-space to end in
-    alignas(64) double depth[contactRow];
     alignas(64) double startDistance[contactRow];
     alignas(64) double startNormal[3][contactRow];
-    alignas(64) double approach[contactRow];
-    alignas(64) double bounce[contactRow];
-    alignas(64) double slide[3][contactRow];  // later the velocity after the touch
-    alignas(64) double grip[contactRow];
-    alignas(64) long slips[contactRow];
-    alignas(64) double slideSquare[contactRow];
-    alignas(64) double square[contactRow];
-    alignas(64) double pressed[contactRow];
-    alignas(64) double along[3][contactRow];  // later the end after the touch
-    alignas(64) double back[contactRow];
-    alignas(64) long creeps[contactRow];
+    alignas(64) long isMoved[contactRow];  // not 0: by more than rounding
 
     // Of a mesh.
     alignas(64) double way[contactRow];        // [m²] square of the path's length

@@ -1,44 +1,61 @@
 // What a touch does to a point: projection, the normal impulse with restitution, Coulomb friction. It knows no shapes.
+// One text for one point and for several at once: V is double, or a vector with a lane for each point.
 #pragma once
 
-#include "taut/collision/geometry.h"
+#include "taut/core/private/vectors.h"
 
-namespace taut::collision {
+namespace taut::collision::TAUT_ISA {
+namespace {
 
-// A point during a step, in the world.
-struct MovingPoint {
-    dvec3 before;        // [m]
-    dvec3 x;             // [m]
-    dvec3 v;             // [m/s]
-    bool rests = false;  // x is `before`, to the bit
+template <class V>
+struct Triple {
+    V x, y, z;
+
+    friend Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend Triple operator*(const V& s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
+    friend V dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
+template <class Mask, class V>
+inline Triple<V> either(const Mask& mask, const Triple<V>& a, const Triple<V>& b) {
+    return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
 
-// How the touched surface moves and what it is made of.
-struct MovingSurface {
-    const Frame& from;
-    const Frame& to;
-    bool still;          // from and to are the same
+struct Surface {
+    bool still;
     double friction;     // Coulomb's μ of point and surface [-]
     double restitution;  // [-]
-    double h;            // [s] length of the step
     double restSpeed;    // [m/s] slower arrivals do not bounce
-    double fastest;      // [m/s] limit of the surface's speed
 };
 
-struct Impact {
-    double impulse;  // normal, per mass [m/s]
-    dvec3 position;  // on the surface [m]
-    dvec3 normal;
-    dvec3 carried;  // velocity of the surface [m/s]
-    bool shifted;   // x moved by more than rounding
+// The path of a point in the world, and the half-space normal · p >= offset in which it has to end.
+template <class V>
+struct Touch {
+    Triple<V> from;  // carried along by the surface [m]
+    Triple<V> to;    // [m]
+    Triple<V> v;     // of the point [m/s]
+    Triple<V> normal;
+    V offset;           // [m]
+    V skin;             // [m] what rounding makes of a distance
+    Triple<V> carried;  // velocity of the surface [m/s], 0 of a still one
 };
 
-// The velocity of the surface's place that ends the step at `place`: its way during the step over h.
-inline dvec3 surfaceVelocity(const MovingSurface& surface, const dvec3& place) {
-    if (surface.still) return dvec3(0.0);
-    const dvec3 v = (place - surface.from.toWorld(surface.to.toLocal(place))) / surface.h;
-    const double speed = std::sqrt(glm::dot(v, v));
-    return speed > surface.fastest ? v * (surface.fastest / speed) : v;
+template <class V>
+struct Response {
+    using Mask = decltype((V{} < V{}) & (V{} < V{}));
+    Mask arrives;  // else all of this means nothing
+    Mask reports;  // the touch is worth a report
+    Mask isMoved;  // by more than rounding
+    Triple<V> x;   // [m]
+    Triple<V> v;   // [m/s]
+    V impulse;     // normal, per mass [m/s]
+};
+
+// The place on the surface under the end of a path.
+template <class V>
+inline Triple<V> placeUnder(const Triple<V>& to, const Triple<V>& normal, const V& offset, double thickness) {
+    const V depth = offset - dot(normal, to), none{}, out = depth > none ? depth : none;
+    return to + (out - thickness) * normal;
 }
 
 //      from o           The path in the world, its start carried along by the surface. `fall` is how far it goes
@@ -46,63 +63,54 @@ inline dvec3 surfaceVelocity(const MovingSurface& surface, const dvec3& place) {
 //   ----------x-------  the surface after the touch as it does on the velocity: it undoes as much of this way as
 //              \        μ times `pressed` allows. So a point that sticks is where it was. It does not creep down a
 //            to o       slope by what gravity adds in a step.
-//
-// Returns false if there is nothing to report. Then `impact` means nothing.
-inline bool respond(const MovingSurface& surface, const Path& path, const HalfSpace& touch, MovingPoint& point,
-                    Impact& impact) {
-    const dvec3& n = touch.normal;
-    const double depth = touch.offset - glm::dot(n, path.to);
-    if (!(depth > -path.skin)) return false;
-    const double out = depth > 0.0 ? depth : 0.0;
-    const dvec3 onSurface = path.to + (out - path.thickness) * n;
+template <class V>
+inline Response<V> respond(const Surface& surface, const Touch<V>& touch) {
+    using core::TAUT_ISA::isAny;
+    using core::TAUT_ISA::root;
+    const V none{}, one = none + 1.0;
+    const Triple<V>& n = touch.normal;
+    const V depth = touch.offset - dot(n, touch.to), out = depth > none ? depth : none;
 
     // Velocity relative to the surface: the normal part is removed or bounces, if it approaches. Friction slows the
     // rest.
-    const dvec3 carried = surfaceVelocity(surface, onSurface);
-    const dvec3 u = point.v - carried;
-    const double un = glm::dot(u, n);
-    if (depth <= 0.0 && !(un < 0.0)) return false;
-    const double bounce = un < -surface.restSpeed ? surface.restitution : 0.0;
-    impact.impulse = un < 0.0 ? -(1.0 + bounce) * un : 0.0;
-    const dvec3 slide = u - un * n;
-    const double slideSquare = glm::dot(slide, slide);
-    const double grip = surface.friction * impact.impulse;
-    const bool sticks = slideSquare <= grip * grip;
-    if (sticks && bounce == 0.0 && un < 0.0) {
-        point.v = carried;
-    } else {
-        point.v += impact.impulse * n;
-        if (sticks)
-            point.v -= slide;
-        else if (grip > 0.0)
-            point.v -= slide * (grip / std::sqrt(slideSquare));
-    }
+    const Triple<V> u = touch.v - touch.carried;
+    const V un = dot(u, n);
+    const V bounce = un < -surface.restSpeed ? none + surface.restitution : none;
+    const V impulse = un < none ? -(one + bounce) * un : none;
+    const Triple<V> slide = u - un * n;
+    const V slideSquare = dot(slide, slide), grip = surface.friction * impulse;
+    const auto arrives = (depth > -touch.skin) & ((depth > none) | (un < none));
+    const auto sticks = slideSquare <= grip * grip;
+    V part = one;
+    if (isAny(arrives & (sticks == 0))) part = sticks ? one : grip / root(slideSquare);
+    const Triple<V> pushed = touch.v + impulse * n;
+    const auto stops = sticks & (bounce == none) & (un < none);
+    const Triple<V> v = either(stops, touch.carried, either(part > none, pushed - part * slide, pushed));
 
     // Position: out along the normal, and back along the surface by friction.
-    const dvec3 way = path.to - path.from;
-    const double fall = -glm::dot(way, n);
-    double pressed = depth + path.skin < fall ? depth + path.skin : fall;
-    if (!(pressed > 0.0)) pressed = 0.0;
-    dvec3 end = path.to + (out + bounce * pressed) * n;
-    bool holds = false;
-    if (pressed > 0.0 && surface.friction > 0.0) {
-        const dvec3 along = (way + fall * n) * (pressed / fall);
-        const double square = glm::dot(along, along);
-        const double limit = surface.friction * pressed * (1.0 + bounce);
-        holds = square <= limit * limit;
-        end -= holds ? along : along * (limit / std::sqrt(square));
+    const Triple<V> way = touch.to - touch.from;
+    const V fall = -dot(way, n), deep = depth + touch.skin, least = deep < fall ? deep : fall;
+    const V pressed = least > none ? least : none;
+    Triple<V> x = touch.to + (out + bounce * pressed) * n;
+    if (surface.friction > 0.0) {
+        const auto rubs = pressed > none;
+        const Triple<V> along = (pressed / fall) * (way + fall * n);
+        const V square = dot(along, along), limit = surface.friction * pressed * (one + bounce);
+        const auto holds = square <= limit * limit;
+        V back = one;
+        if (isAny(arrives & (holds == 0))) back = holds ? one : limit / root(square);
+        x = either(rubs, x - back * along, x);
+        // A point that friction held, and that stood within rounding of the surface, stays to the bit. So rounding
+        // cannot add up.
+        if (surface.still) {
+            const V height = dot(n, touch.from) - touch.offset;
+            const auto stood = (height <= touch.skin) & (height >= -touch.skin);
+            x = either(rubs & holds & sticks & (bounce == none) & stood, touch.from, x);
+        }
     }
-    // A point that friction held, and that stood within rounding of the surface, stays to the bit. So rounding cannot
-    // add up.
-    const double startHeight = glm::dot(n, path.from) - touch.offset;
-    point.rests = holds && sticks && surface.still && bounce == 0.0 && std::abs(startHeight) <= path.skin;
-    point.x = point.rests ? point.before : end;
-
-    impact.shifted = depth > path.skin || bounce > 0.0;
-    impact.position = onSurface;
-    impact.normal = n;
-    impact.carried = carried;
-    return impact.impulse > 0.0 || depth > path.skin;
+    return {arrives, arrives & ((impulse > none) | (depth > touch.skin)), (depth > touch.skin) | (bounce > none), x, v,
+            impulse};
 }
 
-}  // namespace taut::collision
+}  // namespace
+}  // namespace taut::collision::TAUT_ISA

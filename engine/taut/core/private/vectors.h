@@ -1,6 +1,11 @@
 // Vectors of the instruction set that a kernel is compiled for, for loops that a compiler does not vectorise by itself.
-// Include it in files of taut_kernel only: everything in it is TAUT_ISA's own.
+// Everything in it is the including file's own, compiled for that file's instruction set: that of a kernel, or what
+// every processor has.
 #pragma once
+
+#ifndef TAUT_ISA
+#define TAUT_ISA plain
+#endif
 
 namespace taut::core::TAUT_ISA {
 namespace {
@@ -44,6 +49,17 @@ inline void store(Number* to, V v) {
 template <class V, class Mask>
 inline V select(Mask mask, V a, V b) {
     return __builtin_bit_cast(V, (mask & __builtin_bit_cast(Mask, a)) | (~mask & __builtin_bit_cast(Mask, b)));
+}
+
+// Whether any lane of a mask is set.
+inline bool isAny(int mask) {
+    return mask != 0;
+}
+template <class Mask>
+inline bool isAny(Mask mask) {
+    auto any = mask[0];
+    for (unsigned k = 1; k < sizeof mask / sizeof mask[0]; ++k) any |= mask[k];
+    return any != 0;
 }
 
 // The larger or the smaller of two numbers; the second if one is none.

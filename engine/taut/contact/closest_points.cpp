@@ -4,6 +4,8 @@
 
 namespace taut::contact {
 
+using namespace TAUT_ISA;  // of closest_text.h
+
 Closest closestPoints(const Corners& corners, bool isPoint) {
     const auto at = [&](std::size_t k) { return Place{corners[k].x, corners[k].y, corners[k].z}; };
     const Place p = at(0), q = at(1), r = at(2), s = at(3);

@@ -1,23 +1,17 @@
-// Closest points of one pair, in plain numbers: kernels call it in loops over many, closest_points.cpp for one. Each file
-// that includes it compiles its own copy, for its own instruction set. All cases are computed, and one is chosen: no
-// branch keeps a loop from being vectorised.
+// Closest points of one pair: kernels call it in loops over many, closest_points.cpp for one. All cases are computed,
+// and one is chosen: no branch keeps a loop from being vectorised.
 #pragma once
 
-namespace taut::contact {
+#include "taut/core/private/vectors.h"
+
+namespace taut::contact::TAUT_ISA {
 namespace {
+
+using Place = core::TAUT_ISA::Triple<double>;
 
 // The numbers of the enum Feature.
 constexpr long face = 0, edge0 = 1, edge1 = 2, edge2 = 3, corner0 = 4, corner1 = 5, corner2 = 6;
 
-struct Place {
-    double x, y, z;
-};
-inline Place operator-(const Place& a, const Place& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline double dot(const Place& a, const Place& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 inline double clampShare(double s) {
     const double above = s < 0 ? 0.0 : s;
     return above > 1 ? 1.0 : above;
@@ -105,4 +99,4 @@ inline Place sumOf(const ClosestWeights& weights, const Place& p, const Place& q
 }
 
 }  // namespace
-}  // namespace taut::contact
+}  // namespace taut::contact::TAUT_ISA

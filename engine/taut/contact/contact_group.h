@@ -156,8 +156,9 @@ class ContactGroup {
     Elements elements_;
     BroadPhase broadPhase_;
     std::vector<Crossing> crossings_;
-    bool isCertified_ = false;         // since begin(), which found no crossings
-    std::vector<dvec3> xCertified_;    // (points) [m] at the last instant
+    // They spare a search, and change no result: see begin().
+    bool isCertified_ = false;       // since begin(), which found no crossings
+    std::vector<dvec3> xCertified_;  // (points) [m] at the last instant
     enum Mark : char { unmarked, anySide, wrongSide };
     std::vector<char> marks_;                              // (points) of crossings_
     std::vector<ContactConstraint> tested_;                // pairs that need a certificate, in their order

@@ -7,19 +7,8 @@
 namespace taut::collision::TAUT_ISA {
 namespace {
 
-template <class V>
-struct Triple {
-    V x, y, z;
-
-    friend Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend Triple operator*(const V& s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
-    friend V dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-};
-template <class Mask, class V>
-inline Triple<V> either(const Mask& mask, const Triple<V>& a, const Triple<V>& b) {
-    return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
-}
+using core::TAUT_ISA::either;
+using core::TAUT_ISA::Triple;
 
 struct Surface {
     bool still;

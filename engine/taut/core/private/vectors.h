@@ -84,5 +84,20 @@ inline V root(V x) {
     return x;
 }
 
+// A place or a way in space. V is a number, or a vector with a lane for each place.
+template <class V>
+struct Triple {
+    V x, y, z;
+
+    friend Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend Triple operator*(const V& s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
+    friend V dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+};
+template <class Mask, class V>
+inline Triple<V> either(const Mask& mask, const Triple<V>& a, const Triple<V>& b) {
+    return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
+
 }  // namespace
 }  // namespace taut::core::TAUT_ISA

@@ -55,42 +55,50 @@ class Picture {
     this.addAround(triangle(), this.shown('background', 'background', [], {}, {depthWrite: false, depthTest: false}))
       .renderOrder = -1;
     if (ground) this.addGround(ground, background);
-    for (const {mesh} of film.shapes) mesh.material = this.materialOf(mesh);
+    for (const {mesh} of film.shapes) {
+      mesh.material = this.materialOf(mesh);
+      mesh.visible = mesh.name !== 'ground';  // there is an endless one
+    }
+    const box = film.bounds();
+    this.enclose(box.isEmpty() ? box.expandByPoint(film.target) : box);
     this.resize();
   }
 
-  // What the shaders want to know of the shadow map, and the map: it holds all that moves, wherever it goes.
+  // What the shaders want to know of the shadow map, and the map, for which enclose() finds the place.
   shadowFrom(light) {
-    for (const {mesh} of this.film.shapes) mesh.visible = mesh.name !== 'ground';  // there is an endless one
-    const box = this.film.bounds(), corner = new THREE.Vector3(), seen = new THREE.Box3();
-    if (box.isEmpty()) box.expandByPoint(this.film.target);
-    const sun = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
+    const sun = this.sun = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
     sun.up.set(0, Math.abs(light.direction[1]) > 0.99 * Math.hypot(...light.direction) ? 0 : 1, 0);
     if (sun.up.y === 0) sun.up.x = 1;
     sun.lookAt(vector(light.direction));
     sun.updateMatrixWorld(true);
-    const ends = [box.min, box.max];
-    const toSun = new THREE.Matrix4().copy(sun.matrixWorld).transpose();  // a rotation alone
+    this.map = depthMap(shadowTexels);
+    this.depth = shader(shaderText('depth.vert'), 'void main() {}', {}, {side: THREE.DoubleSide, colorWrite: false});
+    const {depthTexture} = this.map;
+    // Nowhere is it known beforehand what may lie in between: from least to largest depth.
+    const bounds = new THREE.DataTexture(new Uint8Array([0, 255, 0, 255]), 1, 1, THREE.RGBAFormat);
+    bounds.needsUpdate = true;
+    return {
+      shadowMap: depthTexture, shadowDepth: depthTexture, shadowBounds: bounds, toMap: new THREE.Matrix4(),
+      toLight: new THREE.Matrix4().copy(sun.matrixWorld).transpose(),  // a rotation alone
+      mapSize: new THREE.Vector4(),
+    };
+  }
+
+  // Places the shadow map, and the maps of what stands over the ground, so that they hold all of the box [m].
+  enclose(box) {
+    const {sun, frame} = this, corner = new THREE.Vector3(), seen = new THREE.Box3();
+    const ends = [box.min, box.max], toSun = frame.toLight.value;
     for (let i = 0; i < 8; ++i)
       seen.expandByPoint(corner.set(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z).applyMatrix4(toSun));
     seen.expandByScalar(0.02 * seen.getSize(corner).length() + 0.01);
     Object.assign(sun, {left: seen.min.x, right: seen.max.x, bottom: seen.min.y, top: seen.max.y, near: -seen.max.z});
     sun.far = -seen.min.z;
     sun.updateProjectionMatrix();
-    this.sun = sun;
-    this.map = depthMap(shadowTexels);
-    this.depth = shader(shaderText('depth.vert'), 'void main() {}', {}, {side: THREE.DoubleSide, colorWrite: false});
-    const toMap = new THREE.Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
-    toMap.multiply(sun.projectionMatrix).multiply(toSun);
-    this.box = box;
-    const size = seen.getSize(new THREE.Vector3()).toArray(), {depthTexture} = this.map;
-    // Nowhere is it known beforehand what may lie in between: from least to largest depth.
-    const bounds = new THREE.DataTexture(new Uint8Array([0, 255, 0, 255]), 1, 1, THREE.RGBAFormat);
-    bounds.needsUpdate = true;
-    return {
-      shadowMap: depthTexture, shadowDepth: depthTexture, shadowBounds: bounds, toMap, toLight: toSun,
-      mapSize: four(size, Math.max(size[0], size[1]) / shadowTexels),
-    };
+    frame.toMap.value.set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1)
+      .multiply(sun.projectionMatrix).multiply(toSun);
+    const size = seen.getSize(corner);
+    frame.mapSize.value.set(...size.toArray(), Math.max(size.x, size.y) / shadowTexels);
+    if (this.overGround) this.placeOverGround(box);
   }
 
   // One of taut's shaders, whose targets have the curve of displays: here it comes afterwards.
@@ -123,25 +131,29 @@ class Picture {
 
   // Maps of what stands over the ground, seen from below and from above, and of what that hides of the sky.
   hiddenOver(ground) {
-    const {min, max} = this.box, low = [min.x - skyMargin, min.z - skyMargin];
+    this.views = [1, -1].map((way) => ({way, camera: new THREE.Camera(), map: depthMap(skyTexels)}));
+    this.hidden = new THREE.WebGLRenderTarget(skyTexels / 2, skyTexels / 2);
+    this.overGround = {height: ground.height, extent: new THREE.Vector3(), area: new THREE.Vector4()};
+    const material = shader(shaderText('screen.vert'), shaderText('hidden.frag'), uniformsOf({
+      lowest: this.views[0].map.depthTexture, highest: this.views[1].map.depthTexture, reach: skyMargin,
+      extent: this.overGround.extent,
+    }), {depthTest: false});
+    this.gathering = new THREE.Mesh(triangle(), material);
+    this.gathering.frustumCulled = false;
+    return {occlusion: this.hidden.texture, occlusionArea: this.overGround.area};
+  }
+
+  placeOverGround({min, max}) {
+    const low = [min.x - skyMargin, min.z - skyMargin], ground = this.overGround;
     const size = [max.x + skyMargin - low[0], max.z + skyMargin - low[1]], height = Math.max(...size);
-    this.views = [1, -1].map((way) => {
-      const camera = new THREE.Camera();  // x and z of the world to the right and up, its y ahead or towards the eye
+    for (const {way, camera} of this.views)  // x and z of the world to the right and up, its y ahead or towards the eye
       camera.projectionMatrix.set(
         2 / size[0], 0, 0, -1 - 2 * low[0] / size[0],
         0, 0, 2 / size[1], -1 - 2 * low[1] / size[1],
         0, way * 2 / height, 0, -way * (1 + 2 * ground.height / height),
         0, 0, 0, 1);
-      return {camera, map: depthMap(skyTexels)};
-    });
-    this.hidden = new THREE.WebGLRenderTarget(skyTexels / 2, skyTexels / 2);
-    const material = shader(shaderText('screen.vert'), shaderText('hidden.frag'), uniformsOf({
-      lowest: this.views[0].map.depthTexture, highest: this.views[1].map.depthTexture, reach: skyMargin,
-      extent: new THREE.Vector3(size[0], height, size[1]),
-    }), {depthTest: false});
-    this.gathering = new THREE.Mesh(triangle(), material);
-    this.gathering.frustumCulled = false;
-    return {occlusion: this.hidden.texture, occlusionArea: new THREE.Vector4(...low, 1 / size[0], 1 / size[1])};
+    ground.extent.set(size[0], height, size[1]);
+    ground.area.set(...low, 1 / size[0], 1 / size[1]);
   }
 
   addGround(ground, background) {

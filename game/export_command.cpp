@@ -33,15 +33,15 @@ namespace taut::game {
 namespace {
 
 struct ExportFlags {
-    std::string scene, output, points, web, viewer, frames, isa;
-    std::vector<std::string> only, of;  // as they are given
+    std::string scene, output, points, web, live, viewer, engine, frames, isa;
+    std::vector<std::string> only, of, sliders;  // as they are given
     std::vector<std::string> overrides;
     std::int64_t every = 1;
     int digits = 0;  // 0: not given
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
     OverwriteFlags overwrite;
-    bool noNormals = false, quiet = false, isConfined = false;
+    bool noNormals = false, quiet = false, isConfined = false, edits = false;
 };
 
 using geometry::Format;
@@ -131,7 +131,7 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
         all.push_back({file, format});
     };
     if (flags.output.empty() && flags.points.empty() && flags.web.empty())
-        failUsage("say where the geometry goes: {}", allKindsOfFiles(formats, page));
+        failUsage("say where the geometry goes: {}; or --live page.html, to play with it", allKindsOfFiles(formats, page));
     add(
         flags.output, geometry::formatOf(formats, Holds::surfaces, flags.output),
         [&] {
@@ -261,8 +261,29 @@ void noteTooManyKeys(std::int64_t keys, const pipeline::GeometryRun& run, const 
               most, (run.lastFrame - run.firstFrame) / most + 1);
 }
 
+// A page needs no run: what is in it is the scene.
+int exportLive(const ExportFlags& flags) {
+    if (!(flags.output + flags.web + flags.points).empty())
+        failUsage("--live writes a page in which the scene is played; -o, --web and --points are exports of their own");
+    if (!flags.live.ends_with(".html") && !flags.live.ends_with(".htm"))
+        failUsage("{}: --live writes a page, out.html", flags.live);
+    const std::vector<std::string> overrides = allOverrides(flags);
+    const scene::Loaded scene = readSceneWithKeys(flags.scene, overrides, flags.isConfined);
+    LivePageWish wish{flags.viewer, flags.engine, overrides, targetsIn(flags.sliders), flags.edits};
+    if (flags.sliders.empty()) wish.sliders.clear();
+    const std::string page = livePage(sceneFile(flags.scene), scene, wish);
+    permitOverwritingFile(flags.live, flags.overwrite.answer());
+    core::prepareFolderOf(flags.live);
+    core::writeWholeFile(flags.live, page);
+    if (!flags.quiet) printNote("{} ({})\n", flags.live, sizeText(flags.live));
+    return static_cast<int>(ExitCode::ok);
+}
+
 // Over 60 lines: what an export does, from its flags to its files, stands in one list.
 int exportScene(const ExportFlags& flags, const Formats& formats) {
+    if (!flags.live.empty()) return exportLive(flags);
+    if (!flags.engine.empty() || !flags.sliders.empty() || flags.edits)
+        failUsage("--engine, --sliders and --edit are of a page in which the scene is played: add --live out.html");
     const auto page = std::make_shared<geometry::WebPage>();
     const Format pages = pageFormat(page);
     const std::vector<Destination> destinations = destinationsOf(flags, formats, pages);
@@ -349,6 +370,20 @@ Action declareExport(Options& options, const Formats& formats) {
         .value("--web", flags->web,
                "A page that plays it in any browser, offline, to be looked at from all sides: out.html")
         .typeName("FILE");
+    options
+        .value("--live", flags->live,
+               "A page in which the scene is computed and played with, in any browser, offline: out.html")
+        .typeName("FILE");
+    options
+        .value("--engine", flags->engine,
+               "The engine in such a page; $TAUT_WEB, else what game/web.sh built, when not given")
+        .typeName("FOLDER");
+    options
+        .value("--sliders", flags->sliders,
+               "What may be changed in such a page, as ramps do, such as wind.breeze.velocity; usual ones when not given")
+        .typeName("KEY,…")
+        .oneValue();
+    options.flag("--edit", flags->edits, "The scene's text is open in such a page, and read as one types");
     options
         .value("--viewer", flags->viewer,
                "The three.js that draws in the page; $TAUT_THREE, else Debian's libjs-three, when not given")

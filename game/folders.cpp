@@ -51,6 +51,10 @@ std::filesystem::path manualFolder() {
     return installedOr("manual", "game/manual");
 }
 
+std::filesystem::path webFolder() {
+    return installedOr("web", "build-web/game/web/taut");
+}
+
 std::filesystem::path fontFile() {
     const char* wish = std::getenv("TAUT_FONT");
     return wish != nullptr && *wish != '\0' ? std::filesystem::path(wish) : render::defaultFont();

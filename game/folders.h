@@ -16,6 +16,10 @@ std::filesystem::path shaderFolder();
 // The pages of the manual: share/taut/manual of the prefix, else game/manual of the checkout; empty if there are none.
 std::filesystem::path manualFolder();
 
+// The engine for pages: share/taut/web of the prefix, else what game/web.sh built in the checkout; empty if there is
+// none.
+std::filesystem::path webFolder();
+
 // The font for labels: $TAUT_FONT, or the one that Debian installs; empty if there is none.
 std::filesystem::path fontFile();
 // The fixed-width font beside it, or the same font if there is none.

@@ -41,18 +41,6 @@ std::filesystem::path freeName(const std::filesystem::path& wish, bool isKept) {
     return name;
 }
 
-// How a file in `folder` names the scene: a shipped one by its name, another by the way from there.
-std::string referenceTo(const std::filesystem::path& scene, const std::filesystem::path& folder) {
-    std::error_code ignored;
-    const auto whole = [&](const std::filesystem::path& path) {
-        return std::filesystem::weakly_canonical(path, ignored);
-    };
-    const std::filesystem::path real = whole(scene), from = whole(folder.empty() ? "." : folder);
-    if (real.parent_path() == whole(assetFolder() / "scenes")) return "shipped:" + real.stem().string();
-    if (real.parent_path() == whole(assetFolder() / "scenarios")) return "shipped:scenarios/" + real.stem().string();
-    return std::filesystem::relative(real, from, ignored).string();
-}
-
 }  // namespace
 
 void LivePlay::handle(const WindowEvent& event) {

@@ -70,6 +70,17 @@ void addConfinedFlag(Options& options, bool& isConfined) {
     options.flag("--confined", isConfined, "Read files below the scene's folder and the shipped assets only");
 }
 
+std::string referenceTo(const std::filesystem::path& scene, const std::filesystem::path& folder) {
+    std::error_code ignored;
+    const auto whole = [&](const std::filesystem::path& path) {
+        return std::filesystem::weakly_canonical(path, ignored);
+    };
+    const std::filesystem::path real = whole(scene), from = whole(folder.empty() ? "." : folder);
+    if (real.parent_path() == whole(assetFolder() / "scenes")) return "shipped:" + real.stem().string();
+    if (real.parent_path() == whole(assetFolder() / "scenarios")) return "shipped:scenarios/" + real.stem().string();
+    return std::filesystem::relative(real, from, ignored).string();
+}
+
 scene::LoadOptions loadOptions(const std::vector<std::string>& overrides, bool isConfined) {
     scene::LoadOptions options;
     options.isConfined = isConfined;

@@ -15,6 +15,9 @@ namespace taut::game {
 // core::Error(inputOutput), for a bare name with the nearest shipped scene.
 std::filesystem::path sceneFile(const std::string& argument);
 
+// How a file in `folder` names the scene: a shipped one by its name, another by the way from there.
+std::string referenceTo(const std::filesystem::path& scene, const std::filesystem::path& folder);
+
 // Options with the asset folder. A confined scene reads only files below its own folder and the shipped assets.
 scene::LoadOptions loadOptions(const std::vector<std::string>& overrides = {}, bool isConfined = false);
 void addConfinedFlag(Options& options, bool& isConfined);

@@ -1,13 +1,15 @@
-// The page that `export --web` writes, without its geometry: the viewer of assets/viewer, the shaders of taut's own
-// pictures and the installed scripts of three.js, in one text that needs nothing else. It knows no scene.
+// Pages that need nothing else: the viewer of assets/viewer, the shaders of taut's own pictures, the installed scripts
+// of three.js, and a film (`export --web`) or a scene with the engine that plays it (`export --live`).
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "taut/geometry/private/format_table.h"
 #include "taut/geometry/web_page_writer.h"
+#include "taut/scene/load.h"
 
 namespace taut::game {
 
@@ -18,6 +20,21 @@ std::filesystem::path viewerLibrary(const std::string& wish = "");
 // `title` heads the page, with `scene` below. Throws core::Error(inputOutput), with what to install, if there is no
 // library.
 geometry::WebPage webPage(const std::string& title, const std::string& scene, const std::string& wish);
+
+// The engine for pages, as game/web.sh builds it: `wish`, else $TAUT_WEB, else where it is installed or was built. Throws
+// core::Error(inputOutput), with what to do, if there is none.
+std::filesystem::path webEngine(const std::string& wish = "");
+
+struct LivePageWish {
+    std::string viewer, engine;           // folders; empty: wherever they are
+    std::vector<std::string> overrides;   // "key=value"
+    std::vector<std::string> sliders;     // keys that ramps may change; empty: those that most scenes are asked about
+    bool edits = false;                   // the scene's text is open beside the picture
+};
+
+// The page in which people play with the scene. Throws core::Error(inputOutput) for what is missing or cannot be read,
+// core::Error(usage) for a slider of something that ramps cannot change.
+std::string livePage(const std::filesystem::path& file, const scene::Loaded& scene, const LivePageWish& wish);
 
 // The row of web pages, which need no other file; --web asks for them. `page` is written around the film.
 geometry::Format pageFormat(std::shared_ptr<const geometry::WebPage> page);

@@ -35,9 +35,9 @@ const vector = (numbers) => new THREE.Vector3(...numbers);
 const four = (three, last = 0) => new THREE.Vector4(...three, last);
 
 class Picture {
-  constructor(canvas, context, film) {
+  constructor(renderer, film) {
     this.film = film;
-    this.renderer = new THREE.WebGLRenderer({canvas, context});
+    this.renderer = renderer;
     this.scene = new THREE.Scene();
     this.scene.add(film.scene);
     this.camera = film.camera.clone();
@@ -86,6 +86,7 @@ class Picture {
 
   // Places the shadow map, and the maps of what stands over the ground, so that they hold all of the box [m].
   enclose(box) {
+    this.box = box;
     const {sun, frame} = this, corner = new THREE.Vector3(), seen = new THREE.Box3();
     const ends = [box.min, box.max], toSun = frame.toLight.value;
     for (let i = 0; i < 8; ++i)
@@ -214,5 +215,15 @@ class Picture {
     this.renderer.setRenderTarget(null);
     for (const mesh of this.around) mesh.visible = true;
     this.renderer.render(this.scene, eye);
+  }
+  // Gives back what it has on the graphics card; the renderer stays.
+  dispose() {
+    for (const target of [this.map, this.hidden, ...this.views.map((view) => view.map)]) if (target) target.dispose();
+    this.scene.traverse(({geometry, material}) => {
+      if (geometry) geometry.dispose();
+      if (!material) return;
+      if (material.uniforms.picture && material.uniforms.picture.value) material.uniforms.picture.value.dispose();
+      material.dispose();
+    });
   }
 }

@@ -128,7 +128,7 @@ function startPage() {
     return;
   }
   readFilm().then((film) => {
-    const picture = new Picture(canvas, context, film);
+    const picture = new Picture(new THREE.WebGLRenderer({canvas, context}), film);
     const player = new Player(film, picture);
     message.textContent = '';
     // For scripts: the numbers behind the picture.

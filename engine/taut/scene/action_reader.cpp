@@ -86,4 +86,16 @@ world::RampAction ActionReader::ramp(const std::string& key, const world::SceneS
     return action;
 }
 
+std::vector<Rampable> ActionReader::rampable(const world::SceneSpec& spec) const {
+    const std::vector<SceneSection> sections = sceneSections(kinds_);
+    world::SceneSpec copy = spec;
+    std::vector<Rampable> all;
+    for (const std::string& key : rampableKeys(sections, root_)) {
+        TargetFault fault;
+        if (const std::optional<RampKey> found = rampKey(key, root_, sections, copy, fault))
+            all.push_back({key, found->field->unit, found->field->range, found->access->read(spec)});
+    }
+    return all;
+}
+
 }  // namespace taut::scene

@@ -3,12 +3,22 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "taut/fields/field.h"
 #include "taut/fields/node.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/kinds.h"
 
 namespace taut::scene {
+
+// A number or a vector of the scene that ramps may change.
+struct Rampable {
+    std::string key;            // "wind.breeze.velocity"
+    std::string unit;           // of the file
+    fields::Range range;        // of each number
+    std::vector<double> value;  // now, in this unit
+};
 
 class ActionReader {
   public:
@@ -25,6 +35,9 @@ class ActionReader {
     // What World::restore() needs to know of an applied ramp. Throws core::Error(badContent) for a key that may not
     // change.
     world::RampAction ramp(const std::string& key, const world::SceneSpec& spec) const;
+
+    // All that ramps may change in the scene, in the order of the manual.
+    std::vector<Rampable> rampable(const world::SceneSpec& spec) const;
 
   private:
     fields::Node root_;

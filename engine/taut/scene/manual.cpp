@@ -84,7 +84,7 @@ std::string manual(const world::Kinds& kinds) {
         "red.\n\n"
         "Ramps\n"
         "  do = \"ramp\" changes a number or a list of numbers from its value at that moment:\n\n";
-    for (const std::string& line : rampableKeys(sceneSections(kinds))) out += "  " + line + "\n";
+    for (const std::string& line : rampableLines(sceneSections(kinds))) out += "  " + line + "\n";
     out += "\nChecks\n" + check::functionsManual();
     out.pop_back();
     return out;

@@ -125,7 +125,20 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     return RampKey{row->field, std::move(access)};
 }
 
-std::vector<std::string> rampableKeys(const std::vector<SceneSection>& sections) {
+std::vector<std::string> rampableKeys(const std::vector<SceneSection>& sections, const Node& root) {
+    std::vector<std::string> keys;
+    for (const SceneSection& section : sections) {
+        const Node* own = root.at(section.name);
+        const bool isNamed = section.layout == Layout::named;
+        if (isNamed && own == nullptr) continue;
+        for (const std::string& name : isNamed ? own->keys() : std::vector<std::string>{""})
+            for (const std::string& path : rampablePaths(section))
+                keys.push_back(section.name + (isNamed ? "." + name + "." : ".") + path);
+    }
+    return keys;
+}
+
+std::vector<std::string> rampableLines(const std::vector<SceneSection>& sections) {
     std::vector<std::string> lines;
     for (const SceneSection& section : sections) {
         const std::vector<std::string> paths = rampablePaths(section);

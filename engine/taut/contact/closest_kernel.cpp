@@ -109,7 +109,7 @@ int findDue(CandidateRows& rows) {
     using V = core::TAUT_ISA::WideVector<double>;
     constexpr int width = sizeof(V) / sizeof(double);
     alignas(64) double byTravelled[room], byApproached[room];  // negative budgets of the pairs that are not due
-    alignas(64) long isDue[room];
+    alignas(64) std::int64_t isDue[room];
     int count = 0;
     for (int from = 0; from < rows.n; from += room) {
         const int n = rows.n - from < room ? rows.n - from : room;
@@ -120,7 +120,7 @@ int findDue(CandidateRows& rows) {
         for (int i = 0; i < n; ++i) {
             const double left = travel[i] - travelled, leftApproach = approach[i] - approached;
             const bool hasBudget = (left > 0) | (leftApproach > 0), isFurther = left > leftApproach;
-            isDue[i] = hasBudget ? 0L : 1L;
+            isDue[i] = hasBudget ? 0 : 1;
             byTravelled[i] = (hasBudget & isFurther) ? -travel[i] : -1e300;
             byApproached[i] = (hasBudget & !isFurther) ? -approach[i] : -1e300;
         }

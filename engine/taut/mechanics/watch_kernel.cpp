@@ -15,7 +15,7 @@ struct MaskOf<float> {
 };
 template <>
 struct MaskOf<double> {
-    using Type = long long;
+    using Type = std::int64_t;
 };
 
 }  // namespace

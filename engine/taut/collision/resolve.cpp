@@ -387,8 +387,7 @@ class Resolver {
     std::vector<int>& touched_;
     std::vector<Contact>& contacts_;
     const bool records_;  // whether the caller wants contacts
-    std::int64_t (*const kernel_)(const ContactArgs<Real>&, ContactLanes&) =
-        core::inUse(sse2::contact<Real>, avx2::contact<Real>, avx512::contact<Real>);
+    std::int64_t (*const kernel_)(const ContactArgs<Real>&, ContactLanes&) = TAUT_IN_USE(contact<Real>);
     ContactLanes lanes_;
 };
 

@@ -36,9 +36,7 @@ void forEachOf(const SpringNetwork<Real>& network, const SpringRun<Real>& run, c
 }  // namespace
 
 template <class Real>
-DashpotSweep<Real>::DashpotSweep()
-    : run_(core::inUse(sse2::dampRun<Real>, avx2::dampRun<Real>, avx512::dampRun<Real>)),
-      list_(core::inUse(sse2::dampList<Real>, avx2::dampList<Real>, avx512::dampList<Real>)) {}
+DashpotSweep<Real>::DashpotSweep() : run_(TAUT_IN_USE(dampRun<Real>)), list_(TAUT_IN_USE(dampList<Real>)) {}
 
 template <class Real>
 void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real* w, double h) {

@@ -1,7 +1,11 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 #include "taut/contact/closest_kernel.h"
 
+#if defined(__wasm__)
+#include <wasm_simd128.h>
+#else
 #include <immintrin.h>
+#endif
 
 #include "taut/contact/closest_text.h"
 #include "taut/core/private/vectorise.h"
@@ -31,6 +35,13 @@ inline unsigned bitsAtMost(const float* numbers, float limit) {
 inline unsigned bitsAtLeast(const float* numbers, float limit) {
     const __m256 own = _mm256_loadu_ps(numbers);
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(own, _mm256_set1_ps(limit), _CMP_GE_OQ)));
+}
+#elif defined(__wasm__)
+inline unsigned bitsAtMost(const float* numbers, float limit) {
+    return wasm_i32x4_bitmask(wasm_f32x4_le(wasm_v128_load(numbers), wasm_f32x4_splat(limit)));
+}
+inline unsigned bitsAtLeast(const float* numbers, float limit) {
+    return wasm_i32x4_bitmask(wasm_f32x4_ge(wasm_v128_load(numbers), wasm_f32x4_splat(limit)));
 }
 #else
 inline unsigned bitsAtMost(const float* numbers, float limit) {

@@ -147,7 +147,7 @@ void DashpotSweep<Real>::findChains(const SpringNetwork<Real>& network) {
         chain.count = last - first;
         chain.runs = {r};
     }
-    std::sort(found.begin(), found.end(), [](const Chain& x, const Chain& y) { return x.a < y.a; });
+    std::stable_sort(found.begin(), found.end(), [](const Chain& x, const Chain& y) { return x.a < y.a; });
     for (Chain& next : found) {
         Chain* last = chains_.empty() ? nullptr : &chains_.back();
         if (last != nullptr && next.a <= last->a + last->count) {

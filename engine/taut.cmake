@@ -34,6 +34,9 @@ endif()
 # The folders where a scene's time goes.
 set(TAUT_COMPUTES core ode mechanics collision contact bodies forces island world image geometry)
 
+# What is downloaded is small where no time goes.
+set(TAUT_SMALL fields view geometry spec bodies forces check advice scene live)
+
 # taut_library(core SOURCES a.cpp LINK taut::ode PRIVATE_LINK fmt::fmt): the library of one folder, known as taut::core.
 # LINK is what its headers include, PRIVATE_LINK what only its sources do. It is installed with its headers, but for those
 # in the folder `private`; with PRIVATE none of them, with PROGRAM not at all: the program alone needs it.
@@ -47,6 +50,9 @@ function(taut_library name)
   if(name IN_LIST TAUT_COMPUTES)
     target_compile_options(taut_${name} PRIVATE $<$<CONFIG:Asan>:-O1>)
   endif()
+  if(EMSCRIPTEN AND name IN_LIST TAUT_SMALL)
+    target_compile_options(taut_${name} PRIVATE -Oz)
+  endif()
   if(TAUT_INSTALL AND NOT ARG_PROGRAM)
     install(TARGETS taut_${name} EXPORT taut ARCHIVE DESTINATION lib)
     if(NOT ARG_PRIVATE)
@@ -55,15 +61,21 @@ function(taut_library name)
   endif()
 endfunction()
 
-# taut_kernel(mechanics spring_kernel.cpp): compiles one file once per instruction set into the library.
+# taut_kernel(mechanics spring_kernel.cpp): compiles one file once per instruction set into the library, for the sets of
+# taut/core/private/instruction_set.h.
 # The file puts everything into the namespace TAUT_ISA (sse2, avx2, avx512) and uses no inline function of
 # the standard library, so that no AVX code can be linked in for a processor that lacks it.
 function(taut_kernel name file)
+  set(sets sse2 avx2 avx512)
   set(flags_sse2 -msse2)
   set(flags_avx2 -mavx2)
   set(flags_avx512 -mavx512f -mavx512vl -mavx512dq -mprefer-vector-width=512)
+  if(EMSCRIPTEN)
+    set(sets wasm128)
+    set(flags_wasm128 -msimd128)
+  endif()
   get_filename_component(stem ${file} NAME_WE)
-  foreach(isa sse2 avx2 avx512)
+  foreach(isa ${sets})
     set(object taut_${name}_${stem}_${isa})
     add_library(${object} OBJECT ${file})
     target_link_libraries(${object} PRIVATE taut_options)

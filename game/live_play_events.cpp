@@ -20,18 +20,7 @@ namespace {
 
 constexpr double turnPerWidth = 4.0;  // [rad] for a drag from edge to edge
 constexpr double zoomPerNotch = 0.88;
-constexpr double reach = 0.03;       // [m for each metre of distance] beside a body
-constexpr double gripShare = 0.025;  // of a body's diagonal: how far around the point a hand takes others too
-constexpr int slowest = 4;           // 1/16
-
-double diagonalOf(const live::BodyPoints& body) {
-    glm::dvec3 low(1e300), high(-1e300);
-    for (const glm::dvec3& p : body.positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    return body.positions.empty() ? 0.0 : glm::length(high - low);
-}
+constexpr int slowest = 4;  // 1/16
 
 // The first of NAME.toml, NAME-1.toml, … that is not there yet; of NAME-1.toml, … where NAME.toml is kept for later.
 std::filesystem::path freeName(const std::filesystem::path& wish, bool isKept) {
@@ -95,20 +84,15 @@ void LivePlay::press(const std::string& key, bool isRepeat) {
 
 void LivePlay::beginDrag(const WindowEvent& event) {
     const live::Ray ray = live::rayThrough(camera(), event.place, 1.0 * settings_.width / settings_.height);
-    const std::vector<live::BodyPoints> bodies = session_->bodies();
-    const std::optional<live::PickedPoint> picked = live::pick(ray, session_->now().surfaces, bodies, reach);
+    const std::optional<live::PickedPoint> picked =
+        live::pick(ray, session_->now().surfaces, session_->bodies(), live::reach);
     if (!picked) return;
-    const auto body = std::find_if(bodies.begin(), bodies.end(),
-                                   [&](const live::BodyPoints& other) { return other.name == picked->body; });
-    const std::string target = live::nameOf(*picked);
-    const world::HandSpec& hand = session_->spec().hand;
-    session_->hand().grab(target, gripShare * diagonalOf(*body), hand.strength, hand.dampingRatio, picked->position,
-                          session_->handForce(picked->body));
+    session_->grab(*picked);
     held_ = picked->position;
     offset_ = picked->position - live::onPicturePlane(ray, camera(), picked->position);
     dragging_ = Dragging::point;
     heldBody_ = picked->body;
-    say("holding " + target);
+    say("holding " + live::nameOf(*picked));
 }
 
 void LivePlay::drag(const WindowEvent& event) {
@@ -132,7 +116,7 @@ void LivePlay::findName() {
     named_.reset();
     if (!showsNames_ || dragging_ == Dragging::view) return;
     const live::Ray ray = live::rayThrough(camera(), mouse_, 1.0 * settings_.width / settings_.height);
-    named_ = live::pick(ray, session_->now().surfaces, session_->bodies(true), reach);
+    named_ = live::pick(ray, session_->now().surfaces, session_->bodies(true), live::reach);
 }
 
 void LivePlay::copyName() {

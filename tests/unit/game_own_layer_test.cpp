@@ -9,8 +9,8 @@
 #include "taut/core/whole_file.h"
 #include "taut/image/read.h"
 #include "taut/pipeline/run_parts.h"
-#include "taut/render/camera_axes.h"
 #include "taut/render/private/layer_pass.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::test::own_layer {
 namespace {
@@ -42,7 +42,7 @@ class NormalsPass : public render::FlatPass {
 
   private:
     void begin(render::Program& program, const render::LayerScene& scene, const view::Surface&) const override {
-        const render::CameraAxes axes = render::axesOf(scene.view.camera);
+        const view::CameraAxes axes = view::axesOf(scene.view.camera);
         program.set("toView", glm::transpose(glm::mat3(axes.right, axes.up, -axes.forward)));
     }
 };

@@ -42,7 +42,7 @@ inline void load(const ContactArgs<Real>& s, ContactLanes& lanes) {
         lanes.v[1][i] = vy;
         lanes.v[2][i] = vz;
         lanes.skin[i] = skinPerMetre * (__builtin_fabs(bx) + __builtin_fabs(by) + __builtin_fabs(bz) + thickness);
-        lanes.outcome[i] = live ? isLive : 0L;
+        lanes.outcome[i] = live ? isLive : 0;
     }
 }
 
@@ -139,9 +139,9 @@ inline void classify(double thickness, ContactLanes& lanes, int n) {
         const bool near = !(d >= thickness + lanes.skin[i]);
         const bool comesFromBehind = !(d - along >= thickness);
         const bool isShort = (d > 0.0) & (wx * wx + wy * wy + wz * wz < d * d);
-        const long nearBits = isShort ? isNear : isNear | needsStart;
-        const long farBits = comesFromBehind ? anyLeft : 0L;
-        lanes.outcome[i] = live ? (near ? nearBits : farBits) : 0L;
+        const std::int64_t nearBits = isShort ? isNear : isNear | needsStart;
+        const std::int64_t farBits = comesFromBehind ? anyLeft : 0;
+        lanes.outcome[i] = live ? (near ? nearBits : farBits) : 0;
     }
 }
 
@@ -152,7 +152,7 @@ inline void compareSides(ContactLanes& lanes, int n) {
         const double same = lanes.startNormal[0][i] * lanes.normal[0][i] +
                             lanes.startNormal[1][i] * lanes.normal[1][i] + lanes.startNormal[2][i] * lanes.normal[2][i];
         const bool isOther = (lanes.startDistance[i] > -lanes.skin[i]) & (same <= 0.0);
-        const long found = lanes.outcome[i];
+        const std::int64_t found = lanes.outcome[i];
         lanes.outcome[i] = (((found & needsStart) != 0) & isOther) ? anyLeft : found;
     }
 }
@@ -209,9 +209,9 @@ inline void meetLevel(const ClosedShape& shape, double thickness, const double (
         const bool near = !(d >= thickness + lanes.skin[i]);
         const bool comesFromBehind = !(d - lanes.localEnd[1][i] >= thickness);
         const bool isShort = (d > 0.0) & (lanes.localEnd[2][i] < d * d);
-        const long nearBits = isShort ? isNear : isNear | needsStart;
-        const long farBits = comesFromBehind ? anyLeft : 0L;
-        lanes.outcome[i] = live ? (near ? nearBits : farBits) : 0L;
+        const std::int64_t nearBits = isShort ? isNear : isNear | needsStart;
+        const std::int64_t farBits = comesFromBehind ? anyLeft : 0;
+        lanes.outcome[i] = live ? (near ? nearBits : farBits) : 0;
     }
 }
 
@@ -240,7 +240,7 @@ inline void flatTouch(const double (&normal)[3], double offset, ContactLanes& la
         lanes.normal[0][i] = nx;
         lanes.normal[1][i] = ny;
         lanes.normal[2][i] = nz;
-        lanes.outcome[i] = (live & near) ? isNear : 0L;
+        lanes.outcome[i] = (live & near) ? isNear : 0;
     }
 }
 
@@ -269,7 +269,7 @@ inline void findSpeeds(const ContactArgs<Real>& s, ContactLanes& lanes, Rows& ve
         const double y = (lanes.position[1][i] - velocity[1][i]) / h;
         const double z = (lanes.position[2][i] - velocity[2][i]) / h;
         const bool isFast = !(x * x + y * y + z * z <= limit);
-        const long found = lanes.outcome[i];
+        const std::int64_t found = lanes.outcome[i];
         velocity[0][i] = x;
         velocity[1][i] = y;
         velocity[2][i] = z;
@@ -292,7 +292,7 @@ inline void store(const ContactArgs<Real>& s, const ContactLanes& lanes) {
 
 // Stores the points that were touched, of those that were tried several times.
 template <class Real>
-inline void storeTouched(const ContactArgs<Real>& s, const ContactLanes& lanes, const long* result, int n) {
+inline void storeTouched(const ContactArgs<Real>& s, const ContactLanes& lanes, const std::int64_t* result, int n) {
     for (int k = 0; k < 3; ++k) {
         Real *const x = s.x[k], *const v = s.v[k];
         TAUT_INDEPENDENT
@@ -308,7 +308,7 @@ inline void storeTouched(const ContactArgs<Real>& s, const ContactLanes& lanes, 
 // A piece of a batch near a mesh. Its outcomes and records go to the rows of the batch, from `at` on. A point that was
 // moved off one triangle may stand near another, so there are a few passes.
 template <class Real>
-inline long contactPiece(ContactArgs<Real>& s, int at, ContactLanes& lanes) {
+inline std::int64_t contactPiece(ContactArgs<Real>& s, int at, ContactLanes& lanes) {
     if (s.mask != nullptr)
         load<Real, true>(s, lanes);
     else
@@ -327,7 +327,7 @@ inline long contactPiece(ContactArgs<Real>& s, int at, ContactLanes& lanes) {
         toWorld(s.to, carriedStart, n);
     }
     const Surface surface{s.still, s.friction, s.restitution, s.restSpeed};
-    long any = 0;
+    std::int64_t any = 0;
     for (int pass = 0; pass < mostPasses; ++pass) {
         toLocal(s.to, lanes.end, lanes.localEnd, n);
         recallFeet(s.feet, s.thickness, lanes, count);
@@ -340,7 +340,7 @@ inline long contactPiece(ContactArgs<Real>& s, int at, ContactLanes& lanes) {
             if (!s.still) findSpeeds(s, lanes, lanes.carried);
             respondAll(surface, s.still ? lanes.start : carriedStart, pass > 0, lanes, n);
         }
-        const long found = anyOf(lanes.outcome, n);
+        const std::int64_t found = anyOf(lanes.outcome, n);
         if (found == 0) break;
         any |= found;
         if (s.records && (found & anyTouched) != 0) recordTouches(lanes, at, count);
@@ -352,13 +352,13 @@ inline long contactPiece(ContactArgs<Real>& s, int at, ContactLanes& lanes) {
 
 // Of a mesh. Neighbours in a batch are near each other, mostly: only runs of points near the surface are tried.
 template <class Real>
-long contactMesh(const ContactArgs<Real>& s, ContactLanes& lanes) {
+std::int64_t contactMesh(const ContactArgs<Real>& s, ContactLanes& lanes) {
     const int n = s.n;
     findNear(s, lanes);
     for (int i = 0; i < n; ++i) lanes.result[i] = 0;
     if (s.records)
         for (int i = 0; i < n; ++i) lanes.sum[i] = 0.0;
-    long any = 0;
+    std::int64_t any = 0;
     for (int first = 0; first < n; ++first) {
         if (lanes.near[first] == 0) continue;
         int last = first + 1;  // a gap within the run is shorter than a vector
@@ -385,7 +385,7 @@ long contactMesh(const ContactArgs<Real>& s, ContactLanes& lanes) {
 }  // namespace
 
 template <class Real>
-long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
+std::int64_t contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
     if (s.feet.finder != nullptr) return contactMesh(s, lanes);
     const int n = s.n;
     if (s.mask != nullptr)
@@ -407,7 +407,7 @@ long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
             measureAny(s.shape, lanes.localEnd, lanes.distance, lanes.normal, n);
             classify(s.thickness, lanes, n);
         }
-        const long found = anyOf(lanes.outcome, n);
+        const std::int64_t found = anyOf(lanes.outcome, n);
         if ((found & isNear) == 0) return found;
         if (isLevel && ((found & needsStart) != 0 || !s.still)) toLocal(s.from, lanes.start, lanes.localStart, n);
         if ((found & needsStart) != 0) {
@@ -424,11 +424,11 @@ long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
         toWorld(s.to, lanes.localStart, n);
     }
     respondAll(surface, s.still ? lanes.start : lanes.localStart, false, lanes, n);
-    const long any = anyOf(lanes.outcome, n);
+    const std::int64_t any = anyOf(lanes.outcome, n);
     if ((any & anyTouched) != 0) store(s, lanes);
     return any;
 }
-template long contact(const ContactArgs<float>&, ContactLanes&);
-template long contact(const ContactArgs<double>&, ContactLanes&);
+template std::int64_t contact(const ContactArgs<float>&, ContactLanes&);
+template std::int64_t contact(const ContactArgs<double>&, ContactLanes&);
 
 }  // namespace taut::collision::TAUT_ISA

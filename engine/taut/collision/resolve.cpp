@@ -11,7 +11,7 @@
 
 namespace taut::collision {
 
-TAUT_KERNELS(template <class Real> long contact(const ContactArgs<Real>&, ContactLanes&);)
+TAUT_KERNELS(template <class Real> std::int64_t contact(const ContactArgs<Real>&, ContactLanes&);)
 
 namespace {
 
@@ -180,7 +180,7 @@ class Resolver {
 
     // All points against one solid whose shape the kernel knows.
     void resolveBatch(int first, int n, const Near& near) {
-        const long found = kernel_(argsFor(*near[0], first, n), lanes_);
+        const std::int64_t found = kernel_(argsFor(*near[0], first, n), lanes_);
         if (found == anyTouched && !records_) {
             std::array<int, contactBatch> touched;
             std::size_t count = 0;
@@ -387,8 +387,7 @@ class Resolver {
     std::vector<int>& touched_;
     std::vector<Contact>& contacts_;
     const bool records_;  // whether the caller wants contacts
-    long (*const kernel_)(const ContactArgs<Real>&, ContactLanes&) =
-        core::inUse(sse2::contact<Real>, avx2::contact<Real>, avx512::contact<Real>);
+    std::int64_t (*const kernel_)(const ContactArgs<Real>&, ContactLanes&) = TAUT_IN_USE(contact<Real>);
     ContactLanes lanes_;
 };
 

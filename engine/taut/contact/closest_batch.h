@@ -47,7 +47,7 @@ class ClosestBatch {
         return {from.separation[0][lane], from.separation[1][lane], from.separation[2][lane]};
     }
     double distance(int slot) const { return lanesOf(slot).distance[slot % closestBatch]; }
-    long where(int slot) const { return lanesOf(slot).where[slot % closestBatch]; }
+    std::int64_t where(int slot) const { return lanesOf(slot).where[slot % closestBatch]; }
 
   private:
     const ClosestLanes& lanesOf(int slot) const { return lanes_[static_cast<std::size_t>(slot / closestBatch)]; }

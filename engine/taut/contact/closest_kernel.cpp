@@ -1,7 +1,11 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 #include "taut/contact/closest_kernel.h"
 
+#if defined(__wasm__)
+#include <wasm_simd128.h>
+#else
 #include <immintrin.h>
+#endif
 
 #include "taut/contact/closest_text.h"
 #include "taut/core/private/vectorise.h"
@@ -31,6 +35,13 @@ inline unsigned bitsAtMost(const float* numbers, float limit) {
 inline unsigned bitsAtLeast(const float* numbers, float limit) {
     const __m256 own = _mm256_loadu_ps(numbers);
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(own, _mm256_set1_ps(limit), _CMP_GE_OQ)));
+}
+#elif defined(__wasm__)
+inline unsigned bitsAtMost(const float* numbers, float limit) {
+    return wasm_i32x4_bitmask(wasm_f32x4_le(wasm_v128_load(numbers), wasm_f32x4_splat(limit)));
+}
+inline unsigned bitsAtLeast(const float* numbers, float limit) {
+    return wasm_i32x4_bitmask(wasm_f32x4_ge(wasm_v128_load(numbers), wasm_f32x4_splat(limit)));
 }
 #else
 inline unsigned bitsAtMost(const float* numbers, float limit) {
@@ -109,7 +120,7 @@ int findDue(CandidateRows& rows) {
     using V = core::TAUT_ISA::WideVector<double>;
     constexpr int width = sizeof(V) / sizeof(double);
     alignas(64) double byTravelled[room], byApproached[room];  // negative budgets of the pairs that are not due
-    alignas(64) long isDue[room];
+    alignas(64) std::int64_t isDue[room];
     int count = 0;
     for (int from = 0; from < rows.n; from += room) {
         const int n = rows.n - from < room ? rows.n - from : room;
@@ -120,7 +131,7 @@ int findDue(CandidateRows& rows) {
         for (int i = 0; i < n; ++i) {
             const double left = travel[i] - travelled, leftApproach = approach[i] - approached;
             const bool hasBudget = (left > 0) | (leftApproach > 0), isFurther = left > leftApproach;
-            isDue[i] = hasBudget ? 0L : 1L;
+            isDue[i] = hasBudget ? 0 : 1;
             byTravelled[i] = (hasBudget & isFurther) ? -travel[i] : -1e300;
             byApproached[i] = (hasBudget & !isFurther) ? -approach[i] : -1e300;
         }

@@ -19,7 +19,7 @@ struct ClosestLanes {
     alignas(64) double separation[3][closestRow];  // [m] from the second side to the first
     alignas(64) double distance[closestRow];       // [m]
     // Of triangles the closest Feature; of segments 1 if both places are inside, 0 if one is at an end.
-    alignas(64) long where[closestRow];
+    alignas(64) std::int64_t where[closestRow];
 };
 
 inline constexpr std::size_t boxesAtOnce = 16;

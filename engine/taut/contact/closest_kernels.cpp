@@ -7,11 +7,11 @@ namespace taut::contact {
 TAUT_KERNELS(extern const ClosestKernels closest; extern const FlatnessKernels flatness;)
 
 ClosestKernels closestKernels() {
-    return core::inUse(sse2::closest, avx2::closest, avx512::closest);
+    return TAUT_IN_USE(closest);
 }
 
 FlatnessKernels flatnessKernels() {
-    return core::inUse(sse2::flatness, avx2::flatness, avx512::flatness);
+    return TAUT_IN_USE(flatness);
 }
 
 }  // namespace taut::contact

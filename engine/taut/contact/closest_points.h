@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 namespace taut::contact {
@@ -24,7 +25,7 @@ using Corners = std::array<dvec3, 4>;
 struct Closest {
     std::array<double, 4> weights;  // as of a ContactConstraint
     dvec3 separation;               // [m] from the second side to the first: the sum of weights times corners
-    long where;                     // as of ClosestLanes
+    std::int64_t where;             // as of ClosestLanes
 };
 // By the text of the kernels (closest_text.h), to the bit.
 Closest closestPoints(const Corners& corners, bool isPoint);

@@ -10,7 +10,7 @@ namespace {
 using Place = core::TAUT_ISA::Triple<double>;
 
 // The numbers of the enum Feature.
-constexpr long face = 0, edge0 = 1, edge1 = 2, edge2 = 3, corner0 = 4, corner1 = 5, corner2 = 6;
+constexpr std::int64_t face = 0, edge0 = 1, edge1 = 2, edge2 = 3, corner0 = 4, corner1 = 5, corner2 = 6;
 
 inline double clampShare(double s) {
     const double above = s < 0 ? 0.0 : s;
@@ -20,7 +20,7 @@ inline double clampShare(double s) {
 // Weights as of a ContactConstraint; `where` as of ClosestLanes.
 struct ClosestWeights {
     double of[4];
-    long where;
+    std::int64_t where;
 };
 
 // By Voronoi regions: Ericson, Real-Time Collision Detection, 2005, 5.1.5. Where corners a and b are in one place, the
@@ -39,7 +39,7 @@ inline ClosestWeights onTriangle(const Place& p, const Place& a, const Place& b,
     const bool onBc = (areaA <= 0) & (alongB >= 0) & (alongC >= 0);
     // The weights of b and c over a common denominator. The last case comes first, so that the first case wins.
     double below = (areaA + areaB) + areaC, shareB = areaB, shareC = areaC;
-    long where = face;
+    std::int64_t where = face;
     const double sumBc = alongB + alongC, sumAc = acAp - acCp;
     where = onBc ? edge1 : where;
     shareC = onBc ? (sumBc > 0 ? alongB : 0.0) : shareC;
@@ -88,7 +88,7 @@ inline ClosestWeights onSegment(const Place& a0, const Place& a1, const Place& b
     const double onlyS = hasA ? clampShare(-ar / overA) : 0.0, onlyT = hasB ? clampShare(br / overB) : 0.0;
     const double first = hasBoth ? s : onlyS, second = hasBoth ? t : (hasA ? 0.0 : onlyT);
     const bool areInside = (first > 0) & (first < 1) & (second > 0) & (second < 1);
-    return {{1.0 - first, first, second - 1.0, -second}, areInside ? 1L : 0L};
+    return {{1.0 - first, first, second - 1.0, -second}, areInside ? 1 : 0};
 }
 
 inline Place sumOf(const ClosestWeights& weights, const Place& p, const Place& q, const Place& r, const Place& s) {

@@ -147,8 +147,8 @@ class ContactGroup {
                   const NarrowPhaseScratch& scratch, bool mayPress, std::vector<ContactConstraint>& pairs) const;
     ContactConstraint constraintOf(const Measured& measured, const NarrowPhaseScratch& scratch,
                                    std::span<const dvec3> x0) const;
-    double convexity(const ContactConstraint& pair, long where, std::span<const dvec3> x) const;
-    bool meetInside(const ContactConstraint& pair, long where) const;
+    double convexity(const ContactConstraint& pair, std::int64_t where, std::span<const dvec3> x) const;
+    bool meetInside(const ContactConstraint& pair, std::int64_t where) const;
     bool isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const;
     bool isTangled(const ContactConstraint& pair) const;
 

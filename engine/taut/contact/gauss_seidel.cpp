@@ -82,7 +82,7 @@ int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std:
     scratch.perRow.assign(rows.size() + 1, 0.0);
     const Sweeps batch{scratch.packs.data(), packCount, count, scratch.perRow.data(), velocities.data(),
                        sweeps,               tolerance};
-    const int taken = core::inUse(sse2::sweep, avx2::sweep, avx512::sweep)(batch);
+    const int taken = TAUT_IN_USE(sweep)(batch);
     for (const Pack& pack : scratch.packs)
         for (int lane = 0; lane < 4; ++lane)
             if (pack.rows[lane] < count)

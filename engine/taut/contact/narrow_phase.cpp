@@ -149,7 +149,7 @@ ContactConstraint ContactGroup::constraintOf(const Measured& measured, const Nar
 
 // Below 0 if another feature of the two surfaces is closer, so that this pair does not push here. Otherwise 1, or less
 // for edges that are hardly convex. `where` is the kernel's.
-double ContactGroup::convexity(const ContactConstraint& pair, long where, std::span<const dvec3> x) const {
+double ContactGroup::convexity(const ContactConstraint& pair, std::int64_t where, std::span<const dvec3> x) const {
     if (pair.isPoint) {
         const int feature = static_cast<int>(where) - static_cast<int>(Feature::edge0);  // below 0: the face
         if (feature >= 0 && !isFeatureNearest(pair, feature, x)) return -1.0;
@@ -170,7 +170,7 @@ double ContactGroup::convexity(const ContactConstraint& pair, long where, std::s
 
 // Whether the closest places of two edges are inside both edges. Pairs of points and triangles handle the ends of a
 // triangle's edges. The ends of lines push here too, because two ropes have no triangles.
-bool ContactGroup::meetInside(const ContactConstraint& pair, long where) const {
+bool ContactGroup::meetInside(const ContactConstraint& pair, std::int64_t where) const {
     if (pair.isPoint || where != 0) return true;
     const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],
                &second = elements_.edges()[static_cast<std::size_t>(pair.b)];
@@ -205,7 +205,7 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     // Active pairs are closed or closing along the normal, on a feature of their own, and do not pass by. Cheap tests
     // come first.
     ContactConstraint pair = constraintOf(measured, scratch, x0);
-    const long where = batch.where(measured.slot);
+    const std::int64_t where = batch.where(measured.slot);
     dvec3 way(0.0);
     for (std::size_t k = 0; k < 4; ++k) {
         const auto i = static_cast<std::size_t>(pair.points[k]);

@@ -43,7 +43,7 @@ double penetrationOf(const Elements& elements, std::span<const Crossing> crossin
             passages.push_back({triangle.surface, crossings[c].weights[1], normal, glm::dot(normal, b - a) / size,
                                 crossings[c].place});
         }
-        std::sort(passages.begin(), passages.end(), [](const Passage& p, const Passage& q) {
+        std::stable_sort(passages.begin(), passages.end(), [](const Passage& p, const Passage& q) {
             return p.surface < q.surface || (p.surface == q.surface && p.share < q.share);
         });
         // A piece has two triangles, or starts at one and ends in the open, or the other way round (penetration.h).

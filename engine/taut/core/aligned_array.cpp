@@ -1,6 +1,8 @@
 #include "taut/core/aligned_array.h"
 
+#if defined(__linux__)
 #include <sys/mman.h>
+#endif
 
 #include <cstdint>
 #include <cstdlib>
@@ -9,13 +11,14 @@
 namespace taut::core {
 namespace {
 
-constexpr std::size_t largePage = std::size_t{1} << 21;  // [bytes] on x86-64
-
 std::size_t roundedUp(std::size_t bytes, std::size_t unit) {
     const std::size_t rounded = (bytes + unit - 1) / unit * unit;
     if (rounded < bytes) throw std::bad_alloc();
     return rounded;
 }
+
+#if defined(__linux__)
+constexpr std::size_t largePage = std::size_t{1} << 21;  // [bytes] on x86-64
 
 // Straight from the system: memory that the heap has used before keeps its small pages.
 void* mapLarge(std::size_t bytes) {
@@ -33,6 +36,23 @@ void* mapLarge(std::size_t bytes) {
     return begin + before;
 }
 
+void unmapLarge(void* data, std::size_t bytes) {
+    ::munmap(data, bytes);
+}
+#else
+constexpr std::size_t largePage = cacheLine;
+
+void* mapLarge(std::size_t bytes) {
+    void* data = std::aligned_alloc(cacheLine, bytes);
+    if (data == nullptr) throw std::bad_alloc();
+    return data;
+}
+
+void unmapLarge(void* data, std::size_t) {
+    std::free(data);
+}
+#endif
+
 }  // namespace
 
 void* allocateAligned(std::size_t bytes) {
@@ -44,7 +64,7 @@ void* allocateAligned(std::size_t bytes) {
 
 void freeAligned(void* data, std::size_t bytes) {
     if (bytes >= largePage)
-        ::munmap(data, roundedUp(bytes, largePage));
+        unmapLarge(data, roundedUp(bytes, largePage));
     else
         std::free(data);
 }

@@ -19,7 +19,8 @@ TAUT_KERNELS(template <class Real> void pullSprings(const Real* x, Real* f);)
 
 namespace {
 
-constexpr std::array allSets{InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512};
+#define TAUT_SET_TEXT(set, condition, ...) std::string_view(#set),
+constexpr std::array names{TAUT_SETS(TAUT_SET_TEXT)};
 
 // A set with the work to be timed, and the least that it took [ns].
 struct Contestant {
@@ -43,9 +44,8 @@ std::vector<InstructionSetTime> trial() {
     std::vector<double> xx(size), ff(size);
     for (std::size_t i = 0; i < size; ++i) xx[i] = x[i] = static_cast<float>(i * i % 97);
     std::vector<Contestant> contestants;
-    for (const Contestant& c : {Contestant{InstructionSet::sse2, sse2::pullSprings, sse2::pullSprings},
-                                Contestant{InstructionSet::avx2, avx2::pullSprings, avx2::pullSprings},
-                                Contestant{InstructionSet::avx512, avx512::pullSprings, avx512::pullSprings}})
+#define TAUT_CONTESTANT(set, condition, ...) Contestant{InstructionSet::set, set::pullSprings, set::pullSprings},
+    for (const Contestant& c : {TAUT_SETS(TAUT_CONTESTANT)})
         if (isSupported(c.set)) contestants.push_back(c);
     // By turns, so that whatever else the machine does hits all alike.
     for (int round = 0; round < rounds; ++round)
@@ -69,12 +69,15 @@ Choice choiceOf(std::string_view name, const std::string& reason) {
         const std::vector<InstructionSetTime> times = trial();
         return {fastestOf(times), textOf(times)};
     }
-    for (const InstructionSet set : allSets)
-        if (nameOf(set) == name) {
-            if (isSupported(set)) return {set, reason};
-            throw Error(ErrorKind::usage, reason + " " + std::string(name) + ": this processor does not have it");
-        }
-    throw Error(ErrorKind::usage, reason + " " + std::string(name) + ": expected sse2, avx2, avx512 or auto");
+    std::string expected;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto set = static_cast<InstructionSet>(i);
+        expected += std::string(names[i]) + (i + 1 < names.size() ? ", " : " or auto");
+        if (names[i] != name) continue;
+        if (isSupported(set)) return {set, reason};
+        throw Error(ErrorKind::usage, reason + " " + std::string(name) + ": this processor does not have it");
+    }
+    throw Error(ErrorKind::usage, reason + " " + std::string(name) + ": expected " + expected);
 }
 
 Choice chosenAtStart() {
@@ -113,7 +116,7 @@ class Current {
     }
     std::mutex mutex_;
     std::atomic<bool> isKnown_ = false;
-    std::atomic<InstructionSet> set_ = InstructionSet::sse2;
+    std::atomic<InstructionSet> set_{};
     std::string reason_;
 };
 
@@ -125,23 +128,13 @@ Current& current() {
 }  // namespace
 
 std::string_view nameOf(InstructionSet set) {
-    switch (set) {
-        case InstructionSet::sse2: return "sse2";
-        case InstructionSet::avx2: return "avx2";
-        case InstructionSet::avx512: return "avx512";
-    }
-    return "?";
+    return names.at(static_cast<std::size_t>(set));
 }
 
 bool isSupported(InstructionSet set) {
-    switch (set) {
-        case InstructionSet::sse2: return true;
-        case InstructionSet::avx2: return __builtin_cpu_supports("avx2") != 0;
-        case InstructionSet::avx512:
-            return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
-                   __builtin_cpu_supports("avx512dq") != 0;
-    }
-    return false;
+#define TAUT_SET_CONDITION(set, condition, ...) condition,
+    const bool has[] = {TAUT_SETS(TAUT_SET_CONDITION)};
+    return has[static_cast<std::size_t>(set)];
 }
 
 InstructionSet instructionSet() {

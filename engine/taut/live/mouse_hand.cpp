@@ -26,11 +26,15 @@ double rounded(double value, int decimals) {
     return result == 0.0 ? 0.0 : result;                      // no minus zero
 }
 
+double MouseHand::momentOf(std::int64_t tick, double ticksPerSecond) {
+    return rounded(static_cast<double>(tick) / ticksPerSecond, timeDecimals);
+}
+
 template <class Own>
 Own MouseHand::action(std::int64_t tick) const {
     Own action;
     action.id = id_;
-    action.t = rounded(static_cast<double>(tick) / ticksPerSecond_, timeDecimals);
+    action.t = momentOf(tick, ticksPerSecond_);
     return action;
 }
 

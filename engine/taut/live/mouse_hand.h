@@ -21,6 +21,9 @@ class MouseHand {
 
     MouseHand(std::string id, double ticksPerSecond) : id_(std::move(id)), ticksPerSecond_(ticksPerSecond) {}
 
+    // The moment of a tick as a file writes it [s].
+    static double momentOf(std::int64_t tick, double ticksPerSecond);
+
     const std::string& id() const { return id_; }
     bool isHolding() const { return isHolding_; }
 

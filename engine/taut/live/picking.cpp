@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "taut/render/camera_axes.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::live {
 namespace {
@@ -66,7 +66,7 @@ PickedPoint nearestTo(const BodyPoints& body, const glm::dvec3& place) {
 }  // namespace
 
 Ray rayThrough(const view::Camera& camera, glm::dvec2 place, double aspect) {
-    const render::CameraAxes axes = render::axesOf(camera);
+    const view::CameraAxes axes = view::axesOf(camera);
     const double half = std::tan(0.5 * static_cast<double>(camera.fieldOfView));
     const glm::dvec2 offset = half * glm::dvec2((2.0 * place.x - 1.0) * aspect, 1.0 - 2.0 * place.y);
     return {glm::dvec3(camera.eye), glm::normalize(glm::dvec3(axes.forward) + offset.x * glm::dvec3(axes.right) +
@@ -74,7 +74,7 @@ Ray rayThrough(const view::Camera& camera, glm::dvec2 place, double aspect) {
 }
 
 std::optional<glm::dvec2> seenAt(const view::Camera& camera, glm::dvec3 place, double aspect) {
-    const render::CameraAxes axes = render::axesOf(camera);
+    const view::CameraAxes axes = view::axesOf(camera);
     const glm::dvec3 offset = place - glm::dvec3(camera.eye);
     const double ahead = glm::dot(offset, glm::dvec3(axes.forward));
     if (!(ahead > 0.0)) return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<glm::dvec2> seenAt(const view::Camera& camera, glm::dvec3 place, d
 }
 
 glm::dvec3 onPicturePlane(const Ray& ray, const view::Camera& camera, glm::dvec3 point) {
-    const glm::dvec3 forward(render::axesOf(camera).forward);
+    const glm::dvec3 forward(view::axesOf(camera).forward);
     const double ahead = glm::dot(ray.along, forward), depth = glm::dot(point - ray.from, forward);
     if (!(ahead > 1e-6) || !(depth > 0.0)) return point;
     return ray.from + ray.along * (depth / ahead);

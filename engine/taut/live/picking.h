@@ -42,6 +42,9 @@ struct PickedPoint {
 // As scenes and checks name it: "cloth.curtain@#12".
 std::string nameOf(const PickedPoint& picked);
 
+// How far beside a body a point may still be meant [m for each metre of distance].
+inline constexpr double reach = 0.03;
+
 // The point nearest to the ray. If the ray hits a body, it is a point of that body. Otherwise it is a point within
 // `reach` [m per metre of distance] of the ray that nothing opaque hides. None if a collider is in the way, or nothing
 // is near.

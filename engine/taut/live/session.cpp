@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <thread>
 #include <utility>
 
 #include "taut/core/error.h"
 #include "taut/ecs/registry.h"
-#include "taut/world/components.h"
+#include "taut/live/private/worker.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/components.h"
 #include "taut/world/world.h"
 
 namespace taut::live {
@@ -20,6 +17,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t mostWatched = 12;  // bodies whose strain is kept for proposed checks
+constexpr double gripShare = 0.025;      // of a body's diagonal: how far around the point a hand takes others too
+
+double diagonalOf(const BodyPoints& body) {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const glm::dvec3& p : body.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return body.positions.empty() ? 0.0 : glm::length(high - low);
+}
 
 world::SceneSpec withHands(world::SceneSpec spec) {
     spec.hand.anywhere = true;
@@ -43,6 +50,7 @@ struct Session::Impl {
     world::World world;
     double ticksPerSecond;
     MouseHand hand;
+    world::Specs<world::ActionSpec> asked;  // for the next tick
     world::Specs<world::ActionSpec> deeds;
     std::vector<std::pair<std::string, double>> strains;
     view::FrameView before, now;
@@ -51,14 +59,7 @@ struct Session::Impl {
     std::optional<world::Divergence> divergence;
     std::vector<std::string> faults;
 
-    // The thread, and what it is to do.
-    std::mutex mutex;
-    std::condition_variable changed;
-    int asked = 0;
-    double budget = 0.0;
-    bool isBusy = false, isOver = false;
-    std::exception_ptr failure;
-    std::jthread thread;
+    Worker worker;  // last, so that it ends before what it works at
 
     Impl(const world::SceneSpec& spec, int threads)
         : world(spec, {.threads = threads}),
@@ -69,13 +70,6 @@ struct Session::Impl {
         });
         before = now = look();
         measure();
-        thread = std::jthread([this] { loop(); });
-    }
-
-    ~Impl() {
-        const std::lock_guard lock(mutex);
-        isOver = true;
-        changed.notify_all();
     }
 
     view::FrameView look() const {
@@ -94,15 +88,16 @@ struct Session::Impl {
     }
 
     void tickOnce() {
-        for (const world::ActionSpec& action : hand.deedsAt(world.tick())) {
-            try {
-                world.apply(action);
-            } catch (const core::Error& error) {
-                faults.emplace_back(error.what());
-                continue;
+        for (const auto& actions : {std::exchange(asked, {}), hand.deedsAt(world.tick())})
+            for (const world::ActionSpec& action : actions) {
+                try {
+                    world.apply(action);
+                } catch (const core::Error& error) {
+                    faults.emplace_back(error.what());
+                    continue;
+                }
+                deeds.add(action.copy());
             }
-            deeds.add(action.copy());
-        }
         divergence = world.advance();
     }
 
@@ -119,23 +114,6 @@ struct Session::Impl {
         }
         measure();
     }
-
-    void loop() {
-        std::unique_lock lock(mutex);
-        while (true) {
-            changed.wait(lock, [&] { return isOver || isBusy; });
-            if (isOver) return;
-            lock.unlock();
-            try {
-                work(asked, budget);
-            } catch (...) {
-                failure = std::current_exception();
-            }
-            lock.lock();
-            isBusy = false;
-            changed.notify_all();
-        }
-    }
 };
 
 Session::Session(world::SceneSpec spec, int threads)
@@ -145,6 +123,7 @@ Session::Session(world::SceneSpec spec, int threads, const Session& from) : Sess
     const Impl& other = *from.impl_;
     w.world.restore(other.world.save());
     w.hand = other.hand;
+    w.asked = other.asked;
     w.deeds = other.deeds;
     w.strains = other.strains;
     w.before = w.now = w.look();
@@ -153,19 +132,12 @@ Session::Session(world::SceneSpec spec, int threads, const Session& from) : Sess
 Session::~Session() = default;
 
 void Session::begin(int ticks, double budget) {
-    const std::lock_guard lock(impl_->mutex);
-    TAUT_EXPECTS(!impl_->isBusy);
     if (ticks <= 0 || impl_->divergence) return;
-    impl_->asked = ticks;
-    impl_->budget = budget;
-    impl_->isBusy = true;
-    impl_->changed.notify_all();
+    impl_->worker.begin([this, ticks, budget] { impl_->work(ticks, budget); });
 }
 
 void Session::wait() {
-    std::unique_lock lock(impl_->mutex);
-    impl_->changed.wait(lock, [&] { return !impl_->isBusy; });
-    if (impl_->failure) std::rethrow_exception(std::exchange(impl_->failure, nullptr));
+    impl_->worker.wait();
 }
 
 const world::World& Session::world() const {
@@ -230,6 +202,23 @@ double Session::handForce(const std::string& body) const {
         for (std::size_t i = 0; i < masses.size(); ++i) mass += part.body->model.held[i] ? 0.0 : masses[i];
     });
     return weights * earth * mass;
+}
+
+void Session::grab(const PickedPoint& point) {
+    const std::vector<BodyPoints> all = bodies();
+    const auto body =
+        std::find_if(all.begin(), all.end(), [&](const BodyPoints& other) { return other.name == point.body; });
+    TAUT_EXPECTS(body != all.end());
+    hand().grab(nameOf(point), gripShare * diagonalOf(*body), spec_.hand.strength, spec_.hand.dampingRatio,
+                point.position, handForce(point.body));
+}
+
+void Session::apply(const world::ActionSpec& action) {
+    impl_->asked.add(action.copy());
+}
+
+double Session::nextTime() const {
+    return MouseHand::momentOf(tick(), impl_->ticksPerSecond);
 }
 
 Recording Session::record() {

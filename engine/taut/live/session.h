@@ -56,6 +56,13 @@ class Session {
     // stretching it: `weights` times the weight on earth of the free points of all that hangs together with it.
     static constexpr double weights = 2.0;
     double handForce(const std::string& body) const;
+    // The hand takes a point, as a window's does: with the scene's springs, what is near it too, and that force.
+    void grab(const PickedPoint& point);
+
+    // An action at the start of the next tick, before the hand's, which is kept as one of its deeds. It has to begin at
+    // nextTime() [s].
+    void apply(const world::ActionSpec& action);
+    double nextTime() const;
 
     // After a divergence, why nothing moves any more.
     const std::optional<world::Divergence>& divergence() const;

@@ -36,9 +36,7 @@ void forEachOf(const SpringNetwork<Real>& network, const SpringRun<Real>& run, c
 }  // namespace
 
 template <class Real>
-DashpotSweep<Real>::DashpotSweep()
-    : run_(core::inUse(sse2::dampRun<Real>, avx2::dampRun<Real>, avx512::dampRun<Real>)),
-      list_(core::inUse(sse2::dampList<Real>, avx2::dampList<Real>, avx512::dampList<Real>)) {}
+DashpotSweep<Real>::DashpotSweep() : run_(TAUT_IN_USE(dampRun<Real>)), list_(TAUT_IN_USE(dampList<Real>)) {}
 
 template <class Real>
 void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real* w, double h) {
@@ -149,7 +147,7 @@ void DashpotSweep<Real>::findChains(const SpringNetwork<Real>& network) {
         chain.count = last - first;
         chain.runs = {r};
     }
-    std::sort(found.begin(), found.end(), [](const Chain& x, const Chain& y) { return x.a < y.a; });
+    std::stable_sort(found.begin(), found.end(), [](const Chain& x, const Chain& y) { return x.a < y.a; });
     for (Chain& next : found) {
         Chain* last = chains_.empty() ? nullptr : &chains_.back();
         if (last != nullptr && next.a <= last->a + last->count) {

@@ -56,7 +56,7 @@ template <class Real>
 ElementBending<Real>::ElementBending(std::vector<BendingElement> elements, double dampingTime,
                                      std::span<const int> points, Turn turn)
     : points_(points.begin(), points.end()), slots_(points.size()), turn_(std::move(turn)) {
-    kernels_ = core::inUse(sse2::elementKernels<Real>, avx2::elementKernels<Real>, avx512::elementKernels<Real>)();
+    kernels_ = TAUT_IN_USE(elementKernels<Real>)();
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });

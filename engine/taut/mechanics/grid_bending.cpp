@@ -41,9 +41,7 @@ std::optional<double> evenTwist(const Bending& bending) {
 
 template <class Real>
 GridBending<Real>::GridBending(Bending bending, std::span<const int> points, Turn turn)
-    : points_(points.begin(), points.end()),
-      turn_(std::move(turn)),
-      add_(core::inUse(sse2::addBending<Real>, avx2::addBending<Real>, avx512::addBending<Real>)) {
+    : points_(points.begin(), points.end()), turn_(std::move(turn)), add_(TAUT_IN_USE(addBending<Real>)) {
     bending_.columns = bending.columns;
     bending_.rows = bending.rows;
     TAUT_EXPECTS(!bending.isEmpty() && std::ssize(points_) == size());

@@ -8,7 +8,7 @@ TAUT_KERNELS(template <class Real> SpringKernels<Real> springKernels();)
 
 template <class Real>
 SpringKernels<Real> springKernels() {
-    return core::inUse(sse2::springKernels<Real>, avx2::springKernels<Real>, avx512::springKernels<Real>)();
+    return TAUT_IN_USE(springKernels<Real>)();
 }
 template SpringKernels<float> springKernels();
 template SpringKernels<double> springKernels();

@@ -21,8 +21,7 @@ std::size_t springsIn(const SpringNetwork<Real>& network) {
 }  // namespace
 
 template <class Real>
-SpringProducts<Real>::SpringProducts()
-    : addRun_(core::inUse(sse2::addProducts<Real>, avx2::addProducts<Real>, avx512::addProducts<Real>)) {}
+SpringProducts<Real>::SpringProducts() : addRun_(TAUT_IN_USE(addProducts<Real>)) {}
 
 template <class Real>
 void SpringProducts<Real>::lineariseOne(std::size_t at, const Real* xa, const Real* xb, int stride, Real k, Real rest,

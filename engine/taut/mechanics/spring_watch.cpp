@@ -22,10 +22,7 @@ Real squareOf(double length) {
 }  // namespace
 
 template <class Real>
-SpringWatch<Real>::SpringWatch()
-    : run_(core::inUse(sse2::isAnyBeyond<Real>, avx2::isAnyBeyond<Real>, avx512::isAnyBeyond<Real>)),
-      list_(
-          core::inUse(sse2::isAnyInListBeyond<Real>, avx2::isAnyInListBeyond<Real>, avx512::isAnyInListBeyond<Real>)) {}
+SpringWatch<Real>::SpringWatch() : run_(TAUT_IN_USE(isAnyBeyond<Real>)), list_(TAUT_IN_USE(isAnyInListBeyond<Real>)) {}
 
 template <class Real>
 void SpringWatch<Real>::set(const SpringNetwork<Real>& network, std::span<const LengthLimits> limits) {

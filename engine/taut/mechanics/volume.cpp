@@ -49,7 +49,7 @@ VolumePreservation<Real>::VolumePreservation(std::span<const VolumeCell> cells,
       twelfthOfBulk_(runs_.sources().size()),
       inverseRestTwelvefold_(runs_.sources().size()),
       packed_(8 * static_cast<std::size_t>(runs_.lanes().loosePointCount)),
-      addBatch_(core::inUse(sse2::addVolume<Real>, avx2::addVolume<Real>, avx512::addVolume<Real>)) {
+      addBatch_(TAUT_IN_USE(addVolume<Real>)) {
     TAUT_EXPECTS(workingStretch >= 1.0);
     for (const VolumeCell& cell : cells_) {
         TAUT_EXPECTS(cell.restVolume > 0.0);

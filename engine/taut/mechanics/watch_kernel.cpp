@@ -1,6 +1,8 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 #include "taut/mechanics/private/watch_kernel.h"
 
+#include <cstdint>
+
 #include "taut/core/private/vectorise.h"
 
 namespace taut::mechanics::TAUT_ISA {
@@ -15,7 +17,7 @@ struct MaskOf<float> {
 };
 template <>
 struct MaskOf<double> {
-    using Type = long long;
+    using Type = std::int64_t;
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ Wind<Real>::Wind(std::span<const Triangle> triangles, const LinearPath& velocity
       weight_(runs_.sources().size()),
       velocity_(velocity),
       settings_(settings),
-      addBatch_(core::inUse(sse2::addWind<Real>, avx2::addWind<Real>, avx512::addWind<Real>)) {
+      addBatch_(TAUT_IN_USE(addWind<Real>)) {
     for (std::size_t lane = 0; lane < weight_.size(); ++lane)
         weight_[lane] = runs_.sources()[lane] >= 0 ? Real(1) : Real(0);
     if (triangles_.empty()) return;

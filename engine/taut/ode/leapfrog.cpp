@@ -22,7 +22,7 @@ TAUT_KERNELS(template <class Real> bool leapfrog(int n, const Real* a, const Rea
 
 template <class Real>
 LeapfrogUpdate<Real> leapfrogUpdate() {
-    return core::inUse(sse2::leapfrog<Real>, avx2::leapfrog<Real>, avx512::leapfrog<Real>);
+    return TAUT_IN_USE(leapfrog<Real>);
 }
 template LeapfrogUpdate<float> leapfrogUpdate();
 template LeapfrogUpdate<double> leapfrogUpdate();

@@ -1,4 +1,6 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+#include <cstdint>
+
 #include "taut/core/private/vectorise.h"
 
 namespace taut::ode::TAUT_ISA {
@@ -12,7 +14,7 @@ struct BitsOf<float> {
 };
 template <>
 struct BitsOf<double> {
-    using Type = unsigned long;
+    using Type = std::uint64_t;
 };
 
 }  // namespace

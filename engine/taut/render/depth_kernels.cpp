@@ -7,7 +7,7 @@ namespace taut::render {
 TAUT_KERNELS(extern const DepthKernels depths;)
 
 DepthKernels depthKernels() {
-    return core::inUse(sse2::depths, avx2::depths, avx512::depths);
+    return TAUT_IN_USE(depths);
 }
 
 }  // namespace taut::render

@@ -7,8 +7,8 @@
 #include <glm/glm.hpp>
 
 #include "taut/image/image.h"
-#include "taut/render/camera_axes.h"
 #include "taut/render/private/layer_pass.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::render {
 
@@ -18,7 +18,7 @@ namespace {
 class GroundRays {
   public:
     GroundRays(const view::FrameView& view, int width, int height) : view_(view) {
-        const CameraAxes axes = axesOf(view.camera);
+        const view::CameraAxes axes = axesOf(view.camera);
         const double pixel = 2.0 * std::tan(0.5 * static_cast<double>(view.camera.fieldOfView)) / height;  // 1 m ahead
         right_ = pixel * glm::dvec3(axes.right);
         up_ = pixel * glm::dvec3(axes.up);

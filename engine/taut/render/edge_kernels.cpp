@@ -7,7 +7,7 @@ namespace taut::render {
 TAUT_KERNELS(extern const EdgeKernels edges;)
 
 EdgeKernels edgeKernels() {
-    return core::inUse(sse2::edges, avx2::edges, avx512::edges);
+    return TAUT_IN_USE(edges);
 }
 
 }  // namespace taut::render

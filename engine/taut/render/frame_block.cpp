@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "taut/render/camera_axes.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::render {
 
@@ -39,7 +39,7 @@ FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, con
     block.groundLight = glm::vec4(view.light.ground, 0.0F);
     block.backgroundTop = glm::vec4(view.background.top, 0.0F);
     block.backgroundHorizon = glm::vec4(view.background.horizon, 0.0F);
-    const Fade fade = fadeOf(view);
+    const view::Fade fade = fadeOf(view);
     block.fade = {view.camera.target.x, view.camera.target.z, fade.start, fade.end};
     block.mapSize = mapSizeOf(box, texels);
     if (occlusion) block.occlusionArea = glm::vec4(occlusion->low, 1.0F / (occlusion->high - occlusion->low));

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "taut/render/camera_axes.h"
 #include "taut/render/private/edge_kernels.h"
 #include "taut/render/private/edge_pass.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::render {
 

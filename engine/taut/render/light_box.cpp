@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/render/camera_axes.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::render {
 
@@ -13,7 +13,7 @@ namespace {
 // What the camera sees up to where the ground has faded away.
 Bounds seenPart(const view::FrameView& view, const glm::mat3& toLight, float aspect) {
     const view::Camera& camera = view.camera;
-    const CameraAxes axes = axesOf(camera);
+    const view::CameraAxes axes = axesOf(camera);
     const float tangent = std::tan(0.5F * camera.fieldOfView);
     const float far = std::min(farPlaneOf(camera), glm::distance(camera.eye, camera.target) + fadeOf(view).end);
     Bounds seen;

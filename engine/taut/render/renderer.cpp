@@ -8,7 +8,6 @@
 #include <string>
 
 #include "taut/core/error.h"
-#include "taut/render/camera_axes.h"
 #include "taut/render/private/context.h"
 #include "taut/render/private/edge_kernels.h"
 #include "taut/render/private/edge_pass.h"
@@ -28,6 +27,7 @@
 #include "taut/render/private/targets.h"
 #include "taut/render/private/thin_tubes.h"
 #include "taut/render/private/transparency.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::render {
 
@@ -345,7 +345,7 @@ Drawn Renderer::Impl::drawAll(const Scene& scene) {
     if (moments == 0 && shifts == 1 && !hasLens) return draw(scene, passOf(scene, 0));
     PictureMean mean;
     // Every shift as often as the others: a multiple of both.
-    const std::size_t least = std::max({moments, shifts, hasLens ? placesOnLens : 1});
+    const std::size_t least = std::max({moments, shifts, hasLens ? view::placesOnLens : 1});
     const std::size_t times = (least + shifts - 1) / shifts * shifts;
     for (std::size_t i = 0; i < times; ++i) {
         if (moments == 0 && !hasLens) {
@@ -355,7 +355,7 @@ Drawn Renderer::Impl::drawAll(const Scene& scene) {
         view::FrameView seen = moments == 0 ? view : view.moments[i * moments / times];
         glm::vec2 aside(0.0F);  // [pixels] that keeps in place what is sharp
         if (hasLens) {
-            const glm::vec2 place = view.camera.lensRadius * placeOnLens(i);
+            const glm::vec2 place = view.camera.lensRadius * view::placeOnLens(i);
             moveAside(seen.camera, place);
             aside = place * (0.5F * static_cast<float>(options.height) /
                              (std::tan(0.5F * view.camera.fieldOfView) * view.camera.focus));

@@ -103,7 +103,7 @@ void SurfacePass::light(const LightKind& kind, const view::Camera& camera, const
                         glm::vec2 shift) {
     if (materials_.empty() || part.width == 0 || part.height == 0) return;
     uploadMaterials();
-    const CameraAxes axes = axesOf(camera);
+    const view::CameraAxes axes = axesOf(camera);
     const float pixel = 2.0F * std::tan(0.5F * camera.fieldOfView) / static_cast<float>(size.y);  // [m] 1 m ahead
     const glm::vec2 half = 0.5F * glm::vec2(size) + shift;
     Program& light = programUnder(kind);

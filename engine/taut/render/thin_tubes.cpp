@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/render/camera_axes.h"
 #include "taut/render/private/edge_coverage.h"
 #include "taut/render/private/edge_pass.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::render {
 

@@ -46,11 +46,11 @@ inline void findNear(const ContactArgs<Real>& s, ContactLanes& lanes) {
         const double slack = rows.clear[at] - (kept + skin);
         const bool isFar = isKnown & (slack > 0.0) & (1.125 * away + 9.0 * way <= slack * slack);
         const bool isFree = static_cast<double>(s.inverseMass[i]) != 0.0;
-        lanes.near[i] = (isFree & !isFar) ? 1L : 0L;
+        lanes.near[i] = (isFree & !isFar) ? 1 : 0;
     }
     if (masks == nullptr) return;
     TAUT_INDEPENDENT
-    for (int i = 0; i < s.n; ++i) lanes.near[i] = masks[i] == s.bits ? lanes.near[i] : 0L;
+    for (int i = 0; i < s.n; ++i) lanes.near[i] = masks[i] == s.bits ? lanes.near[i] : 0;
 }
 
 // Tells points whose foot is inside of a known triangle from the others, which are lost.
@@ -66,18 +66,18 @@ inline void recallFeet(const FeetArgs& feet, double thickness, ContactLanes& lan
         const double away = ax * ax + ay * ay + az * az, radius = rows.radius[at];
         const bool isOver = (rows.finder[at] == feet.finder) & (radius > 0.0) & (away <= radius * radius);
         const bool isThin = thickness < 8.0 * lanes.skin[i];  // a mesh keeps more than the thickness
-        const long triangle = rows.triangle[at];
-        const long near = isOver ? isOverFace : isLost;
+        const std::int64_t triangle = rows.triangle[at];
+        const std::int64_t near = isOver ? isOverFace : isLost;
         lanes.way[i] = wx * wx + wy * wy + wz * wz;
-        lanes.triangle[i] = isOver ? triangle : 0L;
-        lanes.outcome[i] = lanes.outcome[i] != 0 ? (isThin ? anyLeft : near) : 0L;
+        lanes.triangle[i] = isOver ? triangle : 0;
+        lanes.outcome[i] = lanes.outcome[i] != 0 ? (isThin ? anyLeft : near) : 0;
     }
 }
 
 // The numbers of the triangles, unless they are there from the pass before.
 inline void readFacets(const double* facets, ContactLanes& lanes, int n) {
     for (int i = 0; i < n; ++i) {
-        const long triangle = lanes.triangle[i];
+        const std::int64_t triangle = lanes.triangle[i];
         if (lanes.read[i] == triangle) continue;
         lanes.read[i] = triangle;
         for (int k = 0; k < 12; ++k) lanes.facet[k][i] = facets[12 * triangle + k];
@@ -112,7 +112,7 @@ inline void touchFeet(const FeetArgs& feet, double thickness, ContactLanes& lane
         const bool isAtEdge = (va <= 0.0) | (vb <= 0.0) | (vc <= 0.0);
         const double whole = 1.0 / (va + vb + vc);
         const double b = vb * whole, c = vc * whole;
-        const long found = lanes.outcome[i];
+        const std::int64_t found = lanes.outcome[i];
         const bool isFound = found == hasFoot;
         const double qx = isFound ? lanes.foot[0][i] : t[0][i] + abx * b + acx * c;
         const double qy = isFound ? lanes.foot[1][i] : t[1][i] + aby * b + acy * c;
@@ -130,7 +130,7 @@ inline void touchFeet(const FeetArgs& feet, double thickness, ContactLanes& lane
         const double side = facing > 0.0 ? 1.0 : -1.0;
         const double upX = side * nx, upY = side * ny, upZ = side * nz;
         const bool isFlat = square - facing * facing <= skin * skin;
-        const long near = square < reach * reach ? isNear : 0L;
+        const std::int64_t near = square < reach * reach ? isNear : 0;
         lanes.foot[0][i] = qx;
         lanes.foot[1][i] = qy;
         lanes.foot[2][i] = qz;
@@ -139,7 +139,7 @@ inline void touchFeet(const FeetArgs& feet, double thickness, ContactLanes& lane
         lanes.normal[2][i] = upZ;
         lanes.distance[i] = upX * qx + upY * qy + upZ * qz + thickness;
         lanes.outcome[i] = (found & (hasFoot | isOverFace)) != 0 ? (isPlain ? near : anyLeft) : found;
-        lanes.bent[i] = isFlat ? 0L : lanes.outcome[i];
+        lanes.bent[i] = isFlat ? 0 : lanes.outcome[i];
     }
     // Not over the middle of a triangle.
     for (int i = 0; i < n; ++i) {
@@ -165,7 +165,7 @@ inline void recordTouches(ContactLanes& lanes, int at, int n) {
     for (int k = 0; k < 3; ++k) {
         TAUT_INDEPENDENT
         for (int i = 0; i < n; ++i) {
-            const long mask = lanes.outcome[i] == anyTouched ? -1L : 0L;
+            const std::int64_t mask = lanes.outcome[i] == anyTouched ? -1 : 0;
             lanes.last[k][at + i] = select(mask, lanes.position[k][i], lanes.last[k][at + i]);
             lanes.last[3 + k][at + i] = select(mask, lanes.normal[k][i], lanes.last[3 + k][at + i]);
             lanes.last[6 + k][at + i] = select(mask, lanes.carried[k][i], lanes.last[6 + k][at + i]);
@@ -189,9 +189,9 @@ inline void showRecords(ContactLanes& lanes, int n) {
 inline bool addResults(ContactLanes& lanes, int at, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
-        const long found = lanes.outcome[i], before = lanes.result[at + i];
+        const std::int64_t found = lanes.outcome[i], before = lanes.result[at + i];
         lanes.result[at + i] = found != 0 ? found : before;
-        lanes.outcome[i] = ((found == anyTouched) & (lanes.isMoved[i] != 0)) ? isLive : 0L;
+        lanes.outcome[i] = ((found == anyTouched) & (lanes.isMoved[i] != 0)) ? isLive : 0;
     }
     return anyOf(lanes.outcome, n) != 0;
 }

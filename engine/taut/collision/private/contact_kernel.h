@@ -2,6 +2,8 @@
 // copy gives the same bits as resolving the points one by one (resolve.cpp). Plain data only.
 #pragma once
 
+#include <cstdint>
+
 #include "taut/collision/closed_shape.h"
 
 namespace taut::collision {
@@ -62,7 +64,7 @@ struct ContactArgs {
 };
 
 // What the kernel has done with a point.
-enum class PointOutcome : long {
+enum class PointOutcome : std::int64_t {
     free,     // nothing: it does not touch
     touched,  // moved it out of the solid
     left      // nothing: its path may lead through the solid
@@ -70,10 +72,10 @@ enum class PointOutcome : long {
 
 // The kernel's results for a batch, and its working data.
 struct ContactLanes {
-    alignas(64) long outcome[contactRow];        // a PointOutcome for each point
-    alignas(64) double impulse[contactRow];      // of touched points, as in Contact
-    alignas(64) double position[3][contactRow];  //
-    alignas(64) double normal[3][contactRow];    //
+    alignas(64) std::int64_t outcome[contactRow];  // a PointOutcome for each point
+    alignas(64) double impulse[contactRow];        // of touched points, as in Contact
+    alignas(64) double position[3][contactRow];    //
+    alignas(64) double normal[3][contactRow];      //
 
     alignas(64) double start[3][contactRow];    // of the path, in the world
     alignas(64) double carried[3][contactRow];  // velocity of the surface at `position`
@@ -85,30 +87,30 @@ struct ContactLanes {
     alignas(64) double distance[contactRow];  // at the end; later the offset of the half-space to end in
     alignas(64) double startDistance[contactRow];
     alignas(64) double startNormal[3][contactRow];
-    alignas(64) long isMoved[contactRow];  // not 0: by more than rounding
+    alignas(64) std::int64_t isMoved[contactRow];  // not 0: by more than rounding
 
     // Of a mesh.
-    alignas(64) double way[contactRow];        // [m²] square of the path's length
-    alignas(64) double foot[3][contactRow];    // where the surface is nearest
-    alignas(64) long triangle[contactRow];     // of the foot
-    alignas(64) long read[contactRow];         // whose numbers `facet` has; -1: none
-    alignas(64) double facet[12][contactRow];  //
-    alignas(64) long bent[contactRow];         // not 0: not over the middle of a triangle
+    alignas(64) double way[contactRow];             // [m²] square of the path's length
+    alignas(64) double foot[3][contactRow];         // where the surface is nearest
+    alignas(64) std::int64_t triangle[contactRow];  // of the foot
+    alignas(64) std::int64_t read[contactRow];      // whose numbers `facet` has; -1: none
+    alignas(64) double facet[12][contactRow];       //
+    alignas(64) std::int64_t bent[contactRow];      // not 0: not over the middle of a triangle
     // Of a mesh, of all of the batch.
-    alignas(64) long near[contactRow];       // 0: the point is far from it
-    alignas(64) long result[contactRow];     // the outcome of all passes
-    alignas(64) double sum[contactRow];      // of the impulses
-    alignas(64) double last[9][contactRow];  // position, normal and carried of the last touch
+    alignas(64) std::int64_t near[contactRow];    // 0: the point is far from it
+    alignas(64) std::int64_t result[contactRow];  // the outcome of all passes
+    alignas(64) double sum[contactRow];           // of the impulses
+    alignas(64) double last[9][contactRow];       // position, normal and carried of the last touch
 };
 
 // Bits of a call's return value: whether any point was touched, or left.
-inline constexpr long anyTouched = 1;
-inline constexpr long anyLeft = 2;
+inline constexpr std::int64_t anyTouched = 1;
+inline constexpr std::int64_t anyLeft = 2;
 
 // Bits of `outcome` while a kernel works: what it has found out about a point so far.
-inline constexpr long isLive = 4, isNear = 8, needsStart = 16;
-inline constexpr long isLost = 32;      // its foot on a mesh is not known
-inline constexpr long isOverFace = 64;  // the foot is inside of `triangle`
-inline constexpr long hasFoot = 128;    // `foot` is known
+inline constexpr std::int64_t isLive = 4, isNear = 8, needsStart = 16;
+inline constexpr std::int64_t isLost = 32;      // its foot on a mesh is not known
+inline constexpr std::int64_t isOverFace = 64;  // the foot is inside of `triangle`
+inline constexpr std::int64_t hasFoot = 128;    // `foot` is known
 
 }  // namespace taut::collision

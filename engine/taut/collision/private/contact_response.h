@@ -16,8 +16,8 @@ using Row = double[contactRow];
 using Rows = Row[3];
 
 // A loop of its own: inside the loops that set `outcome` it would keep compilers from vectorising them.
-inline long anyOf(const long (&outcome)[contactRow], int n) {
-    long any = 0;
+inline std::int64_t anyOf(const std::int64_t (&outcome)[contactRow], int n) {
+    std::int64_t any = 0;
     for (int i = 0; i < n; ++i) any |= outcome[i];
     return any;
 }
@@ -36,7 +36,7 @@ inline void respondAll(const Surface& surface, const Rows& path, bool again, Con
         store(to[2] + i, value.z);
     };
     for (int i = 0; i < n; i += width) {
-        const auto found = load<core::TAUT_ISA::WideVector<long>>(lanes.outcome + i);
+        const auto found = load<core::TAUT_ISA::WideVector<std::int64_t>>(lanes.outcome + i);
         const auto near = (found & isNear) != 0;
         if (!core::TAUT_ISA::isAny(near)) {
             store(lanes.outcome + i, found & anyLeft);

@@ -10,14 +10,14 @@
 namespace taut::collision {
 
 struct FootRows {
-    alignas(64) double anchor[3][contactBatch] = {};  // [m] in the frame of the triangles
-    alignas(64) double clear[contactBatch] = {};      // [m] the surface is at least this far from the anchor
-    alignas(64) double radius[contactBatch] = {};     // [m] so near to the anchor feet are inside of `triangle`
-    alignas(64) long triangle[contactBatch] = {};     //
-    double fewRadius[contactBatch] = {};              // [m] so near to the anchor feet are on one of `few`
-    int few[contactBatch][4] = {};                    //
-    std::size_t fewCount[contactBatch] = {};          //
-    const FootFinder* finder[contactBatch] = {};      // whose triangles they are; nullptr: nothing is known
+    alignas(64) double anchor[3][contactBatch] = {};       // [m] in the frame of the triangles
+    alignas(64) double clear[contactBatch] = {};           // [m] the surface is at least this far from the anchor
+    alignas(64) double radius[contactBatch] = {};          // [m] so near to the anchor feet are inside of `triangle`
+    alignas(64) std::int64_t triangle[contactBatch] = {};  //
+    double fewRadius[contactBatch] = {};                   // [m] so near to the anchor feet are on one of `few`
+    int few[contactBatch][4] = {};                         //
+    std::size_t fewCount[contactBatch] = {};               //
+    const FootFinder* finder[contactBatch] = {};           // whose triangles they are; nullptr: nothing is known
 };
 
 // Finds the feet of the points of a batch that are lost, and notes what is known about them.

@@ -2,13 +2,28 @@
 // Every set gives the same bits.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace taut::core {
 
-enum class InstructionSet { sse2, avx2, avx512 };
+// The sets that kernels are compiled for (taut_kernel in engine/taut.cmake), from the narrowest on: each with its name
+// and whether this processor has it. The first is what every processor has.
+#if defined(__wasm__)
+#define TAUT_SETS(each, ...) each(wasm128, true, __VA_ARGS__)
+#else
+#define TAUT_SETS(each, ...)                                                                      \
+    each(sse2, true, __VA_ARGS__) each(avx2, __builtin_cpu_supports("avx2") != 0, __VA_ARGS__)    \
+        each(avx512,                                                                              \
+             __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 && \
+                 __builtin_cpu_supports("avx512dq") != 0,                                         \
+             __VA_ARGS__)
+#endif
+
+#define TAUT_SET_NAME(set, condition, ...) set,
+enum class InstructionSet { TAUT_SETS(TAUT_SET_NAME) };
 
 std::string_view nameOf(InstructionSet set);  // "avx2", as TAUT_SIMD takes it
 
@@ -20,27 +35,20 @@ bool isSupported(InstructionSet set);
 // ask.
 InstructionSet instructionSet();
 
-// Declares kernels, each of which has a copy for each set (taut_kernel in engine/taut.cmake).
-#define TAUT_KERNELS(...) \
-    namespace sse2 {      \
-    __VA_ARGS__           \
-    }                     \
-    namespace avx2 {      \
-    __VA_ARGS__           \
-    }                     \
-    namespace avx512 {    \
-    __VA_ARGS__           \
+// Declares kernels, each of which has a copy for each set.
+#define TAUT_KERNELS(...) TAUT_SETS(TAUT_SET_KERNELS, __VA_ARGS__)
+#define TAUT_SET_KERNELS(set, condition, ...) \
+    namespace set {                           \
+    __VA_ARGS__                               \
     }
 
 // Of the copies of a kernel, that of the set in use.
-template <class Kernels>
-Kernels inUse(Kernels sse2, Kernels avx2, Kernels avx512) {
-    switch (instructionSet()) {
-        case InstructionSet::avx512: return avx512;
-        case InstructionSet::avx2: return avx2;
-        case InstructionSet::sse2: break;
-    }
-    return sse2;
+#define TAUT_IN_USE(...) ::taut::core::inUse(::taut::core::instructionSet() TAUT_SETS(TAUT_SET_COPY, __VA_ARGS__))
+#define TAUT_SET_COPY(set, condition, ...) , set::__VA_ARGS__
+template <class Kernels, class... Wider>
+Kernels inUse(InstructionSet set, Kernels narrowest, Wider... wider) {
+    const Kernels copies[] = {narrowest, wider...};
+    return copies[static_cast<std::size_t>(set)];
 }
 
 // How that was decided: "TAUT_SIMD", "--isa", or what springs took in the trial: "trial: sse2 2.1, avx2 1.0 ns".

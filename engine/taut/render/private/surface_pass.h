@@ -8,12 +8,12 @@
 #include <tuple>
 #include <vector>
 
-#include "taut/render/camera_axes.h"
 #include "taut/render/private/lights.h"
 #include "taut/render/private/mesh_cache.h"
 #include "taut/render/private/program.h"
 #include "taut/render/private/targets.h"
 #include "taut/render/private/texture_cache.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::render {
 

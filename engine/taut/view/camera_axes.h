@@ -6,30 +6,30 @@
 
 #include "taut/view/frame_view.h"
 
-namespace taut::render {
+namespace taut::view {
 
 struct CameraAxes {
     glm::vec3 right, up, forward;  // unit, at right angles
 };
 
 // If eye and target are the same, it looks along -z.
-CameraAxes axesOf(const view::Camera& camera);
+CameraAxes axesOf(const Camera& camera);
 
 // The distances from the camera's target at which the ground begins to fade and at which it has gone [m].
 struct Fade {
     float start, end;
 };
-Fade fadeOf(const view::FrameView& view);
+Fade fadeOf(const FrameView& view);
 
 // The matrix from world to GL clip coordinates, with near and far planes that suit the camera's distance. `aspect` is
 // width / height of the picture, above zero.
-float farPlaneOf(const view::Camera& camera);  // [m]
-glm::mat4 projectionOf(const view::Camera& camera, float aspect);
+float farPlaneOf(const Camera& camera);  // [m]
+glm::mat4 projectionOf(const Camera& camera, float aspect);
 
 // A place in a disc of radius 1. Consecutive numbers give places that are spread evenly.
 inline constexpr std::size_t placesOnLens = 32;
 glm::vec2 placeOnLens(std::size_t number);
 // To the right and up [m], looking the same way.
-void moveAside(view::Camera& camera, glm::vec2 by);
+void moveAside(Camera& camera, glm::vec2 by);
 
-}  // namespace taut::render
+}  // namespace taut::view

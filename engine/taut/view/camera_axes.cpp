@@ -1,4 +1,4 @@
-#include "taut/render/camera_axes.h"
+#include "taut/view/camera_axes.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <glm/ext/matrix_clip_space.hpp>
 #include <numbers>
 
-namespace taut::render {
+namespace taut::view {
 
-CameraAxes axesOf(const view::Camera& camera) {
+CameraAxes axesOf(const Camera& camera) {
     CameraAxes axes{};
     const glm::vec3 ahead = camera.target - camera.eye;
     axes.forward = glm::length(ahead) > 0.0F ? glm::normalize(ahead) : glm::vec3(0.0F, 0.0F, -1.0F);
@@ -23,19 +23,19 @@ CameraAxes axesOf(const view::Camera& camera) {
     return axes;
 }
 
-Fade fadeOf(const view::FrameView& view) {
-    const view::Background& background = view.background;
+Fade fadeOf(const FrameView& view) {
+    const Background& background = view.background;
     // A picture from d [m] away shows things about as large; up to two thirds of d nothing should have faded.
     const float reach = 2.5F * glm::distance(view.camera.eye, view.camera.target) - 30.0F;
     const float scale = background.fadesWithCamera ? std::max(reach / background.fadeEnd, 1.0F) : 1.0F;
     return {scale * background.fadeStart, scale * background.fadeEnd};
 }
 
-float farPlaneOf(const view::Camera& camera) {
+float farPlaneOf(const Camera& camera) {
     return std::max(camera.farPlane, 4.0F * glm::distance(camera.eye, camera.target));
 }
 
-glm::mat4 projectionOf(const view::Camera& camera, float aspect) {
+glm::mat4 projectionOf(const Camera& camera, float aspect) {
     const CameraAxes axes = axesOf(camera);
     glm::mat4 view(glm::transpose(glm::mat3(axes.right, axes.up, -axes.forward)));
     view[3] = view * glm::vec4(-camera.eye, 1.0F);
@@ -52,11 +52,11 @@ glm::vec2 placeOnLens(std::size_t number) {
     return {static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle))};
 }
 
-void moveAside(view::Camera& camera, glm::vec2 by) {
+void moveAside(Camera& camera, glm::vec2 by) {
     const CameraAxes axes = axesOf(camera);
     const glm::vec3 way = by.x * axes.right + by.y * axes.up;
     camera.eye += way;
     camera.target += way;
 }
 
-}  // namespace taut::render
+}  // namespace taut::view

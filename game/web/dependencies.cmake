@@ -1,0 +1,41 @@
+# What the engine needs besides emscripten: headers of Debian's packages, which are the same for all processors, and of
+# Bullet the sources (TAUT_BULLET_SOURCE, as game/web.sh unpacks them).
+set(headers ${PROJECT_BINARY_DIR}/include)  # of these alone: /usr/include has another system's C library
+file(MAKE_DIRECTORY ${headers})
+foreach(folder fmt glm nlohmann toml++)
+  if(NOT EXISTS /usr/include/${folder})
+    message(FATAL_ERROR "There is no /usr/include/${folder}; sh game/web.sh installs what is needed")
+  endif()
+  file(CREATE_LINK /usr/include/${folder} ${headers}/${folder} SYMBOLIC)
+endforeach()
+set(TAUT_TOMLPP_INCLUDE ${headers} CACHE INTERNAL "")
+foreach(package fmt glm nlohmann_json)
+  add_library(${package}::${package} INTERFACE IMPORTED)
+  target_include_directories(${package}::${package} SYSTEM INTERFACE ${headers})
+  file(WRITE ${PROJECT_BINARY_DIR}/packages/${package}Config.cmake "")  # find_package finds the target above
+  set(${package}_DIR ${PROJECT_BINARY_DIR}/packages CACHE INTERNAL "")
+endforeach()
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+
+set(TAUT_BULLET_SOURCE "" CACHE PATH "The folder src of Bullet's sources")
+if(NOT EXISTS ${TAUT_BULLET_SOURCE}/btBulletCollisionCommon.h)
+  message(FATAL_ERROR "TAUT_BULLET_SOURCE: there is no btBulletCollisionCommon.h in \"${TAUT_BULLET_SOURCE}\"")
+endif()
+add_library(taut_bullet STATIC)
+add_library(taut::bullet ALIAS taut_bullet)
+set(shapes btBvhTriangleMeshShape btCollisionShape btConcaveShape btOptimizedBvh btStridingMeshInterface
+  btTriangleCallback btTriangleIndexVertexArray btTriangleMeshShape)
+list(TRANSFORM shapes PREPEND BulletCollision/CollisionShapes/)
+set(sources ${shapes} BulletCollision/BroadphaseCollision/btQuantizedBvh LinearMath/btAlignedAllocator
+  LinearMath/btSerializer LinearMath/btVector3)
+list(TRANSFORM sources PREPEND ${TAUT_BULLET_SOURCE}/)
+list(TRANSFORM sources APPEND .cpp)
+target_sources(taut_bullet PRIVATE ${sources})
+target_compile_definitions(taut_bullet PUBLIC BT_USE_DOUBLE_PRECISION)
+target_include_directories(taut_bullet SYSTEM PUBLIC ${TAUT_BULLET_SOURCE})
+target_compile_options(taut_bullet PRIVATE -w -ffp-contract=off)
+
+# 128-bit vectors everywhere, as all processors have them on the other side; exceptions of the engine's own kind.
+add_compile_options(-msimd128 -fwasm-exceptions)
+add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${CMAKE_CURRENT_LIST_DIR}/standard_library.h>")
+add_link_options(-fwasm-exceptions)

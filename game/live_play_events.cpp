@@ -85,7 +85,7 @@ void LivePlay::press(const std::string& key, bool isRepeat) {
 void LivePlay::beginDrag(const WindowEvent& event) {
     const live::Ray ray = live::rayThrough(camera(), event.place, 1.0 * settings_.width / settings_.height);
     const std::optional<live::PickedPoint> picked =
-        live::pick(ray, session_->now().surfaces, session_->bodies(), live::reach);
+        live::pick(ray, session_->now().surfaces, session_->bodies(), live::pickReach);
     if (!picked) return;
     session_->grab(*picked);
     held_ = picked->position;
@@ -116,7 +116,7 @@ void LivePlay::findName() {
     named_.reset();
     if (!showsNames_ || dragging_ == Dragging::view) return;
     const live::Ray ray = live::rayThrough(camera(), mouse_, 1.0 * settings_.width / settings_.height);
-    named_ = live::pick(ray, session_->now().surfaces, session_->bodies(true), live::reach);
+    named_ = live::pick(ray, session_->now().surfaces, session_->bodies(true), live::pickReach);
 }
 
 void LivePlay::copyName() {

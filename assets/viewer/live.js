@@ -65,7 +65,7 @@ class LivePage {
     let session = null, film;
     try {
       const overrides = [...(scene.overrides || []), ...Object.entries(changes).map(([key, value]) => `${key}=${value}`)];
-      session = new this.taut.Session(scene.text, scene.files, {name: scene.name, reference: scene.reference, overrides});
+      session = new this.taut.Session(scene.text, scene.files, {name: scene.name, overrides});
       film = await readLive(session, this.aspect);
     } catch (error) {
       if (session) session.free();
@@ -107,10 +107,11 @@ class LivePage {
 
   // What may be changed of the scene that is there.
   fillControls() {
-    const {session} = this, rampable = session.rampable();
-    element('method').value = session.solver.method;
+    const {session} = this, {method, step: present} = session.solver;
+    element('method').value = method;
+    this.step = present;
     const step = element('step'), own = this.changes['solver.dt'];
-    if (own === undefined) this.ownStep = session.solver.step;
+    if (own === undefined) this.ownStep = present;
     step.textContent = '';
     for (const [name, factor] of [['own', 1], ['× 4', 4], ['× 2', 2], ['½', 0.5], ['¼', 0.25]]) {
       const value = factor === 1 ? '' : this.stepText(factor * this.ownStep);
@@ -119,7 +120,7 @@ class LivePage {
     step.value = own === undefined ? '' : own;
     const list = element('sliders');
     list.textContent = '';
-    for (const slider of slidersFor(rampable, this.given.sliders))
+    for (const slider of slidersFor(session.rampable(), this.given.sliders))
       list.append(slider.element((key, value) => this.attempt(() => this.session.set(key, value, 0.2))));
   }
 
@@ -263,7 +264,7 @@ class LivePage {
 
   async save() {
     if (!this.session) return;
-    const recording = this.attempt(() => this.session.record());
+    const recording = this.attempt(() => this.session.record(this.scene.reference));
     if (!recording) return;
     const stem = this.scene.name.split('/').pop().replace(/\.toml$/, '');
     if (this.isEdited) download(`${stem}.toml`, this.scene.text);
@@ -393,7 +394,7 @@ class LivePage {
     showNumbers(element('numbers'), [
       ['tick', session.tick], ['pictures a second', rate.pictures.toFixed(0)],
       ['of real time', rate.real > 0.97 ? numberText(speed) : `${(rate.real * speed).toFixed(2)}, too slow`],
-      ['step', `${numberText(1e3 * session.solver.step)} ms`], ['largest strain', `${numberText(100 * metrics.max_strain)} %`],
+      ['step', `${numberText(1e3 * this.step)} ms`], ['largest strain', `${numberText(100 * metrics.max_strain)} %`],
       ['contacts', metrics.contacts + metrics.body_contacts], ['crossings', metrics.crossings],
     ]);
   }

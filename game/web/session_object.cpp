@@ -64,6 +64,8 @@ const Calls<SessionObject> SessionObject::calls{
          return Json();
      }},
     {"metrics", [](SessionObject& own, const Json&) { return measuresOf(own.session_.metrics()); }},
+    {"solver", [](SessionObject& own, const Json&) { return own.solver(); }},
+    {"rampable", [](SessionObject& own, const Json&) { return own.rampable(); }},
     {"record", [](SessionObject& own, const Json& with) { return own.record(with.value("scene", own.source_.name)); }},
 };
 
@@ -188,7 +190,7 @@ live::Ray SessionObject::rayOf(const Json& with) const {
 }
 
 std::optional<live::PickedPoint> SessionObject::pointUnder(const Json& with, bool withHeld) const {
-    return live::pick(rayOf(with), session_.now().surfaces, session_.bodies(withHeld), live::reach);
+    return live::pick(rayOf(with), session_.now().surfaces, session_.bodies(withHeld), live::pickReach);
 }
 
 Json SessionObject::pick(const Json& with) const {
@@ -212,6 +214,23 @@ void SessionObject::lead(const Json& with) {
 
 void SessionObject::apply(const std::string& table) {
     session_.apply(*actions_->read(table, session_.nextTime(), "apply()", session_.spec()));
+}
+
+Json SessionObject::solver() const {
+    double step = session_.world().tickSeconds();
+    for (const world::IslandInfo& island : session_.world().islands()) step = std::min(step, island.step);
+    return {{"method", session_.spec().solver.integrator}, {"step", step}};
+}
+
+Json SessionObject::rampable() const {
+    Json all = Json::array();
+    for (const scene::Rampable& field : actions_->rampable(session_.spec()))
+        all.push_back({{"key", field.key},
+                       {"unit", field.unit},
+                       {"low", field.range.low},
+                       {"high", field.range.high},
+                       {"value", field.value}});
+    return all;
 }
 
 Json SessionObject::record(const std::string& scene) {

@@ -33,6 +33,8 @@ class SessionObject : public Object {
     void lead(const Json& with);
     void apply(const std::string& table);
     Json about() const;
+    Json solver() const;
+    Json rampable() const;
     Json record(const std::string& scene);
     std::optional<live::PickedPoint> pointUnder(const Json& with, bool withHeld) const;
     live::Ray rayOf(const Json& with) const;

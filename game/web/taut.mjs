@@ -157,6 +157,8 @@ export class Session extends Held {
   lead(x, y, aspect, camera) { this.call('lead', {x, y, aspect, camera}); }
   release() { this.call('release'); }
   set(key, value, over_s = 0) { this.apply({do: 'ramp', key, to: value, over_s}); }
+  get solver() { return this.call('solver'); }
+  rampable() { return this.call('rampable'); }
   record(scene) {
     this.#last = null;
     return this.call('record', {scene});

@@ -43,7 +43,7 @@ struct PickedPoint {
 std::string nameOf(const PickedPoint& picked);
 
 // How far beside a body a point may still be meant [m for each metre of distance].
-inline constexpr double reach = 0.03;
+inline constexpr double pickReach = 0.03;
 
 // The point nearest to the ray. If the ray hits a body, it is a point of that body. Otherwise it is a point within
 // `reach` [m per metre of distance] of the ray that nothing opaque hides. None if a collider is in the way, or nothing

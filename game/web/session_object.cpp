@@ -64,7 +64,7 @@ const Calls<SessionObject> SessionObject::calls{
          return Json();
      }},
     {"metrics", [](SessionObject& own, const Json&) { return measuresOf(own.session_.metrics()); }},
-    {"record", [](SessionObject& own, const Json& with) { return own.record(with.value("scene", own.source_.name)); }},
+    {"record", [](SessionObject& own, const Json& with) { return own.record(with.value("scene", own.source_.file)); }},
 };
 
 SessionObject::SessionObject(const Json& with) : SessionObject(sourceIn(with), read(sourceIn(with))) {}

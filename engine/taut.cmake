@@ -34,8 +34,8 @@ endif()
 # The folders where a scene's time goes.
 set(TAUT_COMPUTES core ode mechanics collision contact bodies forces island world image geometry)
 
-# What is downloaded is small where no time goes.
-set(TAUT_SMALL fields view geometry spec bodies forces check advice scene live)
+# Those whose own loops take time too; of the others what is downloaded may be as small as can be.
+set(TAUT_LOOPS core ode mechanics collision contact)
 
 # taut_library(core SOURCES a.cpp LINK taut::ode PRIVATE_LINK fmt::fmt): the library of one folder, known as taut::core.
 # LINK is what its headers include, PRIVATE_LINK what only its sources do. It is installed with its headers, but for those
@@ -50,7 +50,7 @@ function(taut_library name)
   if(name IN_LIST TAUT_COMPUTES)
     target_compile_options(taut_${name} PRIVATE $<$<CONFIG:Asan>:-O1>)
   endif()
-  if(EMSCRIPTEN AND name IN_LIST TAUT_SMALL)
+  if(EMSCRIPTEN AND NOT name IN_LIST TAUT_LOOPS)
     target_compile_options(taut_${name} PRIVATE -Oz)
   endif()
   if(TAUT_INSTALL AND NOT ARG_PROGRAM)

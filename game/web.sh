@@ -10,8 +10,8 @@ build=$root/build-web
 sources=$build/sources
 mkdir -p "$sources"
 
-# source_of PACKAGE: the folder of a Debian package's sources. The list of sources that apt reads is one of this folder's
-# own, so that none has to be added to the system's.
+# source_of PACKAGE: the folder of a Debian package's sources. apt reads a list of sources of this folder's own, so that
+# none has to be added to the system's.
 source_of() {
     if [ ! -d "$sources/$1" ]; then
         mkdir -p "$sources/apt/lists/partial" "$sources/apt/archives/partial"
@@ -19,8 +19,8 @@ source_of() {
             grep -E '/debian/? [a-z]+ main$' | head -n 1)
         line="deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror"
         echo "$line" >"$sources/apt/sources.list"
-        apt="apt-get -o Dir::Etc::SourceList=$sources/apt/sources.list -o Dir::Etc::SourceParts=- -o Dir::State::Lists=$sources/apt/lists
-            -o Dir::Cache=$sources/apt -o APT::Sandbox::User=$(id -un)"
+        apt="apt-get -o Dir::Etc::SourceList=$sources/apt/sources.list -o Dir::Etc::SourceParts=-
+            -o Dir::State::Lists=$sources/apt/lists -o Dir::Cache=$sources/apt -o APT::Sandbox::User=$(id -un)"
         # shellcheck disable=SC2086  # words
         (cd "$sources" && $apt update && $apt source --download-only "$1") >"$build/apt.log" 2>&1 || {
             tail -n 5 "$build/apt.log" >&2
@@ -36,6 +36,7 @@ source_of() {
     echo "$sources/$1"
 }
 bullet=$(source_of bullet)
+deflate=$(source_of libdeflate)
 
 # emscripten's own scripts need packages of Debian's node, which another node does not look for.
 NODE_PATH=/usr/share/nodejs${NODE_PATH:+:$NODE_PATH}
@@ -43,6 +44,7 @@ export NODE_PATH
 cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTAUT_UNITY=24 \
     -DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake \
     -DTAUT_RENDER=OFF -DTAUT_PROGRAM=OFF -DTAUT_TESTS=OFF -DTAUT_PYTHON=OFF -DTAUT_INSTALL=OFF -DTAUT_THREADS=OFF \
-    -DTAUT_BULLET_SOURCE="$bullet/src" >"$build.log" 2>&1 || { tail -n 30 "$build.log" >&2; exit 1; }
+    -DTAUT_BULLET_SOURCE="$bullet/src" -DTAUT_DEFLATE_SOURCE="$deflate" >"$build.log" 2>&1 ||
+    { tail -n 30 "$build.log" >&2; exit 1; }
 cmake --build "$build" >>"$build.log" 2>&1 || { grep -A 12 -E 'error|FAILED' "$build.log" | head -n 60 >&2; exit 1; }
 echo "$build/game/web/taut: $(gzip -9 -c "$build/game/web/taut/taut.wasm" | wc -c) bytes of WebAssembly, compressed"

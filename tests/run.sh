@@ -2,13 +2,13 @@
 # Builds everything and passes every test: g++ all of them, clang the determinism tests (its hashes against those of
 # g++) in a project that has taut as a subproject, and under AddressSanitizer and UndefinedBehaviorSanitizer the unit
 # tests. With --peers also what other programs make of strips of cloth, Blender among them. With --long also the physics
-# tests under sanitizers, the fuzzer for ten seconds a reader, and those labelled long, which take minutes and rarely
-# break.
+# tests under sanitizers, the fuzzer for ten seconds a reader, the engine as WebAssembly, and those labelled long, which
+# take minutes and rarely break.
 set -eu
 case ${1-} in
     '') without='-LE long|peers' sanitized=unit fuzzed= more= ;;
     --peers) without='-LE long' sanitized=unit fuzzed= more=peers ;;
-    --long) without='-LE peers' sanitized='unit|physics' fuzzed=yes more=farm ;;
+    --long) without='-LE peers' sanitized='unit|physics' fuzzed=yes more='farm web' ;;
     *) echo "usage: sh tests/run.sh [--long|--peers]" >&2 && exit 2 ;;
 esac
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -36,6 +36,7 @@ build clang "$root/tests/consumer" "taut_determinism consumer_all" -DCMAKE_CXX_C
 build asan "$root" "taut taut_$(echo "$sanitized" | sed 's/|/ taut_/')" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan \
     -DTAUT_PYTHON=OFF
 if [ "$fuzzed" ]; then
+    sh "$root/game/web.sh"
     build fuzz "$root" taut_fuzz -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Asan \
         -DTAUT_FUZZ=ON -DTAUT_PROGRAM=OFF -DTAUT_TESTS=OFF
     ctest --test-dir "$root/build-fuzz" --output-on-failure -j "$jobs" -L fuzz

@@ -50,7 +50,7 @@ LiveWorld::LiveWorld(SceneSource source, scene::Loaded loaded, int threads)
 }
 
 std::shared_ptr<LiveWorld> LiveWorld::from(const std::string& bytes) {
-    const SceneSource source = fromBytes(bytes).source;
+    const SceneSource source = pipeline::fromBytes(bytes).source;
     const char* remedy =
         "\na pickle reads its scene again: put that back where it was, or load() it and restore() what save() gave";
     try {
@@ -187,12 +187,12 @@ std::string LiveWorld::save() const {
     state.files = scene::usedFiles(spec());
     for (scene::UsedFile& file : state.files) file.path = lastingName(file.path, false);
     state.world = now.save();
-    return toBytes(state);
+    return pipeline::toBytes(state);
 }
 
 void LiveWorld::restore(const std::string& bytes) {
     requireStill("restore");
-    const SavedState state = fromBytes(bytes);
+    const SavedState state = pipeline::fromBytes(bytes);
     if (state.key != keys_.stateAt(state.tick)) {
         std::string changes;
         for (const std::string& change : scene::changedSince(state.files))

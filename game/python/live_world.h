@@ -11,11 +11,13 @@
 
 #include "game/python/callbacks.h"
 #include "game/python/painter.h"
-#include "game/python/state_bytes.h"
+#include "taut/pipeline/saved_state.h"
 #include "taut/scene/load.h"
 #include "taut/world/undoing_world.h"
 
 namespace taut::python {
+
+using pipeline::SavedState, pipeline::SceneSource;
 
 // Its functions expect the interpreter's lock and throw core::Error; those that take long let it go meanwhile.
 class LiveWorld {

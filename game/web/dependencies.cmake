@@ -1,5 +1,5 @@
-# What the engine needs besides emscripten: headers of Debian's packages, which are the same for all processors, and of
-# Bullet the sources (TAUT_BULLET_SOURCE, as game/web.sh unpacks them).
+# What the engine needs besides emscripten: headers of Debian's packages, which are the same for all processors, and the
+# sources of Bullet and libdeflate (TAUT_BULLET_SOURCE and TAUT_DEFLATE_SOURCE, as game/web.sh unpacks them).
 set(headers ${PROJECT_BINARY_DIR}/include)  # of these alone: /usr/include has another system's C library
 file(MAKE_DIRECTORY ${headers})
 foreach(folder fmt glm nlohmann toml++)
@@ -18,9 +18,14 @@ endforeach()
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 
 set(TAUT_BULLET_SOURCE "" CACHE PATH "The folder src of Bullet's sources")
-if(NOT EXISTS ${TAUT_BULLET_SOURCE}/btBulletCollisionCommon.h)
-  message(FATAL_ERROR "TAUT_BULLET_SOURCE: there is no btBulletCollisionCommon.h in \"${TAUT_BULLET_SOURCE}\"")
-endif()
+set(TAUT_DEFLATE_SOURCE "" CACHE PATH "libdeflate's sources")
+foreach(header TAUT_BULLET_SOURCE/btBulletCollisionCommon.h TAUT_DEFLATE_SOURCE/libdeflate.h)
+  get_filename_component(variable ${header} DIRECTORY)
+  get_filename_component(name ${header} NAME)
+  if(NOT EXISTS ${${variable}}/${name})
+    message(FATAL_ERROR "${variable}: there is no ${name} in \"${${variable}}\"; sh game/web.sh finds it")
+  endif()
+endforeach()
 add_library(taut_bullet STATIC)
 add_library(taut::bullet ALIAS taut_bullet)
 set(shapes btBvhTriangleMeshShape btCollisionShape btConcaveShape btOptimizedBvh btStridingMeshInterface
@@ -35,7 +40,16 @@ target_compile_definitions(taut_bullet PUBLIC BT_USE_DOUBLE_PRECISION)
 target_include_directories(taut_bullet SYSTEM PUBLIC ${TAUT_BULLET_SOURCE})
 target_compile_options(taut_bullet PRIVATE -w -ffp-contract=off)
 
-# 128-bit vectors everywhere, as all processors have them on the other side; exceptions of the engine's own kind.
-add_compile_options(-msimd128 -fwasm-exceptions)
+set(sources adler32 arm/cpu_features crc32 deflate_compress deflate_decompress utils x86/cpu_features)
+list(TRANSFORM sources PREPEND ${TAUT_DEFLATE_SOURCE}/lib/)
+list(TRANSFORM sources APPEND .c)
+add_library(taut_deflate STATIC ${sources})
+target_include_directories(taut_deflate SYSTEM PUBLIC ${TAUT_DEFLATE_SOURCE})
+target_compile_options(taut_deflate PRIVATE -w -Oz -DNDEBUG)
+add_library(PkgConfig::libdeflate ALIAS taut_deflate)
+
+# 128-bit vectors and exceptions as WebAssembly has them. emscripten takes -Os for -fno-inline-functions, which would hold
+# for files with -O3 as well.
+add_compile_options(-msimd128 -fwasm-exceptions -finline-functions)
 add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${CMAKE_CURRENT_LIST_DIR}/standard_library.h>")
 add_link_options(-fwasm-exceptions)

@@ -8,6 +8,7 @@
 #include "game/web/fabrics.h"
 #include "game/web/object.h"
 #include "game/web/session_object.h"
+#include "game/web/tapes.h"
 #include "game/web/world_object.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
@@ -32,6 +33,8 @@ Json answerTo(const std::string& what, const Json& with) {
     if (what == "start") return layOutFabrics(), Json();
     if (what == "World") return made(std::make_unique<WorldObject>(with));
     if (what == "Session") return made(std::make_unique<SessionObject>(with));
+    if (what == "recordTape") return recordedTape(with);
+    if (what == "replayTape") return replayedTape(with);
     std::unique_ptr<Object>& object = objects.at(with.at("object"));
     if (what == "free") return object.reset(), Json();
     if (!object) throw core::Error(core::ErrorKind::usage, "this was freed and is not to be used any more");

@@ -40,6 +40,12 @@ Json vectorsOf(std::span<const Vector> vectors) {
                    sizeof(Number) == 8 ? "Float64Array" : "Float32Array");
 }
 
+// Of bytes that JavaScript has laid into the engine's memory.
+inline std::span<const std::byte> bytesIn(const Json& with) {
+    const auto at = with.at("at").get<std::uintptr_t>();
+    return {reinterpret_cast<const std::byte*>(at), with.at("size").get<std::size_t>()};
+}
+
 // A vector or a quaternion as its numbers.
 template <class Vector>
 Json numbersOf(const Vector& v) {

@@ -10,7 +10,12 @@ constexpr double memoryLimit = 1.5e9;  // [bytes] of the 2 GiB that the engine's
 }  // namespace
 
 SceneSource sourceIn(const Json& with) {
-    return {with.at("text"), with.value("name", "scene.toml"), with.value("overrides", std::vector<std::string>())};
+    SceneSource source;
+    source.isText = true;
+    source.text = with.at("text");
+    source.file = with.at("name");
+    source.overrides = with.at("overrides").get<std::vector<std::string>>();
+    return source;
 }
 
 scene::Loaded read(const SceneSource& source) {
@@ -18,7 +23,7 @@ scene::Loaded read(const SceneSource& source) {
     options.overrides = source.overrides;
     options.assetFolders = {".", "/taut"};
     options.memoryLimit = memoryLimit;
-    return scene::loadSceneText(source.text, source.name, options);
+    return scene::loadSceneText(source.text, source.file, options);
 }
 
 Json measuresOf(const world::Metrics& metrics) {

@@ -6,17 +6,17 @@
 
 #include "game/web/object.h"
 #include "taut/island/report.h"
+#include "taut/pipeline/saved_state.h"
 #include "taut/scene/load.h"
 
 namespace taut::web {
 
-struct SceneSource {
-    std::string text, name;              // name: of its file, for messages, "scene.toml"
-    std::vector<std::string> overrides;  // "cloth.flag.cells=[72,48]"
-};
+using pipeline::SceneSource;
+
+// Its file's name stands in messages, and other files are looked for in its folder: "scene.toml".
 SceneSource sourceIn(const Json& with);
 
-// Reads it from the working folder. Throws core::Error.
+// Reads it in the working folder. Throws core::Error.
 scene::Loaded read(const SceneSource& source);
 
 // What is measured, by the names of claims, else by those of metrics.csv, and energies [J].

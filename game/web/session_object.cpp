@@ -66,7 +66,7 @@ const Calls<SessionObject> SessionObject::calls{
     {"metrics", [](SessionObject& own, const Json&) { return measuresOf(own.session_.metrics()); }},
     {"solver", [](SessionObject& own, const Json&) { return own.solver(); }},
     {"rampable", [](SessionObject& own, const Json&) { return own.rampable(); }},
-    {"record", [](SessionObject& own, const Json& with) { return own.record(with.value("scene", own.source_.name)); }},
+    {"record", [](SessionObject& own, const Json& with) { return own.record(with.value("scene", own.source_.file)); }},
 };
 
 SessionObject::SessionObject(const Json& with) : SessionObject(sourceIn(with), read(sourceIn(with))) {}

@@ -76,7 +76,10 @@ export class World extends Held {
   step(ticks?: number): {tick: number; time: number};
   /** Plays as many ticks and gives the hash after each. */
   hashes(ticks: number): string[];
-  /** Where points are [m]: x y z, x y z, …, in the order of authoring. target: "cloth.flag", "cloth.*", "cloth.flag@left". */
+  /**
+   * Where points are [m]: x y z, x y z, …, in the order of authoring.
+   * target: "cloth.flag", "cloth.*", "cloth.flag@left".
+   */
   positions(target: string): Float64Array;
   /** Velocities [m/s] at the time of the positions, and masses [kg], too. */
   points(target: string): {positions: Float64Array; velocities: Float64Array; masses: Float64Array};
@@ -84,7 +87,16 @@ export class World extends Held {
   metrics(bodies?: string): Metrics;
   /** What became so far of the scene's checks. */
   check(): Result[];
+  /** The whole state, which restore() of any world of this scene goes on from: also that of Python, on any machine. */
+  save(): Uint8Array;
+  restore(bytes: Uint8Array): void;
 }
+
+/** A tape, as `taut record` writes it, of so many ticks from the start; `taut replay --verify` reads it. */
+export function recordTape(toml: string, ticks: number, files?: Files, options?: Options): Promise<Uint8Array>;
+
+/** Plays what a tape was made of. difference: the first tick, body and point that differ; null: none. */
+export function replayTape(tape: Uint8Array, files?: Files): Promise<{ticks: number; difference: string | null}>;
 
 export interface Camera {
   eye: Vector;

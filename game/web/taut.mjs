@@ -15,7 +15,7 @@ async function wasmBeside() {
   const place = new URL('taut.wasm', import.meta.url);
   if (place.protocol === 'file:') return (await import('node:fs/promises')).readFile(place);
   const answer = await fetch(place);
-  if (!answer.ok) throw new TautError({kind: 'inputOutput', message: `${place}: ${answer.status} ${answer.statusText}`});
+  if (!answer.ok) throw new TautError({kind: 'inputOutput', message: `${place}: ${answer.status}`});
   return answer.arrayBuffer();
 }
 
@@ -68,31 +68,58 @@ function call(what, given) {
   return answer.value;
 }
 
+// A call with bytes, which are laid into the engine's memory for it.
+function callWith(call, bytes, given) {
+  const at = engine._malloc(bytes.length);
+  engine.HEAPU8.set(bytes, at);
+  try {
+    return call({...given, at, size: bytes.length});
+  } finally {
+    engine?._free(at);
+  }
+}
+
 // The value as TOML.
 function tomlText(value) {
   if (Array.isArray(value)) return `[${value.map(tomlText).join(', ')}]`;
-  if (value !== null && typeof value === 'object')
-    return `{ ${Object.entries(value).map(([key, each]) => `${JSON.stringify(key)} = ${tomlText(each)}`).join(', ')} }`;
-  if (typeof value === 'number' && !Number.isFinite(value)) return Number.isNaN(value) ? 'nan' : value > 0 ? 'inf' : '-inf';
+  if (value !== null && typeof value === 'object') {
+    const pairs = Object.entries(value).map(([key, each]) => `${JSON.stringify(key)} = ${tomlText(each)}`);
+    return `{ ${pairs.join(', ')} }`;
+  }
+  if (typeof value === 'number') return `${value}`.replace('Infinity', 'inf').replace('NaN', 'nan');
   return JSON.stringify(value);
+}
+
+// ["key=value"] as it is, {key: value} as that.
+function overridesOf(overrides) {
+  if (Array.isArray(overrides)) return overrides;
+  return Object.entries(overrides).map(([key, value]) => `${key}=${tomlText(value)}`);
+}
+
+// A scene with its files in a folder of its own, which is the engine's working folder then.
+function laidOut(text, files = {}, {name = 'scene.toml', overrides = []} = {}) {
+  if (!engine) call();  // throws
+  const folder = `/scenes/${++folders}`;
+  const fs = engine.FS;
+  for (const [path, content] of Object.entries(text === null ? files : {...files, [name]: text})) {
+    const file = `${folder}/${path}`;
+    fs.mkdirTree(file.slice(0, file.lastIndexOf('/')));
+    fs.writeFile(file, typeof content === 'string' ? content : new Uint8Array(content));
+  }
+  fs.mkdirTree(folder);
+  fs.chdir(folder);
+  return {folder, source: {text, name, overrides: overridesOf(overrides)}};
 }
 
 // Something in the engine, with files of its own.
 class Held {
   #engine; #folder; #object;
 
-  constructor(kind, text, files = {}, {name = 'scene.toml', overrides = []} = {}) {
-    if (!engine) call();  // throws
+  constructor(kind, text, files, options) {
+    const {folder, source} = laidOut(text, files, options);
     this.#engine = engine;
-    this.#folder = `/scenes/${++folders}`;
-    const fs = engine.FS;
-    for (const [path, content] of Object.entries({...files, [name]: text})) {
-      const file = `${this.#folder}/${path}`;
-      fs.mkdirTree(file.slice(0, file.lastIndexOf('/')));
-      fs.writeFile(file, typeof content === 'string' ? content : new Uint8Array(content));
-    }
-    fs.chdir(this.#folder);
-    this.#object = call(kind, {text, name, overrides: overridesOf(overrides)});
+    this.#folder = folder;
+    this.#object = call(kind, source);
     this.about = this.call('about');
   }
 
@@ -118,12 +145,6 @@ class Held {
   free() { this.call('free'); }
 }
 
-// ["key=value"] as it is, {key: value} as that.
-function overridesOf(overrides) {
-  if (Array.isArray(overrides)) return overrides;
-  return Object.entries(overrides).map(([key, value]) => `${key}=${tomlText(value)}`);
-}
-
 export class World extends Held {
   constructor(text, files, options) { super('World', text, files, options); }
 
@@ -132,11 +153,24 @@ export class World extends Held {
   positions(target) { return this.call('positions', {target}); }
   points(target) { return this.call('points', {target}); }
   check() { return this.call('check'); }
+  save() { return this.call('save').slice(); }
+  restore(bytes) { callWith((given) => this.call('restore', given), bytes); }
 }
 
 export async function load(text, files, options) {
   await start();
   return new World(text, files, options);
+}
+
+export async function recordTape(text, ticks, files, options) {
+  await start();
+  return call('recordTape', {...laidOut(text, files, options).source, ticks}).slice();
+}
+
+export async function replayTape(bytes, files) {
+  await start();
+  laidOut(null, files);
+  return callWith((given) => call('replayTape', given), bytes);
 }
 
 export class Session extends Held {

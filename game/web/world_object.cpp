@@ -56,6 +56,12 @@ const Calls<WorldObject> WorldObject::calls{
              refuse(fault);
          return measuresOf(own.world_.world().metrics(bodies));
      }},
+    {"save", [](WorldObject& own, const Json&) { return own.save(); }},
+    {"restore",
+     [](WorldObject& own, const Json& with) {
+         own.restore(bytesIn(with));
+         return Json();
+     }},
     {"check", [](WorldObject& own, const Json&) { return own.results(); }},
 };
 
@@ -67,6 +73,11 @@ WorldObject::WorldObject(SceneSource source, scene::Loaded loaded)
       keys_(loaded.keys),
       warnings_(loaded.warnings),
       world_(std::move(loaded.spec), {.threads = 1}) {
+    watch();
+}
+
+// The scene's claims, from now on.
+void WorldObject::watch() {
     if (world_.spec().checks.empty()) return;
     watcher_.emplace(world_.spec());
     watcher_->look(world_.world());
@@ -119,6 +130,33 @@ Json WorldObject::about() const {
             {"title", world_.spec().title},
             {"bodies", bodies},
             {"warnings", warnings}};
+}
+
+Json WorldObject::save() {
+    const world::World& world = world_.world();
+    pipeline::SavedState state;
+    state.source = source_;
+    state.key = keys_.stateAt(world.tick());
+    state.tick = world.tick();
+    for (const world::RampAction& ramp : world_.applied()) state.ramps.push_back(ramp.key);
+    state.files = scene::usedFiles(world_.spec());
+    state.world = world.save();
+    text_ = pipeline::toBytes(state);
+    return bytesOf(std::as_bytes(std::span<const char>(text_)));
+}
+
+void WorldObject::restore(std::span<const std::byte> bytes) {
+    const pipeline::SavedState state =
+        pipeline::fromBytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (state.key != keys_.stateAt(state.tick))
+        throw core::Error(core::ErrorKind::badContent,
+                          "these bytes are of another scene, or of something else that happens before their tick; load "
+                          "the scene and what is set of it as they were");
+    std::vector<world::RampAction> ramps;
+    for (const std::string& key : state.ramps) ramps.push_back(actions_->ramp(key, world_.spec()));
+    world_.restore(state.world, std::move(ramps));
+    divergence_.reset();
+    watch();
 }
 
 Json WorldObject::results() const {

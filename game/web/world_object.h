@@ -20,12 +20,15 @@ class WorldObject : public Object {
     static const Calls<WorldObject> calls;
     WorldObject(SceneSource source, scene::Loaded loaded);
 
+    void watch();
     void step(std::int64_t ticks);
     world::Selection select(const std::string& target) const;
     Json hashes(std::int64_t ticks);
     Json moment() const;
     Json about() const;
     Json results() const;
+    Json save();
+    void restore(std::span<const std::byte> bytes);
 
     SceneSource source_;
     std::shared_ptr<const scene::ActionReader> actions_;
@@ -38,7 +41,7 @@ class WorldObject : public Object {
     // What the last call told of.
     world::PointsNow points_;
     std::vector<glm::dvec3> positions_;
-    std::vector<std::byte> bytes_;
+    std::string text_;
 };
 
 }  // namespace taut::web

@@ -10,7 +10,8 @@ Links and anchors lead somewhere, files, commands and flags that are named exist
     ```python            run where the module can be imported
 
 What others test is marked by who does: `sh farm` tests/farm, `sh build` tests/run.sh and library_test.sh, `sh display`
-play_test.sh, `sh peers` peers_test.sh, `cmake` and `cpp` library_test.sh. It prints all that it ran.
+play_test.sh, `sh peers` peers_test.sh, `cmake` and `cpp` library_test.sh, `sh web` and `js` tests/web.
+It prints all that it ran.
 """
 import concurrent.futures
 import os
@@ -23,7 +24,7 @@ import time
 
 TAUT, ROOT = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
 LONG = "--long" in sys.argv[3:]
-ELSEWHERE = {"sh farm", "sh build", "sh display", "sh peers", "cmake", "cpp"}
+ELSEWHERE = {"sh farm", "sh build", "sh display", "sh peers", "cmake", "cpp", "sh web", "js"}
 MOST_LINES = {"README.md": 180, "engine/README.md": 132}  # of other README.md: 40
 ENV = os.environ | {"PATH": f"{os.path.dirname(TAUT)}:{os.environ['PATH']}"}
 

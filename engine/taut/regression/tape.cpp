@@ -51,7 +51,7 @@ void addNumbers(core::ByteWriter& writer, const std::vector<Number>& numbers) {
 
 // Finds where each tick begins, and thereby whether the lists fit each other.
 void index(Tape& tape) {
-    std::uint64_t body = 0, point = 0;
+    std::size_t body = 0, point = 0;
     tape.bodyAt.clear();
     tape.pointAt.clear();
     if (tape.castOf.size() != tape.chain.size() || tape.chain.empty()) core::ByteReader::fail();
@@ -60,7 +60,7 @@ void index(Tape& tape) {
         tape.bodyAt.push_back(body);
         tape.pointAt.push_back(point);
         body += tape.casts[cast].names.size();
-        for (const int count : tape.casts[cast].points) point += static_cast<std::uint64_t>(count);
+        for (const int count : tape.casts[cast].points) point += static_cast<std::size_t>(count);
     }
     if (body != tape.bodies.size() || point != tape.points.size()) core::ByteReader::fail();
 }

@@ -38,13 +38,13 @@ struct Tape {
     double tickSeconds = 0;  // [s]
     int ticksPerFrame = 1;
 
-    std::vector<std::uint64_t> chain;      // (ticks) from tick 0, the start, on
-    std::vector<TapeBodies> casts;         // each other than the one before: a body may be spawned
-    std::vector<std::uint32_t> castOf;     // (ticks) index into casts
-    std::vector<std::uint64_t> bodies;     // (ticks × bodies of that tick)
-    std::vector<std::uint32_t> points;     // (ticks × points of that tick), folded to 32 bits
-    std::vector<std::uint64_t> bodyAt{};   // (ticks) where in `bodies` a tick begins
-    std::vector<std::uint64_t> pointAt{};  // (ticks) where in `points` a tick begins
+    std::vector<std::uint64_t> chain;    // (ticks) from tick 0, the start, on
+    std::vector<TapeBodies> casts;       // each other than the one before: a body may be spawned
+    std::vector<std::uint32_t> castOf;   // (ticks) index into casts
+    std::vector<std::uint64_t> bodies;   // (ticks × bodies of that tick)
+    std::vector<std::uint32_t> points;   // (ticks × points of that tick), folded to 32 bits
+    std::vector<std::size_t> bodyAt{};   // (ticks) where in `bodies` a tick begins
+    std::vector<std::size_t> pointAt{};  // (ticks) where in `points` a tick begins
 
     std::int64_t ticks() const { return static_cast<std::int64_t>(chain.size()) - 1; }  // after the start
 };

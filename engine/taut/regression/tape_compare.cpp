@@ -25,10 +25,10 @@ std::string oddOne(const TapeBodies& a, const TapeBodies& b) {
 }
 
 // The points of one body; `from` and `other` say where they begin.
-void findPoints(const Tape& a, std::uint64_t from, const Tape& b, std::uint64_t other, int count,
+void findPoints(const Tape& a, std::size_t from, const Tape& b, std::size_t other, int count,
                 TapeDifference& difference) {
     for (int i = 0; i < count; ++i) {
-        if (a.points[from + static_cast<std::uint64_t>(i)] == b.points[other + static_cast<std::uint64_t>(i)]) continue;
+        if (a.points[from + static_cast<std::size_t>(i)] == b.points[other + static_cast<std::size_t>(i)]) continue;
         if (difference.point < 0) difference.point = i;
         ++difference.points;
     }
@@ -36,7 +36,7 @@ void findPoints(const Tape& a, std::uint64_t from, const Tape& b, std::uint64_t 
 
 void findBodies(const Tape& a, const Tape& b, std::size_t tick, TapeDifference& difference) {
     const TapeBodies &castA = a.casts[a.castOf[tick]], &castB = b.casts[b.castOf[tick]];
-    std::uint64_t pointA = a.pointAt[tick], pointB = b.pointAt[tick];
+    std::size_t pointA = a.pointAt[tick], pointB = b.pointAt[tick];
     for (std::size_t i = 0; i < castA.names.size(); ++i) {
         const int countA = castA.points[i], countB = castB.points[i];
         if (a.bodies[a.bodyAt[tick] + i] != b.bodies[b.bodyAt[tick] + i]) {
@@ -45,8 +45,8 @@ void findBodies(const Tape& a, const Tape& b, std::size_t tick, TapeDifference& 
                 if (countA == countB) findPoints(a, pointA, b, pointB, countA, difference);
             }
         }
-        pointA += static_cast<std::uint64_t>(countA);
-        pointB += static_cast<std::uint64_t>(countB);
+        pointA += static_cast<std::size_t>(countA);
+        pointB += static_cast<std::size_t>(countB);
     }
 }
 

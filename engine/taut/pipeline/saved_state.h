@@ -1,5 +1,5 @@
-// The state of a world as bytes that say what they are: sealed as checkpoints are, and read as carefully. They hold the
-// state, where its scene is read from and by what it was made; no code, and nothing of Python's.
+// The state of a world as bytes that say what they are, for programs that hold worlds: sealed as checkpoints are, and
+// read as carefully. They hold the state, where its scene is read from and by what it was made; no code.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include "taut/scene/private/used_files.h"
 #include "taut/world/result_bits.h"
 
-namespace taut::python {
+namespace taut::pipeline {
 
 // Where a scene comes from.
 struct SceneSource {
@@ -36,4 +36,4 @@ std::string toBytes(const SavedState& state);
 // Throws core::Error(badContent) for what is something else, damaged or of results that are not these.
 SavedState fromBytes(std::string_view bytes);
 
-}  // namespace taut::python
+}  // namespace taut::pipeline

@@ -1,14 +1,14 @@
-#include "game/python/state_bytes.h"
+#include "taut/pipeline/saved_state.h"
 
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/scene/private/body_size.h"
 
-namespace taut::python {
+namespace taut::pipeline {
 namespace {
 
-const pipeline::SealedKind stateKind{.mark = "tautpyst", .version = 1, .title = "state"};
+const SealedKind stateKind{.mark = "tautpyst", .version = 1, .title = "state"};
 
 void addTexts(core::ByteWriter& writer, const std::vector<std::string>& texts) {
     writer.add(static_cast<std::uint64_t>(texts.size()));
@@ -37,15 +37,15 @@ std::string toBytes(const SavedState& state) {
     addTexts(writer, state.ramps);
     scene::addUsedFiles(writer, state.files);
     writer.addList(std::span<const std::byte>(state.world));
-    const std::vector<std::byte> bytes = pipeline::sealed(stateKind, writer.take());
+    const std::vector<std::byte> bytes = sealed(stateKind, writer.take());
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 SavedState fromBytes(std::string_view text) {
-    pipeline::SealedKind kind = stateKind;
+    SealedKind kind = stateKind;
     kind.maxContent = static_cast<std::uint64_t>(scene::memoryLimit());
     const std::vector<std::byte> content =
-        pipeline::unsealed(kind, std::as_bytes(std::span(text.data(), text.size())), "these bytes");
+        unsealed(kind, std::as_bytes(std::span(text.data(), text.size())), "these bytes");
     core::ByteReader reader(content);
     SavedState state;
     state.bits = reader.number<std::int32_t>();
@@ -66,4 +66,4 @@ SavedState fromBytes(std::string_view text) {
     return state;
 }
 
-}  // namespace taut::python
+}  // namespace taut::pipeline

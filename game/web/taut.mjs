@@ -22,7 +22,8 @@ async function wasmBeside() {
 async function begin(wasm) {
   const said = [];
   const print = (line) => said.push(line);
-  const made = await makeEngine({wasmBinary: await (wasm ?? wasmBeside()), print, printErr: print});
+  const locateFile = (name) => name;  // which is not asked for: the bytes are there
+  const made = await makeEngine({wasmBinary: await (wasm ?? wasmBeside()), locateFile, print, printErr: print});
   made.said = said;
   engine = made;
   call('start', {});

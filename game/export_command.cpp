@@ -131,7 +131,7 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
         all.push_back({file, format});
     };
     if (flags.output.empty() && flags.points.empty() && flags.web.empty())
-        failUsage("say where the geometry goes: {}; or --live page.html, to play with it", allKindsOfFiles(formats, page));
+        failUsage("say where the geometry goes: {}", allKindsOfFiles(formats, page));
     add(
         flags.output, geometry::formatOf(formats, Holds::surfaces, flags.output),
         [&] {

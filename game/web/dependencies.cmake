@@ -48,8 +48,8 @@ target_include_directories(taut_deflate SYSTEM PUBLIC ${TAUT_DEFLATE_SOURCE})
 target_compile_options(taut_deflate PRIVATE -w -Oz -DNDEBUG)
 add_library(PkgConfig::libdeflate ALIAS taut_deflate)
 
-# 128-bit vectors and exceptions as WebAssembly has them. emscripten takes -Os for -fno-inline-functions, which would hold
-# for files with -O3 as well.
-add_compile_options(-msimd128 -fwasm-exceptions -finline-functions)
+# 128-bit vectors, exceptions, and copies of memory by one instruction, as WebAssembly has them. emscripten takes -Os for
+# -fno-inline-functions, which would hold for files with -O3 as well.
+add_compile_options(-msimd128 -mbulk-memory -fwasm-exceptions -finline-functions)
 add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${CMAKE_CURRENT_LIST_DIR}/standard_library.h>")
 add_link_options(-fwasm-exceptions)

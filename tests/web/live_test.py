@@ -111,7 +111,7 @@ def does_what_it_says(driver):
     assert "one tick" in text(driver, "keys")
     canvas.send_keys("h")
     before = driver.execute_script("return taut.picture.camera.position.toArray()")
-    ActionChains(driver).move_to_element_with_offset(canvas, -420, 250).click_and_hold().move_by_offset(80, 0) \
+    ActionChains(driver).move_to_element_with_offset(canvas, -420, 40).click_and_hold().move_by_offset(80, 0) \
         .release().perform()
     wait(driver, "return !taut.isFollowing", "a drag beside it turns the view")
     wait(driver, "return taut.picture.camera.position.toArray()[0] !== %r" % before[0], "which moves the eye")

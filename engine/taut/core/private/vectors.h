@@ -83,6 +83,14 @@ inline V root(V x) {
     for (unsigned k = 0; k < sizeof x / sizeof x[0]; ++k) x[k] = root(x[k]);  // compilers see one instruction
     return x;
 }
+#if defined(__wasm_simd128__)  // but for this one
+inline NarrowVector<float> root(NarrowVector<float> x) {
+    return __builtin_wasm_sqrt_f32x4(x);
+}
+inline NarrowVector<double> root(NarrowVector<double> x) {
+    return __builtin_wasm_sqrt_f64x2(x);
+}
+#endif
 
 // A place or a way in space. V is a number, or a vector with a lane for each place.
 template <class V>

@@ -5,6 +5,7 @@ const playing = 'M8 5h3v14H8zM14 5h3v14h-3z', paused = 'M8 5l11 7-11 7z';
 const tickBudget = 0.031;    // [s] of wall time for the ticks of a picture
 const panelPause = 100;      // [ms] between two looks at the figures
 const typingPause = 400;     // [ms] after a key until the scene is read again
+const slowPicture = 1 / 30, fastPicture = 1 / 50;  // [s] longer ones are drawn coarser, shorter ones finer
 const roomAround = 0.3;      // of the size of all that is seen: how far it may go until its shadow has to be placed anew
 const help = [
   ['drag', 'pull what is under the mouse or finger'], ['drag beside it', 'turn the view; two fingers move it'],
@@ -48,6 +49,8 @@ class LivePage {
     this.place = {x: 0, y: 0};  // of the pointer, in shares of width and height
     this.rate = {pictures: 0, real: 1};
     this.lookedAt = 0;  // [ms]
+    this.fineness = 0;  // of look.js
+    this.pace = {pictures: 0, wall: 0, computing: 0, patience: 2, changed: 0, wasFiner: false};  // [s] since the fineness was last thought of
     this.graph = new EnergyGraph(element('graph'), element('legend'));
     for (const name of given.methods) element('method').add(new Option(name, name));
     for (const [key, meaning] of help) {
@@ -93,7 +96,7 @@ class LivePage {
     if (this.picture) this.picture.dispose();
     const camera = this.picture && !this.isFollowing ? this.picture.camera : null;
     this.film = film;
-    this.picture = new Picture(this.renderer, film);
+    this.picture = new Picture(this.renderer, film, finenesses[this.fineness]);
     if (this.controls) this.controls.dispose();
     this.controls = new THREE.OrbitControls(this.picture.camera, this.canvas);
     Object.assign(this.controls, {enableKeys: false, enableDamping: true, dampingFactor: 0.12});
@@ -359,7 +362,9 @@ class LivePage {
     this.before = now;
     if (!this.session || document.hidden) return;
     if (wall > 0) this.rate.pictures += Math.min(1, 2 * wall) * (1 / wall - this.rate.pictures);
+    const begin = performance.now();
     const moment = this.attempt(() => this.compute(wall));
+    this.adapt(wall, (performance.now() - begin) / 1000);
     if (moment && moment.faults.length > 0) this.say(moment.faults.join('\n'));
     if (moment && moment.divergence && this.isPlaying) {
       this.play(false);
@@ -372,6 +377,32 @@ class LivePage {
     if (this.isFollowing) this.follow(); else this.look();
     this.picture.draw();
     this.lookAtFigures(now);
+  }
+
+  // Draws coarser where drawing is what takes the time, and finer where there is plenty; if that was wrong, it is longer
+  // until it is tried again.
+  adapt(wall, computing) {
+    const {pace} = this, long = wall > 1;  // the page was out of sight
+    if (long) return;
+    ++pace.pictures;
+    pace.wall += wall;
+    pace.computing += computing;
+    if (pace.wall < 0.5 || pace.pictures < 3) return;
+    const one = pace.wall / pace.pictures, drawing = one - pace.computing / pace.pictures;
+    let next = this.fineness;
+    if (one > slowPicture && drawing > 0.5 * slowPicture) {
+      if (pace.wasFiner) pace.patience = Math.min(2 * pace.patience, 60);
+      ++next;
+    } else if (one < fastPicture && performance.now() - pace.changed > 1000 * pace.patience) {
+      --next;
+    }
+    const wanted = Math.min(Math.max(next, 0), finenesses.length - 1);
+    Object.assign(pace, {pictures: 0, wall: 0, computing: 0});
+    if (wanted === this.fineness) return;
+    Object.assign(pace, {wasFiner: wanted < this.fineness, changed: performance.now()});
+    this.fineness = wanted;
+    this.picture.draws(finenesses[wanted]);
+    this.picture.fit();
   }
 
   // Something came that the first moment lacked: all of it is read again.
@@ -414,10 +445,21 @@ function engineModule(modules) {
   return import(place(modules['taut.mjs'].replace('./engine.mjs', place(modules['engine.mjs']))));
 }
 
+// Where no graphics card draws, samples within pixels cost more than pixels.
+function drawsInSoftware() {
+  const context = document.createElement('canvas').getContext('webgl2');
+  if (!context) return false;
+  const facts = context.getExtension('WEBGL_debug_renderer_info');
+  const name = context.getParameter(facts ? facts.UNMASKED_RENDERER_WEBGL : context.RENDERER);
+  const loses = context.getExtension('WEBGL_lose_context');
+  if (loses) loses.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 async function startLive() {
   const message = element('message'), canvas = element('picture');
   const lack = (what) => { message.textContent = `This page needs ${what}, which this browser lacks or has turned off.`; };
-  const context = canvas.getContext('webgl2', {antialias: true, alpha: false});
+  const context = canvas.getContext('webgl2', {antialias: !drawsInSoftware(), alpha: false});
   if (!context) return lack('WebGL 2');
   if (typeof WebAssembly !== 'object') return lack('WebAssembly');
   if (typeof DecompressionStream !== 'function') return lack('DecompressionStream');

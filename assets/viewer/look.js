@@ -1,7 +1,13 @@
 // How it looks: cloth, ground and sky in taut's own light, drawn by three.js.
 'use strict';
 
-const shadowTexels = 2048, skyTexels = 128;
+const skyTexels = 128;
+// From fine to coarse: pixels for each of the window, texels of the shadow map, and every how many pictures the sky over
+// the ground is looked at.
+const finenesses = [
+  {pixels: 1, texels: 2048, pause: 1}, {pixels: 0.75, texels: 2048, pause: 2}, {pixels: 0.5, texels: 1024, pause: 4},
+  {pixels: 0.35, texels: 1024, pause: 8}, {pixels: 0.25, texels: 512, pause: 16},
+];
 const skyMargin = 0.8;  // [m] how far things darken the ground around them
 const widestNarrow = 0.07, widestReach = 32;  // [rad], [128ths of the map], as lights.h and lights.cpp have them
 
@@ -35,9 +41,11 @@ const vector = (numbers) => new THREE.Vector3(...numbers);
 const four = (three, last = 0) => new THREE.Vector4(...three, last);
 
 class Picture {
-  constructor(renderer, film) {
+  constructor(renderer, film, fineness = finenesses[0]) {
     this.film = film;
     this.renderer = renderer;
+    this.fineness = fineness;
+    this.drawn = 0;  // pictures
     this.scene = new THREE.Scene();
     this.scene.add(film.scene);
     this.camera = film.camera.clone();
@@ -71,7 +79,7 @@ class Picture {
     if (sun.up.y === 0) sun.up.x = 1;
     sun.lookAt(vector(light.direction));
     sun.updateMatrixWorld(true);
-    this.map = depthMap(shadowTexels);
+    this.map = depthMap(this.fineness.texels);
     this.depth = shader(shaderText('depth.vert'), 'void main() {}', {}, {side: THREE.DoubleSide, colorWrite: false});
     const {depthTexture} = this.map;
     // Nowhere is it known beforehand what may lie in between: from least to largest depth.
@@ -98,7 +106,7 @@ class Picture {
     frame.toMap.value.set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1)
       .multiply(sun.projectionMatrix).multiply(toSun);
     const size = seen.getSize(corner);
-    frame.mapSize.value.set(...size.toArray(), Math.max(size.x, size.y) / shadowTexels);
+    frame.mapSize.value.set(...size.toArray(), Math.max(size.x, size.y) / this.fineness.texels);
     if (this.overGround) this.placeOverGround(box);
   }
 
@@ -180,8 +188,16 @@ class Picture {
 
   resize() {
     const canvas = this.renderer.domElement;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * this.fineness.pixels);
     this.renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
+  }
+
+  // Draws finer or coarser from now on.
+  draws(fineness) {
+    this.fineness = fineness;
+    this.map.setSize(fineness.texels, fineness.texels);
+    this.enclose(this.box);
+    this.resize();
   }
 
   // At least as much is seen as the scene's camera sees, up and across.
@@ -203,12 +219,13 @@ class Picture {
       mesh.material.uniforms.normalTransform.value.setFromMatrix4(mesh.matrixWorld);
     for (const mesh of this.around) mesh.visible = false;
     this.scene.overrideMaterial = this.depth;
-    for (const {camera, map} of [{camera: this.sun, map: this.map}, ...this.views]) {
+    const looksUp = this.gathering && this.drawn++ % this.fineness.pause === 0;
+    for (const {camera, map} of [{camera: this.sun, map: this.map}, ...(looksUp ? this.views : [])]) {
       this.renderer.setRenderTarget(map);
       this.renderer.render(this.scene, camera);
     }
     this.scene.overrideMaterial = null;
-    if (this.gathering) {
+    if (looksUp) {
       this.renderer.setRenderTarget(this.hidden);
       this.renderer.render(this.gathering, this.views[0].camera);
     }

@@ -51,5 +51,7 @@ add_library(PkgConfig::libdeflate ALIAS taut_deflate)
 # 128-bit vectors, exceptions, and copies of memory by one instruction, as WebAssembly has them. emscripten takes -Os for
 # -fno-inline-functions, which would hold for files with -O3 as well.
 add_compile_options(-msimd128 -mbulk-memory -fwasm-exceptions -finline-functions)
+# There is one thread. What is local to it the linker refuses together with that instruction.
+add_compile_definitions(thread_local=static)
 add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${CMAKE_CURRENT_LIST_DIR}/standard_library.h>")
 add_link_options(-fwasm-exceptions)

@@ -2,7 +2,7 @@
 'use strict';
 
 const playing = 'M8 5h3v14H8zM14 5h3v14h-3z', paused = 'M8 5l11 7-11 7z';
-const tickBudget = 0.031;    // [s] of wall time for the ticks of a picture
+const tickBudget = 0.045;    // [s] of wall time for the ticks of a picture
 const panelPause = 100;      // [ms] between two looks at the figures
 const typingPause = 400;     // [ms] after a key until the scene is read again
 const slowPicture = 1 / 30, fastPicture = 1 / 50;  // [s] longer ones are drawn coarser, shorter ones finer

@@ -1,6 +1,8 @@
 // Actions that are read for a world that runs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scene_support.h"
 #include "taut/spec/actions.h"
 #include "taut/world/world.h"
@@ -36,6 +38,23 @@ TEST(ActionReader, ReadsWhatATimelineMaySay) {
     const auto& change = dynamic_cast<const world::RampAction&>(*ramp);
     EXPECT_EQ(change.value, (std::vector<double>{5, 0, 0}));
     EXPECT_EQ(change.field->read(loaded.spec), (std::vector<double>{1, 0, 0}));
+}
+
+// Only what has a value to begin from, by the words of the file: this scene has no collider and gives its rope no EI.
+TEST(ActionReader, ListsWhatRampsMayChange) {
+    const AssetFolder folder;
+    const Loaded loaded = folder.load(text);
+    const std::vector<Rampable> all = loaded.actions->rampable(loaded.spec);
+    const auto find = [&](const std::string& key) {
+        return std::find_if(all.begin(), all.end(), [&](const Rampable& field) { return field.key == key; });
+    };
+    const auto wind = find("wind.breeze.velocity");
+    ASSERT_NE(wind, all.end());
+    EXPECT_EQ(wind->unit, "m/s");
+    EXPECT_EQ(wind->value, (std::vector<double>{1, 0, 0}));
+    EXPECT_NE(find("world.gravity"), all.end());
+    EXPECT_TRUE(std::none_of(all.begin(), all.end(), [](const Rampable& field) { return field.value.empty(); }));
+    for (const Rampable& field : all) EXPECT_NO_THROW(loaded.actions->ramp(field.key, loaded.spec)) << field.key;
 }
 
 TEST(ActionReader, RefusesTheRestWithItsRemedy) {

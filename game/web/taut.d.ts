@@ -168,6 +168,10 @@ export class Session extends Held {
   release(): void;
   /** A field of the scene that ramps may change goes to a value, from the next tick on. */
   set(key: string, value: number | number[], over_s?: number): void;
+  /** All that set() may change: in the file's unit, its range and what it is now. */
+  rampable(): {key: string; unit: string; low: number; high: number; value: number[]}[];
+  /** The method, and the shortest of the steps that bodies go by [s]. */
+  readonly solver: {method: string; step: number};
   metrics(): Metrics;
   /**
    * All that was done since the start as a scenario, which leads to that hash at that tick. It plays to the next frame.

@@ -59,8 +59,8 @@ const tests = {
   async 'a tape that the program recorded agrees here, and one that was recorded here agrees with the program'() {
     run(program, 'record', path.join(assets, 'scenes/net.toml'), '--seconds', '0.3', '--quiet', '-o', 'run.tape');
     assert.deepEqual(await replayTape(fs.readFileSync('run.tape'), files), {ticks: 17, difference: null});
-    const file = path.join(assets, 'scenes/flag.toml');
-    fs.writeFileSync('own.tape', await recordTape(textOf('scenes/flag.toml'), 12, {}, {name: file}));
+    const file = path.join(assets, 'scenes/net.toml');
+    fs.writeFileSync('own.tape', await recordTape(textOf('scenes/net.toml'), 12, {}, {name: file}));
     assert.match(run(program, 'replay', 'own.tape', '--quiet', '--verify'), /^the same state at all 12 ticks/m);
     const damaged = fs.readFileSync('own.tape');
     damaged[damaged.length - 9] ^= 1;

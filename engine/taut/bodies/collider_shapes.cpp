@@ -86,8 +86,12 @@ std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec,
     auto model = std::make_shared<ColliderModel>();
     model->material = {spec.friction, spec.restitution};
     model->isGround = isFloor(spec) && !mayTurn;
-    const bool isDrawn = spec.visible && !model->isGround;
+    const bool isFigure = spec.shape == "figure";
+    const bool isDrawn = spec.visible && !model->isGround && !isFigure;
     try {  // errors are found here, where the line is known
+        if (isFigure && (spec.meshData == nullptr || spec.meshData->figure == nullptr))
+            throw core::Error(core::ErrorKind::badContent, "a figure needs a glTF file; shape = \"mesh\" takes OBJ");
+        if (isFigure) model->figure = std::make_shared<const ColliderFigure>(spec);
         model->shape = Maker(kinds, spec, all, isDrawn ? &model->pieces : nullptr).make(spec, glm::mat4(1.0F));
         collision::Colliders().add(model->shape, model->material, poseAt(spec, 0.0));
     } catch (const core::Error& error) {

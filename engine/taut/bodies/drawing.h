@@ -12,6 +12,7 @@
 #include "taut/view/frame_view.h"
 #include "taut/view/primitives.h"
 #include "taut/bodies/body.h"
+#include "taut/bodies/collider_figure.h"
 #include "taut/spec/collider_spec.h"
 
 namespace taut::world {
@@ -44,6 +45,7 @@ struct ColliderModel {
         std::shared_ptr<const view::Finish> finish;
     };
     std::vector<Piece> pieces;
+    std::shared_ptr<const ColliderFigure> figure;  // null: it is rigid, and all that is drawn are its pieces
 };
 // A plane with `mayTurn` is drawn as a board, not as the floor. `all`: the scene's colliders, on whose floors it may
 // stand. Throws core::Error(badContent) with file, line and column for a shape that cannot be built.

@@ -12,7 +12,8 @@
     SHAPE(cylinderKind)    \
     SHAPE(coneKind)        \
     SHAPE(hullKind)        \
-    SHAPE(meshKind)
+    SHAPE(meshKind)        \
+    SHAPE(figureKind)
 
 namespace taut::collision {
 

@@ -209,7 +209,7 @@ void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     travel_.resize(static_cast<std::size_t>(bvh_.count()), 0.0);
     double thickest = 0;
     for (const ContactSurface& surface : elements_.surfaces())
-        if (!surface.isRigid) thickest = std::max(thickest, surface.thickness);
+        if (!surface.isOfCollider()) thickest = std::max(thickest, surface.thickness);
     mostDeformed_ = referenceShare * thickest;
 
     bvh_.start(x0, x1);

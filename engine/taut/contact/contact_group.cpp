@@ -86,7 +86,7 @@ Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3>
     int soft = 0;
     for (int p = 0; p < leaves.count(); ++p) {
         const ContactSurface& surface = elements_.surface(leaves[p].surface);
-        if (surface.isRigid) continue;
+        if (surface.isOfCollider()) continue;
         forecast.deformationRate += 2 * leaves.motion(p).deviation / surface.thickness;
         ++soft;
     }

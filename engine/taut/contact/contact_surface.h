@@ -21,13 +21,18 @@ struct ContactSurface {
     double friction = 1.0;     // factor on the friction of the group [-]
     bool meetsItself = true;
     bool meetsOthers = true;
-    bool meetsRigid = true;  // touches rigid surfaces
+    bool meetsRigid = true;  // touches surfaces of colliders
     // Surfaces with the same bond belong to one body. Its parts are close at rest, so they keep at most restShare of
     // their distance at rest.
     int bond = 0;
     // A collider's corners and edges, which the group does not move. It has no triangles: points meet the faces of
     // colliders in `collision`. Two rigid surfaces never touch.
     bool isRigid = false;
+    // A collider that moves and deforms as it likes: triangles whose points the group does not move. Like a rigid surface
+    // it meets only bodies that meet colliders.
+    bool isDriven = false;
+
+    bool isOfCollider() const { return isRigid || isDriven; }
 };
 
 // Parts of one body keep at most this share of their distance at rest.

@@ -69,8 +69,9 @@ class Elements {
     bool mayMeet(int surfaceA, int surfaceB) const {
         const ContactSurface &a = surface(surfaceA), &b = surface(surfaceB);
         if (isStill(surfaceA) && isStill(surfaceB)) return false;
-        if (surfaceA == surfaceB) return a.meetsItself && !a.isRigid;
-        if (a.isRigid || b.isRigid) return a.isRigid != b.isRigid && a.meetsRigid && b.meetsRigid;
+        if (surfaceA == surfaceB) return a.meetsItself && !a.isOfCollider();
+        if (a.isOfCollider() || b.isOfCollider())
+            return a.isOfCollider() != b.isOfCollider() && a.meetsRigid && b.meetsRigid;
         return a.meetsOthers && b.meetsOthers;
     }
     bool isRigid(int number) const { return surface(number).isRigid; }

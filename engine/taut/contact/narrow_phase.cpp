@@ -221,7 +221,7 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     const auto i = static_cast<std::size_t>(pair.a), j = static_cast<std::size_t>(pair.b);
     const ContactSurface &a = elements_.surface(isPoint ? elements_.surfaceOf(pair.a) : elements_.edges()[i].surface),
                   &b = elements_.surface(isPoint ? elements_.triangles()[j].surface : elements_.edges()[j].surface);
-    pair.friction = (a.isRigid || b.isRigid ? 1.0 : options_.friction) * a.friction * b.friction;
+    pair.friction = (a.isOfCollider() || b.isOfCollider() ? 1.0 : options_.friction) * a.friction * b.friction;
     pairs.push_back(pair);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
+#include "taut/scene/private/gltf_file.h"
 #include "taut/scene/private/obj_file.h"
 
 namespace taut::scene {
@@ -48,15 +50,25 @@ void setMesh(world::MeshSource& spec, const Assets& meshes) {
     spec.meshData = found->second.mesh;
 }
 
+world::MeshData meshIn(const path& file, const Confinement& confinement) {
+    std::string ending = file.extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (ending == ".obj") return objMesh(file);
+    if (ending == ".glb" || ending == ".gltf") return gltfMesh(file, confinement);
+    throw core::Error(core::ErrorKind::badContent,
+                      file.string() + ": error: only OBJ and glTF are read: export it as Wavefront OBJ or as GLB");
+}
+
 // Why a found file cannot be used; empty if it can. Stores the contents of a mesh in the asset.
-std::string faultOf(const NameReference& reference, const LoadOptions& options, Asset& asset) {
+std::string faultOf(const NameReference& reference, const LoadOptions& options, const Confinement& confinement,
+                    Asset& asset) {
     if (reference.role != Role::mesh) {
         const std::string fault =
             options.pictureFault ? options.pictureFault(asset.found, reference.role == Role::environment) : "";
         return fault.empty() ? "" : "cannot use this picture: " + fault;
     }
     try {
-        asset.mesh = std::make_shared<const world::MeshData>(objMesh(asset.found));
+        asset.mesh = std::make_shared<const world::MeshData>(meshIn(asset.found, confinement));
     } catch (const core::Error& error) {
         return fmt::format("cannot use this mesh: {}", error.what());
     }
@@ -177,7 +189,7 @@ void loadAssets(const LoadOptions& options, const Confinement& confinement, Read
             scene.faulty.insert(reference.owner);
             continue;
         }
-        if (const std::string fault = faultOf(reference, options, asset); !fault.empty()) {
+        if (const std::string fault = faultOf(reference, options, confinement, asset); !fault.empty()) {
             problems.addError(reference.place, fault);
             scene.faulty.insert(reference.owner);
             continue;

@@ -51,11 +51,19 @@ FieldList<ColliderSpec> shapeFields(const collision::ShapeKinds& shapes, In wher
         .number("height", &ColliderSpec::height, "m", lengthRange,
                 "Whole height along y; of a capsule between the centres of its half spheres.")
         .only(shapesWith(shapes, "height"))
-        .text("mesh", &ColliderSpec::mesh, Role::mesh, "OBJ file.")
+        .text("mesh", &ColliderSpec::mesh, Role::mesh, "OBJ or glTF file.")
         .required()
         .only(shapesWith(shapes, "mesh"))
         .number("scale", &ColliderSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-        .only(shapesWith(shapes, "scale"));
+        .only(shapesWith(shapes, "scale"))
+        .text("animation", &ColliderSpec::animation, Role::none, "The animation of its file that moves it.")
+        .only(shapesWith(shapes, "animation"))
+        .number("start_s", &ColliderSpec::start, "s", placeRange, "Where the animation begins.")
+        .only(shapesWith(shapes, "animation"))
+        .number("speed", &ColliderSpec::speed, "", placeRange, "How fast the animation goes.")
+        .only(shapesWith(shapes, "animation"))
+        .flag("loop", &ColliderSpec::loops, "Whether the animation begins again at its end.")
+        .only(shapesWith(shapes, "animation"));
     for (const collision::ShapeKind& kind : shapes.all())
         for (const collision::OwnSize& own : kind.own)
             list.entry(own.key, &ColliderSpec::sizes, own.unit, Range{own.least, own.most}, own.standard, own.help)
@@ -94,6 +102,7 @@ Section partSection(const collision::ShapeKinds& shapes) {
 
 void checkCollider(const CheckInput& input, ColliderSpec& collider) {
     checkAscending(input);
+    if (input.table.find("finish") != nullptr) collider.ownFinish = collider.finish;
     collider.normal /= std::sqrt(glm::dot(collider.normal, collider.normal));
     if (input.isClean && collider.shape == "compound" && collider.parts.empty())
         input.problems.addError(input.at("parts"), "a compound needs parts");

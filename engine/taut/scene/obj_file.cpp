@@ -206,11 +206,6 @@ class ObjReader {
 }  // namespace
 
 world::MeshData objMesh(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (extension != ".obj")
-        throw core::Error(core::ErrorKind::badContent,
-                          path.string() + ": error: only OBJ is read: export it as Wavefront OBJ");
     return objMeshText(textFile(path, maxObjSize), path.string());
 }
 

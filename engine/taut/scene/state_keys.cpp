@@ -54,6 +54,7 @@ void add(const Node& node, core::Hash& hash) {
 
 void add(const world::MeshData* mesh, core::Hash& hash) {
     if (mesh == nullptr) return;
+    if (mesh->figure != nullptr) hash.add(mesh->hash);
     for (const world::dvec3& p : mesh->positions)
         for (int i = 0; i < 3; ++i) hash.add(p[i]);
     for (const world::dvec2& uv : mesh->uv)

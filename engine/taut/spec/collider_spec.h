@@ -20,7 +20,7 @@ struct PoseKey {
     Ease ease = Ease::smooth;  // on the way from the previous key to this one
 };
 
-struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh
+struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh, a figure
     std::string name;
     Source source;
     std::string shape = "sphere";  // a name from the table of shapes (collision/shape_table.h), or compound
@@ -32,6 +32,10 @@ struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh
     double height = 1.0;           // [m] cylinder, cone: whole; capsule: between the centres of its half spheres
     std::map<std::string, double, std::less<>> sizes;  // further sizes of the shape, by key
     double scale = 1.0;
+    std::string animation;  // of a figure; empty: as it stands at rest
+    double start = 0.0;     // [s] of the animation at the start of the scene
+    double speed = 1.0;     // of the animation [-]
+    bool loops = true;      // the animation begins again; else it stays at its end
     std::vector<ColliderSpec> parts;  // compound
     double friction = 0.3;            // Coulomb's μ [-]
     double restitution = 0.0;         // 0 … 1: speed after a bounce / speed before [-]
@@ -39,7 +43,8 @@ struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh
     bool visible = true;
     double edge = 0.01;  // [m] rounding of a drawn box's edges
     FinishSpec finish;
-    std::optional<FinishSpec> ownFinish;  // for a part; none: that of the compound
+    // Of a part; none: that of the compound. Of a figure; none: the colours of its file.
+    std::optional<FinishSpec> ownFinish;
 };
 
 }  // namespace taut::world

@@ -1,17 +1,19 @@
-// What an OBJ file holds.
+// What a mesh file holds.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "taut/figure/figure.h"
 #include "taut/spec/source.h"
 
 namespace taut::world {
 
-// Contents of an OBJ file, before scale, rotation and position. Vertices are welded by position; a triangle uses each.
+// Contents of a mesh file, before scale, rotation and position. Vertices are welded by position; a triangle uses each.
 struct MeshData {
     std::vector<dvec3> positions;                    // (vertices) in the file's unit
     std::vector<dvec2> uv;                           // (vertices) as in the file, or empty if a corner has none
@@ -20,6 +22,12 @@ struct MeshData {
     std::map<std::string, std::vector<int>> groups;  // vertices by the file's g and o, ascending
     // Numbers in the file: vertices count from 1, triangles have the line of their face.
     std::vector<int> numbers, lines;
+
+    // Of a glTF file: what moves these vertices, which stand here as the file has them at rest.
+    std::shared_ptr<const figure::Figure> figure;  // null: nothing
+    std::uint64_t hash = 0;                        // of all bytes that were read
+    std::vector<std::string> files;                // paths of further files that it names
+    std::vector<std::string> notes;                // what it has that is not read
 };
 
 // The mesh file of a body or a collider.

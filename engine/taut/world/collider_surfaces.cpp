@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/core/error.h"
 #include "taut/spec/private/motion.h"
 
 namespace taut::world {
@@ -54,24 +55,44 @@ contact::ContactSurface surfaceOf(const collision::Outline& outline, double fric
     return surface;
 }
 
+contact::ContactSurface surfaceOf(const ColliderFigure& figure, double friction, int offset, int bond) {
+    contact::ContactSurface surface;
+    surface.isDriven = true;
+    surface.meetsItself = surface.meetsOthers = false;
+    surface.thickness = 0;
+    surface.friction = friction;
+    surface.bond = bond;
+    for (int i = 0; i < static_cast<int>(figure.atRest().size()); ++i) surface.points.push_back(offset + i);
+    for (const std::array<int, 3>& t : figure.triangles())
+        surface.triangles.push_back({offset + t[0], offset + t[1], offset + t[2]});
+    return surface;
+}
+
 }  // namespace
 
-ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders,
+ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders, double seconds,
                                    std::vector<contact::ContactSurface>& surfaces, std::vector<dvec3>& rest) {
     const double thin = roundCells * cellOf(surfaces, rest);
     for (std::size_t c = 0; c < colliders.size(); ++c) {
-        Collider own{static_cast<int>(c),
-                     {},
-                     static_cast<int>(rest.size()),
-                     static_cast<int>(surfaces.size()),
-                     0,
-                     colliders[c].pose,
-                     colliders[c].pose};
+        Collider own;
+        own.collider = static_cast<int>(c);
+        own.name = colliders[c].name;
+        own.figure = colliders[c].figure;
+        own.firstPoint = static_cast<int>(rest.size());
+        own.firstSurface = static_cast<int>(surfaces.size());
+        own.from = own.to = colliders[c].pose;
+        // No other surface has this bond.
+        const auto bond = [&] { return -1 - static_cast<int>(surfaces.size()); };
+        if (own.figure != nullptr) {
+            surfaces.push_back(surfaceOf(*own.figure, colliders[c].friction, own.firstPoint, bond()));
+            own.vertices.assign(own.figure->atRest().begin(), own.figure->atRest().end());
+            rest.insert(rest.end(), own.vertices.begin(), own.vertices.end());
+            setEnds(own, seconds);
+        }
         const Placing place(colliders[c].pose);
         for (const collision::Outline& outline : colliders[c].outlines) {
             if (outline.radius > thin) continue;
-            const int bond = -1 - static_cast<int>(surfaces.size());  // no other surface has it
-            surfaces.push_back(surfaceOf(outline, colliders[c].friction, static_cast<int>(rest.size()), bond));
+            surfaces.push_back(surfaceOf(outline, colliders[c].friction, static_cast<int>(rest.size()), bond()));
             for (const dvec3& vertex : outline.vertices) rest.push_back(place(vertex));
             own.vertices.insert(own.vertices.end(), outline.vertices.begin(), outline.vertices.end());
         }
@@ -80,8 +101,28 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
     }
 }
 
-bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double tickSeconds, contact::Elements& elements,
-                            std::span<dvec3> v) {
+bool ColliderSurfaces::hasFigures() const {
+    return std::any_of(
+        colliders_.begin(), colliders_.end(), [](const Collider& own) { return own.figure != nullptr; });
+}
+
+const std::string& ColliderSurfaces::nameOf(int surface) const {
+    const auto owner = std::find_if(
+        colliders_.begin(), colliders_.end(), [&](const Collider& own) { return surface < own.lastSurface; });
+    TAUT_EXPECTS(owner != colliders_.end());
+    return owner->name;
+}
+
+// What was the end of a figure's tick becomes the start of the next.
+void ColliderSurfaces::setEnds(Collider& own, double end) {
+    own.xFrom.swap(own.xTo);
+    own.xTo = own.figure->placesAt(end, own.to);
+    if (own.xFrom.empty()) own.xFrom = own.xTo;
+    own.moves = own.xFrom != own.xTo;
+}
+
+bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double end, double tickSeconds,
+                            contact::Elements& elements, std::span<dvec3> v) {
     bool hasJumped = false;
     for (Collider& own : colliders_) {
         const bool moved = own.moves;
@@ -93,17 +134,21 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double tickS
             own.to = motion.to;
             own.moves = true;
         }
+        if (own.figure != nullptr) setEnds(own, end);
         for (int s = own.firstSurface; s < own.lastSurface; ++s) elements.setStill(s, !own.moves);
         if (!own.moves && !moved) continue;
         const Placing from(own.from), to(own.to);
         const std::span<dvec3> velocities = v.subspan(static_cast<std::size_t>(own.firstPoint), own.vertices.size());
         double square = 0;
         for (std::size_t i = 0; i < velocities.size(); ++i) {
-            velocities[i] = (to(own.vertices[i]) - from(own.vertices[i])) / tickSeconds;
+            velocities[i] = (own.figure != nullptr ? own.xTo[i] - own.xFrom[i]
+                                                   : to(own.vertices[i]) - from(own.vertices[i])) /
+                            tickSeconds;
             square = std::max(square, glm::dot(velocities[i], velocities[i]));
         }
         if (!(square > jumpSpeed * jumpSpeed)) continue;
         own.from = own.to;
+        own.xFrom = own.xTo;
         std::fill(velocities.begin(), velocities.end(), dvec3(0.0));
         hasJumped = true;
     }
@@ -113,17 +158,21 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double tickS
 void ColliderSurfaces::place(double share, std::span<dvec3> x) const {
     for (const Collider& own : colliders_) {
         if (!own.moves) continue;
+        const std::span<dvec3> places = x.subspan(static_cast<std::size_t>(own.firstPoint), own.vertices.size());
         const Placing place(between(own.from, own.to, share));
-        for (std::size_t i = 0; i < own.vertices.size(); ++i)
-            x[static_cast<std::size_t>(own.firstPoint) + i] = place(own.vertices[i]);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i] = own.figure == nullptr ? place(own.vertices[i])
+                        : share < 1           ? own.xFrom[i] + share * (own.xTo[i] - own.xFrom[i])
+                                              : own.xTo[i];
     }
 }
 
 void ColliderSurfaces::placeAll(std::span<dvec3> x) const {
     for (const Collider& own : colliders_) {
+        const std::span<dvec3> places = x.subspan(static_cast<std::size_t>(own.firstPoint), own.vertices.size());
         const Placing place(own.to);
-        for (std::size_t i = 0; i < own.vertices.size(); ++i)
-            x[static_cast<std::size_t>(own.firstPoint) + i] = place(own.vertices[i]);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i] = own.figure == nullptr ? place(own.vertices[i]) : own.xTo[i];
     }
 }
 

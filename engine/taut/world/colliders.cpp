@@ -23,6 +23,12 @@ ecs::Entity addCollider(WorldImpl& w, const ColliderSpec& collider) {
     return entity;
 }
 
+void meetFigures(const WorldImpl& w, BodySpec& body) {
+    const std::vector<ColliderSpec>& all = w.spec.colliders;
+    if (body.collide && std::any_of(all.begin(), all.end(), [](const auto& c) { return c.shape == "figure"; }))
+        body.meetsFaces = true;
+}
+
 void rebuildColliders(WorldImpl& w) {
     collision::Colliders all;
     std::vector<std::string> names;
@@ -94,7 +100,8 @@ std::optional<collision::Pose> poseOf(const WorldImpl& w, const std::string& col
 std::vector<TouchedCollider> touchedColliders(const WorldImpl& w) {
     std::vector<TouchedCollider> all;
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
-        all.push_back({collision::outlinesOf(part.model->shape), part.spec.friction, placement.to});
+        all.push_back({"collider." + part.spec.name, collision::outlinesOf(part.model->shape), part.model->figure,
+                       part.spec.friction, placement.to});
     });
     return all;
 }

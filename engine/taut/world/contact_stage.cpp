@@ -71,9 +71,9 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
 }
 
 ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec,
-                           double tickSeconds, StepFollowing& pace,
+                           const TickTime& now, StepFollowing& pace,
                            const std::function<std::vector<TouchedCollider>()>& colliders)
-    : spec_(spec), tickSeconds_(tickSeconds), fewest_(fewestInstants(tickSeconds)), pace_(pace) {
+    : spec_(spec), tickSeconds_(1.0 / now.ticksPerSecond), fewest_(fewestInstants(tickSeconds_)), pace_(pace) {
     std::vector<contact::ContactSurface> surfaces;
     std::vector<dvec3> rest;
     for (const auto& island : islands) {
@@ -95,7 +95,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     }
     if (islands_.empty()) return;
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return touchesColliders(*body->spec); }))
-        colliders_ = ColliderSurfaces(colliders(), surfaces, rest);
+        colliders_ = ColliderSurfaces(colliders(), now.start(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
     inverseMass_.resize(rest.size());
     damage_.assign(bodies_.size(), 0);
@@ -232,7 +232,7 @@ void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotio
     areCrossingsKnown_ = false;
     takeDamage();
     takeMasses();
-    hasJumped_ = colliders_.move(moving, tickSeconds_, group_->elements(), v_) || hasJumped_;
+    hasJumped_ = colliders_.move(moving, time.end(), tickSeconds_, group_->elements(), v_) || hasJumped_;
     readAll();
     colliders_.place(0.0, x1_);
     if (hasJumped_) group_->drop();
@@ -242,7 +242,7 @@ void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotio
 std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, std::span<const ColliderMotion> moving,
                                                         bool watchesFriction) {
     if (isAtRest()) {
-        hasJumped_ = colliders_.move(moving, tickSeconds_, group_->elements(), v_) || hasJumped_;
+        hasJumped_ = colliders_.move(moving, time.end(), tickSeconds_, group_->elements(), v_) || hasJumped_;
         return std::nullopt;
     }
     beginTick(time, moving);

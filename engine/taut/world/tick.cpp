@@ -91,7 +91,7 @@ void makeContactStage(WorldImpl& w) {
             for (const Body* body : island->plan().bodies) gone += body->damage.goneAround();
     if (w.contactStage && gone == w.goneAround) return;
     w.goneAround = gone;
-    w.contactStage = std::make_unique<ContactStage>(w.islands, w.spec.contact, 1.0 / w.ticksPerSecond, w.contactPace,
+    w.contactStage = std::make_unique<ContactStage>(w.islands, w.spec.contact, w.now(), w.contactPace,
                                                     [&w] { return touchedColliders(w); });
 }
 

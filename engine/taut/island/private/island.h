@@ -35,6 +35,7 @@ struct TickTime {
     // [s] at the start of substep s of n.
     double at(int s, int n) const { return (static_cast<double>(tick) * n + s) / (ticksPerSecond * n); }
     double start() const { return at(0, 1); }  // [s]
+    double end() const { return at(1, 1); }    // [s]
 };
 
 // Why an island stopped, and when: a velocity or a spring left all bounds at a point.

@@ -52,7 +52,7 @@ class ContactStage {
     // Takes the islands with bodies that may touch. Keeps references to them and to `pace`. The pace follows the number
     // of instants needed, and each island's substeps are a multiple of it. Calls `colliders` if any body touches
     // colliders.
-    ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds,
+    ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, const TickTime& now,
                  StepFollowing& pace, const std::function<std::vector<TouchedCollider>()>& colliders);
 
     bool isEmpty() const { return islands_.empty(); }
@@ -68,7 +68,7 @@ class ContactStage {
     std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving, bool watchesFriction);
 
     // Sleep. All islands are still, and some sleep: a tick does nothing.
-    bool isAtRest() const { return anySleeps() && !movesAny(); }
+    bool isAtRest() const { return anySleeps() && !movesAny() && !colliders_.hasFigures(); }
     // (points of the island) by other bodies, and by edges of colliders. Friction may hold a point if it used at most
     // 0.9 of what Coulomb allows.
     std::vector<Island::Support> supports(const Island& island) const;
@@ -95,6 +95,10 @@ class ContactStage {
     // The body of a surface. Surfaces of bodies come before those of colliders.
     const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }
     bool isOfBody(int surface) const { return surface < static_cast<int>(bodies_.size()); }
+    // "cloth.flag", "collider.pole".
+    std::string nameOf(int surface) const {
+        return isOfBody(surface) ? bodyOf(surface).fullName() : colliders_.nameOf(surface);
+    }
     // [m] The height of colliders' edges out of triangles of wanted bodies, between two ticks. See penetrationOf().
     double facePenetration(const std::function<bool(const Body&)>& wanted);
 

@@ -1,0 +1,119 @@
+#include "taut/bodies/collider_figure.h"
+
+#include <cmath>
+
+#include "taut/bodies/drawing.h"
+#include "taut/core/error.h"
+
+namespace taut::world {
+namespace {
+
+// [m] in the world, of places in the file's unit.
+struct Placing {
+    glm::dmat3 turn;
+    dvec3 position;
+    Placing(const collision::Pose& pose, double scale)
+        : turn(scale * glm::mat3_cast(glm::normalize(pose.rotation))), position(pose.position) {}
+    dvec3 operator()(const dvec3& x) const { return turn * x + position; }
+};
+
+// The colours of the file, where the scene gives none.
+std::shared_ptr<const view::Finish> finishOf(const figure::Piece& piece, const ColliderSpec& spec) {
+    if (spec.ownFinish) return finishOf(*spec.ownFinish);
+    view::Finish finish = *finishOf(spec.finish);
+    finish.front = glm::vec3(piece.colour);
+    finish.back = glm::mix(finish.front, glm::vec3(0.5F), 0.5F);
+    finish.roughness = static_cast<float>(piece.roughness);
+    if (!piece.texture.empty()) {
+        finish.pattern = view::Pattern::image;
+        finish.texture = piece.texture;
+        finish.repeat = 1.0F;
+    }
+    return std::make_shared<const view::Finish>(finish);
+}
+
+}  // namespace
+
+ColliderFigure::ColliderFigure(const ColliderSpec& spec)
+    : name_(spec.name), mesh_(spec.meshData), scale_(spec.scale), start_(spec.start), speed_(spec.speed),
+      loops_(spec.loops) {
+    const figure::Figure& figure = *mesh_->figure;
+    if (!spec.animation.empty()) {
+        animation_ = figure.find(spec.animation);
+        if (animation_ == nullptr) {
+            std::string names;
+            for (const figure::Animation& other : figure.animations)
+                names += (names.empty() ? "" : ", ") + ("\"" + other.name + "\"");
+            throw core::Error(core::ErrorKind::badContent,
+                              spec.mesh + " has no animation \"" + spec.animation + "\"; " +
+                                  (names.empty() ? "it has none" : "it has " + names));
+        }
+    }
+    for (const dvec3& x : mesh_->positions) atRest_.push_back(scale_ * x);
+    for (const figure::Piece& piece : figure.pieces) {
+        topologies_.push_back(std::make_shared<const view::Topology>(view::Topology{piece.triangles, piece.uv}));
+        finishes_.push_back(finishOf(piece, spec));
+    }
+}
+
+figure::Posture ColliderFigure::postureAt(double seconds) const {
+    double t = start_ + speed_ * seconds;
+    if (animation_ != nullptr && loops_ && animation_->seconds > 0)
+        t -= animation_->seconds * std::floor(t / animation_->seconds);
+    return figure::postureAt(*mesh_->figure, animation_, t);
+}
+
+std::vector<dvec3> ColliderFigure::placesAt(double seconds, const collision::Pose& pose) const {
+    std::vector<dvec3> places(mesh_->positions.size());
+    figure::placeVertices(*mesh_->figure, postureAt(seconds), places);
+    const Placing place(pose, scale_);
+    for (dvec3& x : places) x = place(x);
+    return places;
+}
+
+std::optional<collision::Pose> ColliderFigure::jointAt(std::string_view node, double seconds,
+                                                       const collision::Pose& pose) const {
+    const int number = mesh_->figure->nodeNamed(node);
+    if (number < 0) return std::nullopt;
+    const glm::dmat4 world = postureAt(seconds).world[static_cast<std::size_t>(number)];
+    glm::dmat3 axes;
+    for (int axis = 0; axis < 3; ++axis) {
+        const dvec3 column(world[axis]);
+        const double size = std::sqrt(glm::dot(column, column));
+        axes[axis] = size > 0 ? column / size : glm::dmat3(1.0)[axis];
+    }
+    return collision::Pose{Placing(pose, scale_)(dvec3(world[3])),
+                           glm::normalize(pose.rotation) * glm::normalize(glm::quat_cast(axes))};
+}
+
+void ColliderFigure::addSurfaces(double seconds, const collision::Pose& pose,
+                                 std::vector<view::Surface>& surfaces) const {
+    const std::vector<dvec3> places = placesAt(seconds, pose);
+    const figure::Figure& figure = *mesh_->figure;
+    // Area-weighted normals of vertices that share one.
+    std::vector<glm::vec3> normals(static_cast<std::size_t>(figure.smoothCount), glm::vec3(0.0F));
+    for (const figure::Piece& piece : figure.pieces)
+        for (std::size_t i = 0; i < piece.triangles.size(); i += 3) {
+            std::array<dvec3, 3> x;
+            for (std::size_t k = 0; k < 3; ++k)
+                x[k] = places[static_cast<std::size_t>(piece.vertices[piece.triangles[i + k]])];
+            const glm::vec3 area(glm::cross(x[1] - x[0], x[2] - x[0]));
+            for (std::size_t k = 0; k < 3; ++k)
+                normals[static_cast<std::size_t>(piece.smooth[piece.triangles[i + k]])] += area;
+        }
+    for (glm::vec3& n : normals) {
+        const float size = glm::length(n);
+        n = size > 0.0F ? n / size : glm::vec3(0.0F, 1.0F, 0.0F);
+    }
+    for (std::size_t p = 0; p < figure.pieces.size(); ++p) {
+        const figure::Piece& piece = figure.pieces[p];
+        auto geometry = std::make_shared<view::Geometry>();
+        for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
+            geometry->positions.emplace_back(places[static_cast<std::size_t>(piece.vertices[i])]);
+            geometry->normals.push_back(normals[static_cast<std::size_t>(piece.smooth[i])]);
+        }
+        surfaces.push_back({name_, topologies_[p], std::move(geometry), finishes_[p]});
+    }
+}
+
+}  // namespace taut::world

@@ -1,5 +1,6 @@
 #include "taut/bodies/collider_figure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "taut/bodies/drawing.h"
@@ -16,6 +17,17 @@ struct Placing {
         : turn(scale * glm::mat3_cast(glm::normalize(pose.rotation))), position(pose.position) {}
     dvec3 operator()(const dvec3& x) const { return turn * x + position; }
 };
+
+dvec3 unitOf(const dvec3& v) {
+    const double size = std::sqrt(glm::dot(v, v));
+    return size > 0 ? v / size : dvec3(0.0);
+}
+
+// Of axes at right angles; what has none, such as a face without area, is not turned.
+glm::dquat turnOf(const glm::dmat3& axes) {
+    return glm::dot(axes[0], axes[0]) > 0 && glm::dot(axes[2], axes[2]) > 0 ? glm::normalize(glm::quat_cast(axes))
+                                                                            : glm::dquat(1, 0, 0, 0);
+}
 
 // The colours of the file, where the scene gives none.
 std::shared_ptr<const view::Finish> finishOf(const figure::Piece& piece, const ColliderSpec& spec) {
@@ -56,39 +68,55 @@ ColliderFigure::ColliderFigure(const ColliderSpec& spec)
     }
 }
 
-figure::Posture ColliderFigure::postureAt(double seconds) const {
+ColliderFigure::Moment ColliderFigure::at(double seconds, const collision::Pose& pose) const {
     double t = start_ + speed_ * seconds;
     if (animation_ != nullptr && loops_ && animation_->seconds > 0)
         t -= animation_->seconds * std::floor(t / animation_->seconds);
-    return figure::postureAt(*mesh_->figure, animation_, t);
-}
-
-std::vector<dvec3> ColliderFigure::placesAt(double seconds, const collision::Pose& pose) const {
-    std::vector<dvec3> places(mesh_->positions.size());
-    figure::placeVertices(*mesh_->figure, postureAt(seconds), places);
+    Moment moment;
+    moment.mesh_ = mesh_.get();
+    moment.posture_ = figure::postureAt(*mesh_->figure, animation_, t);
+    moment.pose_ = pose;
+    moment.scale_ = scale_;
+    moment.places_.resize(mesh_->positions.size());
+    figure::placeVertices(*mesh_->figure, moment.posture_, moment.places_);
     const Placing place(pose, scale_);
-    for (dvec3& x : places) x = place(x);
-    return places;
+    for (dvec3& x : moment.places_) x = place(x);
+    return moment;
 }
 
-std::optional<collision::Pose> ColliderFigure::jointAt(std::string_view node, double seconds,
-                                                       const collision::Pose& pose) const {
-    const int number = mesh_->figure->nodeNamed(node);
-    if (number < 0) return std::nullopt;
-    const glm::dmat4 world = postureAt(seconds).world[static_cast<std::size_t>(number)];
-    glm::dmat3 axes;
-    for (int axis = 0; axis < 3; ++axis) {
-        const dvec3 column(world[axis]);
-        const double size = std::sqrt(glm::dot(column, column));
-        axes[axis] = size > 0 ? column / size : glm::dmat3(1.0)[axis];
+std::optional<collision::Pose> ColliderFigure::Moment::frameOf(const ColliderTarget& target) const {
+    if (target.face >= 0) {
+        if (target.face >= std::ssize(mesh_->triangles)) return std::nullopt;
+        const std::array<int, 3>& t = mesh_->triangles[static_cast<std::size_t>(target.face)];
+        const auto corner = [&](std::size_t k) { return places_[static_cast<std::size_t>(t[k])]; };
+        const dvec3 along = unitOf(corner(1) - corner(0));
+        const dvec3 normal = unitOf(glm::cross(along, corner(2) - corner(0)));
+        return collision::Pose{corner(0), turnOf({along, glm::cross(normal, along), normal})};
     }
-    return collision::Pose{Placing(pose, scale_)(dvec3(world[3])),
-                           glm::normalize(pose.rotation) * glm::normalize(glm::quat_cast(axes))};
+    const int number = mesh_->figure->nodeNamed(target.joint);
+    if (number < 0) return std::nullopt;
+    const glm::dmat4& world = posture_.world[static_cast<std::size_t>(number)];
+    return collision::Pose{
+        Placing(pose_, scale_)(dvec3(world[3])),
+        glm::normalize(pose_.rotation) *
+            turnOf({unitOf(dvec3(world[0])), unitOf(dvec3(world[1])), unitOf(dvec3(world[2]))})};
+}
+
+int ColliderFigure::Moment::nearestFace(const dvec3& x) const {
+    int nearest = 0;
+    double least = HUGE_VAL;
+    for (std::size_t f = 0; f < mesh_->triangles.size(); ++f) {
+        dvec3 way = -x;
+        for (const int i : mesh_->triangles[f]) way += places_[static_cast<std::size_t>(i)] / 3.0;
+        if (glm::dot(way, way) < least) nearest = static_cast<int>(f);
+        least = std::min(least, glm::dot(way, way));
+    }
+    return nearest;
 }
 
 void ColliderFigure::addSurfaces(double seconds, const collision::Pose& pose,
                                  std::vector<view::Surface>& surfaces) const {
-    const std::vector<dvec3> places = placesAt(seconds, pose);
+    const std::vector<dvec3> places = at(seconds, pose).places();
     const figure::Figure& figure = *mesh_->figure;
     // Area-weighted normals of vertices that share one.
     std::vector<glm::vec3> normals(static_cast<std::size_t>(figure.smoothCount), glm::vec3(0.0F));

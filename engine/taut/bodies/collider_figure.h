@@ -4,11 +4,11 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "taut/collision/colliders.h"
 #include "taut/spec/collider_spec.h"
+#include "taut/spec/targets.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::world {
@@ -20,16 +20,29 @@ class ColliderFigure {
 
     std::span<const std::array<int, 3>> triangles() const { return mesh_->triangles; }
     std::span<const dvec3> atRest() const { return atRest_; }  // (vertices) [m] with the collider at the origin
-    // (vertices) [m] at a time [s], with the collider at `pose`.
-    std::vector<dvec3> placesAt(double seconds, const collision::Pose& pose) const;
-    // The frame of a joint, or of any other node; none: it has no node of that name.
-    std::optional<collision::Pose> jointAt(std::string_view node, double seconds, const collision::Pose& pose) const;
+
+    // All of it at one time.
+    class Moment {
+      public:
+        const std::vector<dvec3>& places() const { return places_; }  // (vertices) [m]
+        // The frame of a joint, or any other node, or of a face; none: there is none.
+        std::optional<collision::Pose> frameOf(const ColliderTarget& target) const;
+        int nearestFace(const dvec3& x) const;  // the one with the nearest centre
+
+      private:
+        friend class ColliderFigure;
+        const MeshData* mesh_;
+        figure::Posture posture_;
+        collision::Pose pose_;
+        double scale_;
+        std::vector<dvec3> places_;
+    };
+    // seconds: of the scene; pose: of the collider.
+    Moment at(double seconds, const collision::Pose& pose) const;
     // Adds what is drawn.
     void addSurfaces(double seconds, const collision::Pose& pose, std::vector<view::Surface>& surfaces) const;
 
   private:
-    figure::Posture postureAt(double seconds) const;
-
     std::string name_;
     std::shared_ptr<const MeshData> mesh_;
     const figure::Animation* animation_ = nullptr;

@@ -14,10 +14,9 @@ namespace {
     throw core::Error(core::ErrorKind::badContent, at(source) + message);
 }
 
-collision::Pose poseOf(const std::string& collider, const FindPose& find, const Source& source) {
-    const auto pose = find(collider);
-    if (!pose) fail(source, "there is no " + collider + " to tie points to; add a table [" + collider + "]");
-    return *pose;
+void expectHolder(const std::string& collider, const Holders& holders, const Source& source) {
+    if (!holders.poseOf(collider))
+        fail(source, "there is no " + collider + " to tie points to; add a table [" + collider + "]");
 }
 
 // Points of the body's model, each once.
@@ -34,13 +33,14 @@ std::vector<int> namedPoints(const JointSide& side, const Body& body) {
 // The ties of the scene to colliders, for one plan.
 class Tying {
   public:
-    Tying(IslandPlan& plan, const FindPose& find) : plan_(plan), find_(find), holder_(plan.points.size()) {}
+    Tying(IslandPlan& plan, const Holders& holders) : plan_(plan), holders_(holders), holder_(plan.points.size()) {}
 
     void hold(Body& body) {
         std::vector<int> points;
         for (int i : body.carried) points.push_back(body.pointOf[static_cast<std::size_t>(i)]);
-        body.carriedFrom = poseOf(body.spec->holdOn, find_, body.spec->source).rotation;
+        const int first = points.front();
         lead(body.spec->holdOn, std::move(points), body.spec->source);
+        body.carriedFrom = carrierOf(plan_, first)->path.from;
     }
 
     void tie(const JointSpec& joint, int number) {
@@ -52,18 +52,19 @@ class Tying {
         const std::string& collider = colliderOf(joint);
         if (joint.isWeld() && !joint.hasOwnTies()) return lead(collider, std::move(points), joint.source);
         sort(points);
-        const collision::Pose pose = poseOf(collider, find_, joint.source);
+        expectHolder(collider, holders_, joint.source);
         const std::size_t grips = plan_.grips.size();
         for (const int point : points) {
             const std::size_t own = plan_.grips.size();
             const int tie = static_cast<int>(plan_.ties.size());
+            Grip grip = std::move(tieTo(holders_, collider, std::span(&point, 1), plan_.positions).front());
             addTie(
                 plan_,
                 {.joint = number,
                  .a = point,
-                 .collider = collider,
+                 .collider = grip.holder,
                  .breakForce = joint.breakForce.value_or(HUGE_VAL)},
-                [&] { joint.carry(plan_, tieTo(collider, pose, {point}, plan_.positions)); });
+                [&] { joint.carry(plan_, std::move(grip)); });
             if (joint.hasOwnTies())
                 for (std::size_t g = own; g < plan_.grips.size(); ++g) plan_.grips[g].tie = tie;
         }
@@ -76,10 +77,13 @@ class Tying {
         points.erase(std::unique(points.begin(), points.end()), points.end());
     }
 
-    // Merges all grips from `first` on, of ascending points, into one.
+    // Merges all grips from `first` on, of ascending points, into one if one thing carries them.
     void join(std::size_t first) {
         if (plan_.grips.size() <= first + 1) return;
         Grip& all = plan_.grips[first];
+        if (std::any_of(plan_.grips.begin() + static_cast<std::ptrdiff_t>(first), plan_.grips.end(),
+                        [&](const Grip& own) { return own.holder != all.holder; }))
+            return;
         for (std::size_t g = first + 1; g < plan_.grips.size(); ++g) {
             const Grip& own = plan_.grips[g];
             all.points.insert(all.points.end(), own.points.begin(), own.points.end());
@@ -92,7 +96,7 @@ class Tying {
 
     // Leaves out points that the collider holds already.
     void lead(const std::string& collider, std::vector<int> points, const Source& source) {
-        const collision::Pose pose = poseOf(collider, find_, source);
+        expectHolder(collider, holders_, source);
         sort(points);
         for (int i : points) {
             const std::string& other = holder_[static_cast<std::size_t>(i)];
@@ -106,7 +110,7 @@ class Tying {
         std::erase_if(points, [&](int i) { return !holder_[static_cast<std::size_t>(i)].empty(); });
         if (points.empty()) return;
         for (int i : points) holder_[static_cast<std::size_t>(i)] = collider;
-        plan_.grips.push_back(tieTo(collider, pose, std::move(points), plan_.positions));
+        for (Grip& grip : tieTo(holders_, collider, points, plan_.positions)) plan_.grips.push_back(std::move(grip));
     }
 
     std::string nameOf(int point) const {
@@ -115,7 +119,7 @@ class Tying {
     }
 
     IslandPlan& plan_;
-    const FindPose& find_;
+    const Holders& holders_;
     std::vector<std::string> holder_;  // (points) the collider that moves it; empty: none
 };
 
@@ -151,8 +155,8 @@ int countNamed(const JointSide& side, const Body& body) {
     return static_cast<int>(namedPoints(side, body).size());
 }
 
-void addTies(IslandPlan& plan, const SceneSpec& spec, const FindPose& find) {
-    Tying tying(plan, find);
+void addTies(IslandPlan& plan, const SceneSpec& spec, const Holders& holders) {
+    Tying tying(plan, holders);
     for (Body* body : plan.bodies)
         if (!body->carried.empty()) tying.hold(*body);
     int number = 0;
@@ -162,7 +166,7 @@ void addTies(IslandPlan& plan, const SceneSpec& spec, const FindPose& find) {
     }
 }
 
-void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const FindPose& find) {
+void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const Holders& holders) {
     for (const JointSpec& joint : spec.joints) {
         if (!isTie(joint)) continue;
         if (isCollider(joint.a) && isCollider(joint.b))
@@ -170,7 +174,7 @@ void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const FindP
                                    "\" are colliders; one has to be points of a body");
         if ((isCollider(joint.a) ? joint.a : joint.b).targets.size() > 1)
             fail(joint.source, "a collider is a side of a joint by itself; write a [[joint]] for each");
-        poseOf(colliderOf(joint), find, joint.source);
+        expectHolder(colliderOf(joint), holders, joint.source);
         for (const std::string& target : pointsOf(joint).targets) {
             const JointSide one(target);
             if (std::all_of(bodies.begin(), bodies.end(),
@@ -180,18 +184,32 @@ void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const FindP
     }
 }
 
-Grip tieTo(const std::string& collider, const collision::Pose& pose, std::vector<int> points,
-           std::span<const dvec3> x) {
-    Grip grip;
-    grip.holder = collider;
-    grip.ofCollider = true;
-    grip.rigid = true;
-    grip.points = std::move(points);
-    for (int i : grip.points)
-        grip.offsets.push_back(mechanics::PosePath::rotated(glm::conjugate(pose.rotation),
-                                                            x[static_cast<std::size_t>(i)] - pose.position));
-    grip.path = pathOf(pose, pose, 0.0, 1.0);
-    return grip;
+std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std::span<const int> points,
+                        std::span<const dvec3> x) {
+    std::vector<Grip> grips;
+    for (int i : points) {
+        const dvec3& place = x[static_cast<std::size_t>(i)];
+        const std::string holder = holders.nearest(collider, place);
+        const collision::Pose pose = holders.poseOf(holder).value();
+        auto grip = std::find_if(grips.begin(), grips.end(), [&](const Grip& own) { return own.holder == holder; });
+        if (grip == grips.end()) {
+            grip = grips.emplace(grips.end());
+            grip->holder = holder;
+            grip->ofCollider = true;
+            grip->rigid = true;
+            grip->path = pathOf(pose, pose, 0.0, 1.0);
+        }
+        grip->points.push_back(i);
+        grip->offsets.push_back(mechanics::PosePath::rotated(glm::conjugate(pose.rotation), place - pose.position));
+    }
+    return grips;
+}
+
+const Grip* carrierOf(const IslandPlan& plan, int point) {
+    for (const Grip& grip : plan.grips)
+        if (grip.ofCollider && grip.rigid && std::binary_search(grip.points.begin(), grip.points.end(), point))
+            return &grip;
+    return nullptr;
 }
 
 bool untie(IslandPlan& plan, std::span<const int> points) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "taut/bodies/private/ties.h"
 #include "taut/mechanics/private/anchor.h"
 #include "taut/mechanics/private/element_bending.h"
 #include "taut/mechanics/private/grid_bending.h"
@@ -418,9 +419,10 @@ class DynamicsOf final : public Dynamics {
     // Directions that a collider holds turn with the collider.
     std::function<glm::dquat(double)> turnOf(const Body& body) const {
         if (body.carried.empty() || body.clamped.empty()) return {};
-        return [this, holder = body.spec->holdOn, back = glm::conjugate(body.carriedFrom)](double t) {
-            for (const Grip& grip : plan_.grips)
-                if (grip.holder == holder && grip.rigid) return grip.path.at(t).rotation * back;
+        return [this, &body, back = glm::conjugate(body.carriedFrom)](double t) {
+            for (int i : body.carried)
+                if (const Grip* grip = carrierOf(plan_, body.pointOf[static_cast<std::size_t>(i)]))
+                    return grip->path.at(t).rotation * back;
             return glm::dquat(1, 0, 0, 0);
         };
     }

@@ -195,8 +195,9 @@ struct EnvelopeSide {
 
     // Ties points to colliders, wherever these are: only the springs of the ties matter here.
     void tie(IslandPlan& plan) const {
-        addTies(
-            plan, spec, [](const std::string&) { return std::optional<collision::Pose>(collision::Pose{}); });
+        addTies(plan, spec,
+                {[](const std::string&) { return std::optional<collision::Pose>(collision::Pose{}); },
+                 [](const std::string& collider, const dvec3&) { return collider; }});
     }
 };
 

@@ -25,8 +25,30 @@ void checkName(const NameReference& reference, const std::string& kind, const st
     problems.addError(reference.place, fmt::format("there is no {} \"{}\"", kind, reference.text), remedy);
 }
 
-void checkCollider(const NameReference& reference, const std::vector<std::string>& colliders, Problems& problems) {
+// A joint of a figure.
+void checkJointName(const NameReference& reference, const world::ColliderTarget& target,
+                    const world::ColliderSpec& collider, Problems& problems) {
+    if (collider.shape != "figure")
+        return problems.addError(reference.place, fmt::format("{} has no joints: it is a {}", target.collider,
+                                                              collider.shape),
+                                 fmt::format("write {}", target.collider));
+    if (collider.meshData == nullptr || collider.meshData->figure == nullptr) return;  // said already
+    std::vector<std::string> names;
+    for (const figure::Node& node : collider.meshData->figure->nodes)
+        if (!node.name.empty()) names.push_back(node.name);
+    if (std::find(names.begin(), names.end(), target.joint) != names.end()) return;
+    std::string remedy = suggestion(target.joint, names);
+    if (remedy.empty()) remedy = names.empty() ? "its nodes have no names" : fmt::format("it has {}", joined(names));
+    problems.addError(reference.place, fmt::format("{} has no joint \"{}\"", target.collider, target.joint), remedy);
+}
+
+void checkCollider(const NameReference& reference, const std::vector<std::string>& colliders,
+                   const world::SceneSpec& scene, Problems& problems) {
     if (std::find(colliders.begin(), colliders.end(), reference.text) != colliders.end()) return;
+    const world::ColliderTarget target = world::parseCollider(reference.text);
+    for (const world::ColliderSpec& collider : scene.colliders)
+        if (!target.joint.empty() && "collider." + collider.name == target.collider)
+            return checkJointName(reference, target, collider, problems);
     const auto say = [&](const std::string& message, const std::string& remedy) {
         problems.addError(reference.place, message, remedy);
     };
@@ -95,12 +117,12 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
             case Role::points: report(reference, bodies.pointsFault(reference.text), problems); break;
             case Role::tieable:
                 if (world::isCollider(reference.text))
-                    checkCollider(reference, colliders, problems);
+                    checkCollider(reference, colliders, scene.spec, problems);
                 else
                     report(reference, bodies.pointsFault(reference.text), problems);
                 break;
             case Role::collider:
-                checkCollider(reference, colliders, problems);
+                checkCollider(reference, colliders, scene.spec, problems);
                 checkHoldOn(reference, scene.spec, problems);
                 break;
             case Role::bodies: report(reference, bodies.surfaceFault(reference.text), problems); break;

@@ -67,6 +67,18 @@ Target parseTarget(std::string_view text) {
     return target;
 }
 
+ColliderTarget parseCollider(std::string_view text) {
+    const std::size_t name = std::min(text.find('.'), text.size() - 1) + 1;
+    const std::size_t end = std::min(text.find_first_of(".#", name), text.size());
+    ColliderTarget target{std::string(text.substr(0, end)), ""};
+    const std::string_view part = text.substr(end);
+    if (part.starts_with('#')) target.face = static_cast<int>(core::numberIn(part.substr(1)).value_or(-1));
+    if (part.starts_with('.')) target.joint = part.substr(1);
+    if (target.joint.size() > 1 && target.joint.front() == '"' && target.joint.back() == '"')
+        target.joint = target.joint.substr(1, target.joint.size() - 2);
+    return target;
+}
+
 std::vector<int> selectPoints(const mechanics::Model& model, std::string_view selector) {
     if (selector.starts_with('@')) selector.remove_prefix(1);
     if (selector.empty()) selector = "all";

@@ -20,6 +20,15 @@ struct Target {
 // Splits KIND.NAME@SELECTOR. Parts may be empty if the text is malformed; the loader has checked it.
 Target parseTarget(std::string_view text);
 
+// A collider or, of a figure, what can carry points: a joint (collider.hero.Hand, collider.hero."Right hand") or the
+// face of a number (collider.hero#12), as hold_on makes it of collider.hero.
+struct ColliderTarget {
+    std::string collider;  // "collider.hero"
+    std::string joint;     // empty: none
+    int face = -1;         // -1: none
+};
+ColliderTarget parseCollider(std::string_view text);
+
 // KIND.NAME of it.
 std::string_view withoutSelector(std::string_view target);
 

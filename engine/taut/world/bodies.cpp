@@ -37,7 +37,7 @@ WorldImpl::Member addBody(WorldImpl& w, std::unique_ptr<Body> body) {
 
 void addIsland(WorldImpl& w, IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints) {
     plan.solver.precision = w.spec.solver.precision;
-    addTies(plan, w.spec, [&w](const std::string& collider) { return poseOf(w, collider); });
+    addTies(plan, w.spec, holdersOf(w));
     for (const auto& constraint : plan.constraints) constraint->check();
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
@@ -80,7 +80,7 @@ void addBodies(WorldImpl& w) {
     std::vector<Body*> all = bodiesOf(w);
     for (const auto& body : w.waiting) all.push_back(body.get());
     for (const ForceSpec& force : w.spec.forces) force.checkBodies(all);
-    checkTies(w.spec, all, [&w](const std::string& collider) { return poseOf(w, collider); });
+    checkTies(w.spec, all, holdersOf(w));
     const Envelopes envelopes(*w.start);
     const ForceList current = forcesOf(w);
     std::vector<JointReport> reports;

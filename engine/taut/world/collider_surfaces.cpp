@@ -116,7 +116,7 @@ const std::string& ColliderSurfaces::nameOf(int surface) const {
 // What was the end of a figure's tick becomes the start of the next.
 void ColliderSurfaces::setEnds(Collider& own, double end) {
     own.xFrom.swap(own.xTo);
-    own.xTo = own.figure->placesAt(end, own.to);
+    own.xTo = own.figure->at(end, own.to).places();
     if (own.xFrom.empty()) own.xFrom = own.xTo;
     own.moves = own.xFrom != own.xTo;
 }

@@ -1,6 +1,7 @@
 #include "taut/world/private/colliders.h"
 
 #include <algorithm>
+#include <set>
 
 #include "taut/bodies/private/ties.h"
 #include "taut/spec/private/motion.h"
@@ -76,25 +77,75 @@ void carryTied(WorldImpl& w) {
             return !island->plan().grips.empty() || !island->plan().carriers.empty();
         }))
         return;
-    w.registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart&) {
+    w.registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart& part) {
         const Placement& placement = *w.registry.find<Placement>(entity);
         const mechanics::PosePath path = pathOf(placement.from, placement.to, w.now().start(), w.ticksPerSecond);
         for (const auto& island : w.islands) island->carry(w.now(), identity.fullName(), path);
+        if (part.model->figure == nullptr) return;
+        // Its joints and faces.
+        const ColliderFigure& figure = *part.model->figure;
+        std::set<std::string> holders;
+        for (const auto& island : w.islands) {
+            for (const Grip& grip : island->plan().grips) holders.insert(grip.holder);
+            for (const Carrier& carrier : island->plan().carriers) holders.insert(carrier.collider);
+        }
+        std::erase_if(holders, [&](const std::string& holder) {
+            return holder == identity.fullName() || parseCollider(holder).collider != identity.fullName();
+        });
+        if (holders.empty()) return;
+        const ColliderFigure::Moment from = figure.at(w.now().start(), placement.from);
+        const ColliderFigure::Moment to = figure.at(w.now().end(), placement.to);
+        for (const std::string& holder : holders) {
+            const ColliderTarget target = parseCollider(holder);
+            const mechanics::PosePath own = pathOf(from.frameOf(target).value(), to.frameOf(target).value(),
+                                                   w.now().start(), w.ticksPerSecond);
+            for (const auto& island : w.islands) island->carry(w.now(), holder, own);
+        }
     });
 }
 
 void letGo(WorldImpl& w, const std::string& collider) {
     for (const auto& island : w.islands)
-        island->release(w.now(), [&](const JointTie& tie) { return tie.collider == collider; });
+        island->release(w.now(), [&](const JointTie& tie) { return parseCollider(tie.collider).collider == collider; });
     loosen(w, collider, true);
 }
 
-std::optional<collision::Pose> poseOf(const WorldImpl& w, const std::string& collider) {
+collision::Pose poseAhead(const Placement& placement, double ticks) {
+    const auto& [from, to, moved] = placement;
+    if (ticks == 0.0 || (from.position == to.position && from.rotation == to.rotation)) return to;
+    const glm::dquat near = glm::dot(from.rotation, to.rotation) < 0.0 ? -from.rotation : from.rotation;
+    return {to.position + ticks * (to.position - from.position),
+            glm::normalize(to.rotation * (1.0 + ticks) + near * -ticks)};
+}
+
+std::optional<collision::Pose> poseOf(const WorldImpl& w, const std::string& holder, double ahead) {
+    const ColliderTarget target = parseCollider(holder);
     std::optional<collision::Pose> pose;
-    w.registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart&) {
-        if (!pose && identity.fullName() == collider) pose = w.registry.find<Placement>(entity)->to;
+    w.registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart& part) {
+        if (pose || identity.fullName() != target.collider) return;
+        pose = poseAhead(*w.registry.find<Placement>(entity), ahead * w.ticksPerSecond);
+        if (target.joint.empty() && target.face < 0) return;
+        if (part.model->figure != nullptr)
+            pose = part.model->figure->at(w.seconds() + ahead, *pose).frameOf(target);
+        else
+            pose = std::nullopt;
     });
     return pose;
+}
+
+Holders holdersOf(const WorldImpl& w) {
+    const auto nearest = [&w](const std::string& collider, const dvec3& x) {
+        std::string holder = collider;
+        w.registry.each<Identity, ColliderPart>(
+            [&](ecs::Entity entity, const Identity& identity, const ColliderPart& part) {
+                if (part.model->figure == nullptr || identity.fullName() != collider) return;
+                const ColliderFigure::Moment now =
+                    part.model->figure->at(w.seconds(), w.registry.find<Placement>(entity)->to);
+                holder = collider + "#" + std::to_string(now.nearestFace(x));
+            });
+        return holder;
+    };
+    return {[&w](const std::string& holder) { return poseOf(w, holder, 0.0); }, nearest};
 }
 
 std::vector<TouchedCollider> touchedColliders(const WorldImpl& w) {

@@ -6,6 +6,7 @@
 
 #include "taut/spec/private/motion.h"
 #include "taut/world/private/bodies.h"
+#include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/labels.h"
 #include "taut/world/private/tick.h"
@@ -83,15 +84,6 @@ view::Lamp lampOf(const LampSpec& spec) {
             spec.shadow};
 }
 
-// The pose if it goes on as in the previous tick.
-collision::Pose poseAhead(const Placement& placement, double ticks) {
-    const auto& [from, to, moved] = placement;
-    if (ticks == 0.0 || (from.position == to.position && from.rotation == to.rotation)) return to;
-    const glm::dquat near = glm::dot(from.rotation, to.rotation) < 0.0 ? -from.rotation : from.rotation;
-    return {to.position + ticks * (to.position - from.position),
-            glm::normalize(to.rotation * (1.0 + ticks) + near * -ticks)};
-}
-
 // (points of the island) [m]
 std::vector<dvec3> placesAhead(const Island& island, double ahead) {
     std::vector<dvec3> x(island.plan().points.size()), v(x.size());
@@ -106,11 +98,14 @@ std::vector<dvec3> placesAhead(const Island& island, double ahead) {
 void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view) {
     const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
     if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
-    std::map<std::string, glm::mat4> poses;  // of the colliders
+    std::map<std::string, glm::mat4> poses;  // of what carries ties
     std::map<std::string, int> count;        // number of ties so far, by name of the drawing
-    w.registry.each<Identity, Placement>([&](ecs::Entity, const Identity& identity, const Placement& placement) {
-        poses.emplace(identity.fullName(), matrixOf(poseAhead(placement, ahead * w.ticksPerSecond)));
-    });
+    const auto matrix = [&](const std::string& holder) {
+        auto known = poses.find(holder);
+        if (known == poses.end())
+            known = poses.emplace(holder, matrixOf(poseOf(w, holder, ahead).value_or(collision::Pose{}))).first;
+        return known->second;
+    };
     for (const auto& island : w.islands) {
         const IslandPlan& plan = island->plan();
         const std::vector<dvec3> x = placesAhead(*island, ahead);
@@ -121,7 +116,7 @@ void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view
             if (!holds(plan, tie)) continue;
             const glm::vec3 a(x[static_cast<std::size_t>(tie.a)]);
             const glm::vec3 b = tie.b >= 0 ? glm::vec3(x[static_cast<std::size_t>(tie.b)])
-                                           : glm::vec3(poses.at(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
+                                           : glm::vec3(matrix(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
             view.surfaces.push_back(drawing->surface(a, b, number));
             addStillness(*island, debug, view.surfaces.back());
         }

@@ -17,8 +17,13 @@ class JointSide;
 struct JointSpec;
 struct SceneSpec;
 
-// The present pose of the collider "collider.pole"; nothing if there is none.
-using FindPose = std::function<std::optional<collision::Pose>(const std::string& collider)>;
+// What can carry points, by name: "collider.pole", and joints and faces of figures (parseCollider()).
+struct Holders {
+    // The present pose; nothing if there is none of that name.
+    std::function<std::optional<collision::Pose>(const std::string& holder)> poseOf;
+    // What of a collider carries a point at x [m]: the nearest face of a figure, else what is named.
+    std::function<std::string(const std::string& collider, const dvec3& x)> nearest;
+};
 
 bool isCollider(const std::string& target);
 bool isCollider(const JointSide& side);
@@ -29,14 +34,17 @@ const JointSide& pointsOf(const JointSpec& joint);
 
 // Adds grips of the plan's points for the bodies' `hold_on` and the scene's joints. Throws core::Error(badContent) if
 // there is no such collider or a point would be tied twice.
-void addTies(IslandPlan& plan, const SceneSpec& spec, const FindPose& find);
+void addTies(IslandPlan& plan, const SceneSpec& spec, const Holders& holders);
 
 // Checks that each joint with a collider names one collider and points of some body. Throws core::Error(badContent).
-void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const FindPose& find);
+void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const Holders& holders);
 
-// Ties points (ascending) to the collider at their present positions x (all points of the plan) [m]. Expects that none
-// is tied yet.
-Grip tieTo(const std::string& collider, const collision::Pose& pose, std::vector<int> points, std::span<const dvec3> x);
+// Ties points (ascending) to the collider at their present positions x (all points of the plan) [m]: one grip for each
+// holder. Expects that the collider is there and that none is tied yet.
+std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std::span<const int> points,
+                        std::span<const dvec3> x);
+// The grip by which a collider carries a point; null: none does.
+const Grip* carrierOf(const IslandPlan& plan, int point);
 // Frees the points from the grips of colliders. Returns whether any was tied.
 bool untie(IslandPlan& plan, std::span<const int> points);
 // Whether a side of a joint names points of the body, and how many.

@@ -51,8 +51,8 @@ void pin(const PointsAction& action, WorldImpl& w, bool isHeld) {
 void HoldAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     if (holdOn.empty()) return pin(*this, w, true);
-    const auto pose = poseOf(w, holdOn);
-    if (!pose) failAction(*this, "there is no " + holdOn + " to hold points on");
+    const Holders holders = holdersOf(w);
+    if (!holders.poseOf(holdOn)) failAction(*this, "there is no " + holdOn + " to hold points on");
     std::vector<Picked> points = pick(w, *this);
     std::erase_if(points, [](const Picked& p) { return isInHand(p.island->plan(), p.point); });
     if (points.empty()) failAction(*this, "a hand leads every point of \"" + target + "\"; release them first");
@@ -62,7 +62,8 @@ void HoldAction::perform(World& world) const {
         for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = false;
         x.clear();
         for (std::size_t i = 0; i < plan.points.size(); ++i) x.push_back(island->position(static_cast<int>(i)));
-        island->change(w.now(), Change::grips).grips.push_back(tieTo(holdOn, *pose, numbers, x));
+        for (Grip& grip : tieTo(holders, holdOn, numbers, x))
+            island->change(w.now(), Change::grips).grips.push_back(std::move(grip));
         island->stop(w.now(), numbers);
     }
 }

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "taut/ecs/entity.h"
+#include "taut/bodies/private/ties.h"
 #include "taut/island/private/island.h"
 #include "taut/spec/collider_spec.h"
+#include "taut/world/components.h"
 #include "taut/world/private/collider_surfaces.h"
 
 namespace taut::world {
@@ -28,7 +30,12 @@ std::vector<ColliderMotion> movingColliders(WorldImpl& w);
 // Carries what is tied to colliders through the coming tick.
 void carryTied(WorldImpl& w);
 
-std::optional<collision::Pose> poseOf(const WorldImpl& w, const std::string& collider);
+Holders holdersOf(const WorldImpl& w);  // as long as it lives
+// Of a collider, or of a joint or face of a figure (parseCollider()), `ahead` [s] after now if it goes on as in the
+// previous tick; none: there is none of that name.
+std::optional<collision::Pose> poseOf(const WorldImpl& w, const std::string& holder, double ahead);
+// The pose of a collider if it goes on so.
+collision::Pose poseAhead(const Placement& placement, double ticks);
 std::vector<TouchedCollider> touchedColliders(const WorldImpl& w);  // as the contact stage needs them
 
 }  // namespace taut::world

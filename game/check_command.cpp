@@ -13,6 +13,7 @@
 #include "game/outputs.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
+#include "taut/advice/figures.h"
 #include "taut/advice/rehearsal.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario.h"
@@ -59,6 +60,7 @@ int check(const CheckFlags& flags) {
             notePreparation(spec);
             const world::Rehearsal rehearsal = world::rehearse(spec);
             printWarnings(rehearsal.warnings);
+            for (const std::string& note : world::figureNotes(spec)) printNote("taut: note: {}\n", note);
             printAdvice(rehearsal.advice);
             if (!rehearsal.faults.empty())
                 throw core::Error(core::ErrorKind::badContent, fmt::format("{}", fmt::join(rehearsal.faults, "\n")));

@@ -73,29 +73,34 @@ void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
     if (!touchesAny(world)) return;
     struct Pair {
         std::set<int> edges;
-        BodyCrossing deepest;
+        double depth = -1;
+        dvec3 place{0.0};  // of the deepest
     };
     std::map<std::pair<std::string, std::string>, Pair> pairs;
-    for (const BodyCrossing& crossing : crossingsOf(world)) {
-        const bool isInOrder = !sortsBefore(*crossing.ofTriangle, *crossing.ofEdge);
-        const Body &a = isInOrder ? *crossing.ofEdge : *crossing.ofTriangle,
-                   &b = isInOrder ? *crossing.ofTriangle : *crossing.ofEdge;
-        Pair& pair = pairs[{a.fullName(), b.fullName()}];
+    makeContactStage(world);
+    ContactStage& stage = *world.contactStage;
+    for (const contact::Crossing& crossing : stage.crossings()) {
+        const auto sides = stage.sidesOf(crossing);
+        if (!sides) continue;
+        Pair& pair = pairs[{stage.nameOf(sides->first), stage.nameOf(sides->second)}];
         pair.edges.insert(crossing.edge);
-        if (pair.deepest.ofEdge == nullptr || crossing.depth > pair.deepest.depth) pair.deepest = crossing;
+        if (const double depth = stage.depthOf(crossing); depth > pair.depth) {
+            pair.depth = depth;
+            pair.place = crossing.place;
+        }
     }
     std::size_t count = 0;
     for (const auto& [names, pair] : pairs) {
         if (++count > mostDoubts) break;
         const bool isOne = names.first == names.second;
-        const dvec3 x = pair.deepest.place;
+        const dvec3 x = pair.place;
         doubts.push_back(fmt::format(
             "{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
             "start {} further off",
             isOne ? names.first + " goes through itself"
                   : names.first + " and " + names.second + " go through each other",
             isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
-            inLength(pair.deepest.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
+            inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
     }
     if (pairs.size() > mostDoubts)
         doubts.push_back(fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));

@@ -36,7 +36,8 @@ class LookAhead {
         double work = 0;
         try {
             while (world.tick() < last && work < most && !world.advance()) {
-                for (const BodyContact& c : w.contactReport.contacts()) add(*c.first, *c.second);
+                for (const BodyContact& c : w.contactReport.contacts())
+                    if (c.first != nullptr && c.second != nullptr) add(*c.first, *c.second);
                 for (const contact::Crossing& c : w.contactStage->crossingsBefore()) add(*w.contactStage, c);
                 work = workOf(w);
             }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/core/file_part.h"
 #include "taut/core/whole_file.h"
 #include "taut/geometry/private/far_lights.h"
 #include "taut/geometry/private/format_table.h"
@@ -20,8 +21,6 @@
 
 namespace taut::geometry {
 namespace {
-
-constexpr std::uint64_t mostTexture = std::uint64_t{64} << 20U;  // [bytes]
 
 template <class T>
 bool isConstant(const std::vector<T>& values) {
@@ -162,7 +161,7 @@ std::string GlbWriter::Impl::texture(const view::Finish& finish) {
     if (finish.pattern != view::Pattern::image || finish.texture.empty()) return "";
     const std::string ending = endingOf(finish.texture);
     if (ending != ".png" && ending != ".jpg" && ending != ".jpeg") return "";
-    const std::string content = core::fileContent(finish.texture, mostTexture);
+    const std::string content = core::filePartContent(finish.texture);
     const std::size_t view = data.addBytes(std::as_bytes(std::span(content)));
     const std::size_t image = images.add(
         fmt::format(R"({{"bufferView":{},"mimeType":"image/{}"}})", view, ending == ".png" ? "png" : "jpeg"));

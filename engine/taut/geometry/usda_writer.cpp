@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/core/file_part.h"
 #include "taut/core/whole_file.h"
 #include "taut/geometry/private/far_lights.h"
 #include "taut/geometry/private/format_table.h"
@@ -247,6 +248,11 @@ std::string UsdaWriter::Impl::materialText(const std::string& name, const view::
     if (hasImage) {
         std::error_code failed;
         std::filesystem::path image = std::filesystem::absolute(finish.texture, failed).lexically_normal();
+        if (core::isFilePart(finish.texture)) {  // USD has no such names
+            image = std::filesystem::absolute(path, failed).replace_extension().string() + "-" + name +
+                    image.extension().string();
+            core::writeWholeFile(image, core::filePartContent(finish.texture));
+        }
         const auto beside = std::filesystem::relative(image, std::filesystem::absolute(path).parent_path(), failed);
         if (!failed && !beside.empty()) image = beside;
         out += fmt::format(

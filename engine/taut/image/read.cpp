@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/core/whole_file.h"
+#include "taut/core/file_part.h"
 
 namespace taut::image {
 namespace {
@@ -87,7 +87,7 @@ Image jpegImage(const std::filesystem::path& path, const std::string& content, s
 }
 
 Image read(const std::filesystem::path& path, std::int64_t maxPixels, bool keepsAlpha) {
-    const std::string content = core::fileContent(path, mostFileBytes);
+    const std::string content = core::filePartContent(path, mostFileBytes);
     if (content.empty()) fail(path, "the file is empty");
     if (content.starts_with("\x89PNG\r\n\x1a\n")) return pngImage(path, content, maxPixels, keepsAlpha);
     if (content.starts_with("\xFF\xD8")) return jpegImage(path, content, maxPixels);

@@ -19,6 +19,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/private/hash.h"
+#include "taut/core/file_part.h"
 #include "taut/core/whole_file.h"
 #include "taut/figure/figure.h"
 
@@ -85,6 +86,11 @@ class GltfReader {
         core::Hash hash;
         hash.add(bytes);
         tinygltf::TinyGLTF loader;
+        if (bytes.starts_with("glTF") && bytes.size() > 28) {
+            std::uint32_t textLength = 0;
+            std::memcpy(&textLength, bytes.data() + 12, sizeof textLength);
+            binaryStart_ = std::uint64_t{28} + textLength;  // behind a head, the text, and the head of each chunk
+        }
         loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                                  void*) { return true; }, nullptr);
         loader.SetFsCallbacks(
@@ -540,7 +546,15 @@ class GltfReader {
             piece.texture = (path_.parent_path() / tinygltf::dlib::urldecode(image.uri)).string();
             return;
         }
-        note("pictures within the file");
+        if (image.bufferView >= 0 && binaryStart_ > 0) {
+            const tinygltf::BufferView& view = at(model_.bufferViews, image.bufferView, "bufferView");
+            if (view.buffer == 0) {
+                piece.texture = core::filePartName(path_, binaryStart_ + view.byteOffset, viewed(image.bufferView).size(),
+                                                   image.mimeType == "image/png" ? ".png" : ".jpg");
+                return;
+            }
+        }
+        note("pictures in its text or in its buffers");
     }
 
     // ---- the end ----
@@ -577,6 +591,7 @@ class GltfReader {
     const Confinement& confinement_;
     tinygltf::Model model_;
     core::Hash hash_;
+    std::uint64_t binaryStart_ = 0;  // of a GLB: where in the file its buffer begins
     std::shared_ptr<Figure> figure_;
     world::MeshData mesh_;
     std::vector<bool> isDrawn_;  // (nodes of the file) in its scene

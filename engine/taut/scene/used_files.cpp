@@ -50,6 +50,8 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
     }
     for (const world::ColliderSpec& collider : scene.colliders) {
         files.add(collider.mesh);
+        if (collider.meshData != nullptr)
+            for (const std::string& named : collider.meshData->files) files.add(named);
         files.add(collider.finish.texture);
         for (const world::ColliderSpec& part : collider.parts) {
             files.add(part.mesh);

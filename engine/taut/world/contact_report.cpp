@@ -10,16 +10,6 @@
 namespace taut::world {
 namespace {
 
-// [m] Distance of the closer end of the edge from the triangle's plane.
-double depthOf(const ContactStage& stage, const contact::Crossing& crossing) {
-    const auto at = [&](std::size_t k) { return stage.position(crossing.points[k]); };
-    const dvec3 normal = glm::cross(at(3) - at(2), at(4) - at(2));
-    const double size = std::sqrt(glm::dot(normal, normal));
-    if (!(size > 0)) return 0;
-    const double a = std::abs(glm::dot(normal, at(0) - at(2))), b = std::abs(glm::dot(normal, at(1) - at(2)));
-    return std::min(a, b) / size;
-}
-
 constexpr std::uint64_t spansMark = 0xfff8'7461'7574'0005ULL;  // a NaN
 
 // With the time: "since 1.20 s", "from 1.20 s to 1.35 s".
@@ -48,29 +38,25 @@ std::vector<BodyCrossing> crossingsOf(ContactStage& stage) {
         const auto& elements = stage.elements();
         const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
         const int triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
-        if (!stage.isOfBody(edge)) continue;  // an edge of a collider out of a face is no crossing of bodies
+        if (!stage.isOfBody(edge) || !stage.isOfBody(triangle)) continue;
         all.push_back(
-            {crossing.place, depthOf(stage, crossing), &stage.bodyOf(edge), &stage.bodyOf(triangle), crossing.edge});
+            {crossing.place, stage.depthOf(crossing), &stage.bodyOf(edge), &stage.bodyOf(triangle), crossing.edge});
     }
     return all;
 }
 
 void ContactReport::look(const ContactStage& stage, double start) {
     contacts_.clear();
+    const auto bodyOf = [&](int surface) { return stage.isOfBody(surface) ? &stage.bodyOf(surface) : nullptr; };
     hadImpulse_ = hadImpulse_ || stage.hadImpulse();
     for (const contact::ContactPoint& c : stage.contacts())
-        if (stage.isOfBody(c.surfaceA) && stage.isOfBody(c.surfaceB))
-            contacts_.push_back({c.place, c.normal, c.impulse, &stage.bodyOf(c.surfaceA), &stage.bodyOf(c.surfaceB)});
-    // Edges that cross, by the names of both bodies.
+        if (!stage.elements().isRigid(c.surfaceA) && !stage.elements().isRigid(c.surfaceB))
+            contacts_.push_back({c.place, c.normal, c.impulse, bodyOf(c.surfaceA), bodyOf(c.surfaceB)});
+    // Edges that cross, by the names of both sides: two bodies, or a body and a figure.
     std::map<std::pair<std::string, std::string>, std::set<int>> edges;
     for (const contact::Crossing& crossing : stage.crossingsBefore()) {
-        const auto& elements = stage.elements();
-        const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
-        if (!stage.isOfBody(edge)) continue;
-        const Body* a = &stage.bodyOf(edge);
-        const Body* b = &stage.bodyOf(elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface);
-        if (sortsBefore(*b, *a)) std::swap(a, b);
-        edges[{a->fullName(), b->fullName()}].insert(crossing.edge);
+        if (const auto sides = stage.sidesOf(crossing))
+            edges[{stage.nameOf(sides->first), stage.nameOf(sides->second)}].insert(crossing.edge);
     }
     // Updates old warnings: crossings go on, end, or come back.
     for (Said& said : said_) {
@@ -96,7 +82,7 @@ void ContactReport::look(const ContactStage& stage, double start) {
 }
 
 void ContactReport::forget(const Body& body) {
-    std::erase_if(contacts_, [&](const BodyContact& c) { return c.first == &body || c.second == &body; });
+    std::erase_if(contacts_, [&](const BodyContact& c) { return c.isOf(body); });
     for (Said& said : said_)
         if (said.first == body.fullName() || said.second == body.fullName()) said.isOn = false;
 }
@@ -121,8 +107,9 @@ void ContactReport::visit(StateBytes& bytes, std::span<const Body* const> bodies
         bytes(c.impulse);
         for (const Body** body : {&c.first, &c.second}) {
             auto number = static_cast<std::int64_t>(std::find(bodies.begin(), bodies.end(), *body) - bodies.begin());
-            bytes.atLeast(number, 0, static_cast<std::int64_t>(bodies.size()) - 1);
-            *body = bodies[static_cast<std::size_t>(number)];
+            const auto count = static_cast<std::int64_t>(bodies.size());  // of a figure
+            bytes.atLeast(number, 0, count);
+            *body = number < count ? bodies[static_cast<std::size_t>(number)] : nullptr;
         }
     });
     if (!bytes.mark(spansMark, !said_.empty())) return;

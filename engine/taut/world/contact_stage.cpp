@@ -106,10 +106,35 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     x0_ = x1_;
 }
 
-double ContactStage::facePenetration(const std::function<bool(const Body&)>& wanted) {
-    if (isEmpty() || colliders_.isEmpty()) return 0.0;
-    return contact::penetrationOf(group_->elements(), crossings(), x1_,
-                                  [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); });
+std::optional<std::pair<int, int>> ContactStage::sidesOf(const contact::Crossing& crossing) const {
+    int a = elements().edges()[static_cast<std::size_t>(crossing.edge)].surface;
+    int b = elements().triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
+    if (elements().isRigid(a)) return std::nullopt;
+    if (!isOfBody(a) || (isOfBody(b) && sortsBefore(bodyOf(b), bodyOf(a)))) std::swap(a, b);
+    return std::pair{a, b};
+}
+
+double ContactStage::depthOf(const contact::Crossing& crossing) const {
+    const auto at = [&](std::size_t k) { return position(crossing.points[k]); };
+    const dvec3 normal = glm::cross(at(3) - at(2), at(4) - at(2));
+    const double size = std::sqrt(glm::dot(normal, normal));
+    if (!(size > 0)) return 0;
+    const double a = std::abs(glm::dot(normal, at(0) - at(2))), b = std::abs(glm::dot(normal, at(1) - at(2)));
+    return std::min(a, b) / size;
+}
+
+ContactStage::Penetration ContactStage::penetration(const std::function<bool(const Body&)>& wanted) {
+    Penetration all;
+    if (isEmpty() || colliders_.isEmpty()) return all;
+    const auto isWanted = [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); };
+    all.deepest = contact::penetrationOf(elements(), crossings(), x1_, isWanted);
+    for (const contact::Crossing& crossing : crossings_) {
+        const auto sides = sidesOf(crossing);
+        if (!sides || isOfBody(sides->second) || !isWanted(sides->first)) continue;
+        ++all.figureCrossings;
+        all.deepest = std::max(all.deepest, depthOf(crossing));
+    }
+    return all;
 }
 
 // Takes over which triangles and edges damage has removed since the last time.

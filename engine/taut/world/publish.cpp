@@ -56,11 +56,13 @@ void addMarks(const Island& island, view::Marks& marks) {
         marks.dots.push_back({glm::vec3(contact.position), glm::vec3(0.1F, 0.85F, 0.2F), 2.5F});
 }
 
-// Marks contact between bodies: pressing pairs by a line as long as their distance, and crossings.
+// Marks contact between surfaces: pressing pairs by a line as long as their distance, and crossings.
 void addTouchMarks(WorldImpl& w, view::Marks& marks) {
     const glm::vec3 pressing(0.05F, 0.75F, 0.95F), crossing(1.0F, 0.0F, 0.1F);
     for (const BodyContact& c : w.contactReport.contacts()) {
-        const dvec3 way = 0.5 * (c.first->spec->thickness + c.second->spec->thickness) * c.normal;
+        double thickness = 0;
+        for (const Body* body : {c.first, c.second}) thickness += body != nullptr ? body->spec->thickness : 0;
+        const dvec3 way = 0.5 * thickness * c.normal;
         marks.lines.push_back({glm::vec3(c.place - way), glm::vec3(c.place + way), pressing});
         marks.dots.push_back({glm::vec3(c.place), pressing, 2.5F});
     }

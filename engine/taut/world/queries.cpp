@@ -22,12 +22,17 @@ Metrics metricsOf(WorldImpl& w, const std::function<bool(const Body&)>& wanted, 
     metrics.time = w.seconds();
     for (const auto& island : w.islands) addMetrics(*island, w.now(), wanted, metrics);
     const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
-    for (const BodyContact& contact : w.contactReport.contacts())
-        metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
+    for (const BodyContact& contact : w.contactReport.contacts()) {
+        const auto isOfWanted = [&](const Body* body) { return body != nullptr && counts(*body); };
+        if (!isOfWanted(contact.first) && !isOfWanted(contact.second)) continue;
+        ++(contact.first != nullptr && contact.second != nullptr ? metrics.bodyContacts : metrics.contacts);
+    }
     if (what == Measures::butCrossings || !touchesAny(w)) return metrics;
     for (const BodyCrossing& crossing : crossingsOf(w))
         metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
-    metrics.facePenetration = w.contactStage->facePenetration(wanted);
+    const ContactStage::Penetration penetration = w.contactStage->penetration(wanted);
+    metrics.crossings += penetration.figureCrossings;
+    metrics.facePenetration = penetration.deepest;
     return metrics;
 }
 

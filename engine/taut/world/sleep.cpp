@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "taut/world/private/impl.h"
 
@@ -72,13 +73,42 @@ void endWindow(WorldImpl& w) {
     }
 }
 
+// [m] What figures that move in this tick sweep.
+std::vector<core::Aabb> figuresOnTheWay(const WorldImpl& w) {
+    std::vector<core::Aabb> boxes;
+    w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        if (part.model->figure == nullptr) return;
+        const std::vector<dvec3> from = part.model->figure->at(w.now().start(), placement.from).places();
+        const std::vector<dvec3> to = part.model->figure->at(w.now().end(), placement.to).places();
+        if (from == to) return;
+        core::Aabb& box = boxes.emplace_back();
+        for (const auto* places : {&from, &to})
+            for (const dvec3& x : *places) box.add(x);
+    });
+    return boxes;
+}
+
+bool isNear(const Island& island, const core::Aabb& box) {
+    double thickness = 0;
+    for (const Body* body : island.plan().bodies)
+        if (body->spec->collide) thickness = std::max(thickness, body->spec->thickness);
+    if (!(thickness > 0)) return false;
+    core::Aabb own;
+    for (int i = 0; i < std::ssize(island.plan().points); ++i) own.add(island.position(i));
+    return own.overlaps(box, thickness);
+}
+
 }  // namespace
 
 void wakeReached(WorldImpl& w, std::span<const ColliderMotion> moving) {
     std::vector<std::int64_t> companies;
+    std::optional<std::vector<core::Aabb>> figures;
     for (const auto& island : w.islands) {
         if (!island->isAsleep()) continue;
-        const bool isReached = island->isReachedBy(moving);
+        if (!figures) figures = figuresOnTheWay(w);
+        const bool isReached =
+            island->isReachedBy(moving) ||
+            std::any_of(figures->begin(), figures->end(), [&](const core::Aabb& box) { return isNear(*island, box); });
         if (isReached || island->isOpen()) companies.push_back(island->company());
     }
     if (companies.empty()) return;

@@ -10,11 +10,12 @@
 
 namespace taut::world {
 
-// Two bodies that press on each other, at one place.
+// Two bodies that press on each other, or a body and a figure, at one place.
 struct BodyContact {
     dvec3 place{0.0}, normal{0.0};  // [m] midpoint; unit, towards the first
     double impulse = 0;             // [N s] of the last instant
-    const Body *first = nullptr, *second = nullptr;
+    const Body *first = nullptr, *second = nullptr;  // null: the figure
+    bool isOf(const Body& body) const { return first == &body || second == &body; }
 };
 
 // An edge that pierces a triangle.
@@ -36,7 +37,7 @@ class ContactReport {
 
     const std::vector<BodyContact>& contacts() const { return contacts_; }  // at the end of the last tick
     bool hadImpulse() const { return hadImpulse_; }                   // at any time since it was made
-    // One warning for each pair of bodies that cross or have crossed.
+    // One warning for each pair of bodies, or of a body and a figure, that cross or have crossed.
     std::vector<std::string> warnings() const;
 
     bool isWorthSaving() const { return !said_.empty() || !contacts_.empty(); }
@@ -46,7 +47,7 @@ class ContactReport {
   private:
     // A warning.
     struct Said {
-        std::string first, second;    // bodies; equal if one crosses itself
+        std::string first, second;    // equal if a body crosses itself
         std::string text;             // while they cross
         double since = 0, until = 0;  // [s] of the last time
         std::int64_t edges = 0;       // that crossed at the start of the last time

@@ -99,8 +99,17 @@ class ContactStage {
     std::string nameOf(int surface) const {
         return isOfBody(surface) ? bodyOf(surface).fullName() : colliders_.nameOf(surface);
     }
-    // [m] The height of colliders' edges out of triangles of wanted bodies, between two ticks. See penetrationOf().
-    double facePenetration(const std::function<bool(const Body&)>& wanted);
+    // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
+    // rigid collider sticks out of a face, which is no crossing.
+    std::optional<std::pair<int, int>> sidesOf(const contact::Crossing& crossing) const;
+    double depthOf(const contact::Crossing& crossing) const;  // [m] of the edge's closer end behind the triangle's plane
+    // How far colliders stick out of triangles of wanted bodies, between two ticks: edges of rigid ones as
+    // penetrationOf() measures it, and figures as depthOf() does.
+    struct Penetration {
+        double deepest = 0;       // [m]
+        int figureCrossings = 0;  // edges of bodies through figures, or the other way round
+    };
+    Penetration penetration(const std::function<bool(const Body&)>& wanted);
 
   private:
     // The range of an island in the group's points.

@@ -1,0 +1,14 @@
+// What the files of a scene's figures hold.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace taut::world {
+
+struct SceneSpec;
+
+// A text for each figure: its size, the names of its animations and joints, and what of its file is not read.
+std::vector<std::string> figureNotes(const SceneSpec& scene);
+
+}  // namespace taut::world

@@ -6,7 +6,7 @@ goldens=$1/tests/golden
 rm -rf "$2"
 mkdir -p "$2"
 cd "$2"
-mkdir scene timeline check overrides obj image light tape manifest play world
+mkdir scene timeline check overrides gltf obj image light tape manifest play world
 
 cp "$assets"/scenes/*.toml scene
 # One of each kind, as in the small scene of fuzz.h.
@@ -22,6 +22,8 @@ for file in "$assets"/scenes/*.toml; do
     awk '/^\[\[/ { head = "" } /^\[[a-z]/ { head = substr($1, 2, length($1) - 2) } /^[a-z_A-Z]+ = [^\[{]*$/ && head { print head "." $1 "=" $3 }' \
         "$file" | sed -E "$sed_names" | split -l 4 - "overrides/$(basename "$file" .toml)-"
 done
+cp "$1/tests/support/arm.gltf" gltf
+
 for file in "$assets"/models/*.obj; do
     name=$(basename "$file" .obj)
     # The first of each kind of line, with faces of the first vertices.

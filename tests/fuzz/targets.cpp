@@ -7,6 +7,7 @@ namespace taut::fuzz {
 std::span<const Target> targets() {
     static constexpr Target all[] = {
         {"check", readCheck},
+        {"gltf", readGltf},
         {"image", readImage, changedImage},
         {"light", readLightImage},
         {"manifest", readManifest},

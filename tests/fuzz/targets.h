@@ -30,6 +30,7 @@ void give(const Target& target, View bytes);
 Bytes changed(const Target& target, Bytes bytes, const Change& change, unsigned number);
 
 void readCheck(View bytes);
+void readGltf(View bytes);
 void readImage(View bytes);
 void readLightImage(View bytes);
 void readManifest(View bytes);

@@ -2,6 +2,7 @@ list(APPEND TAUT_UNIT_TESTS
   fuzz_play_test.cpp
   fuzz_targets_test.cpp
   ../fuzz/check.cpp
+  ../fuzz/gltf.cpp
   ../fuzz/image.cpp
   ../fuzz/manifest.cpp
   ../fuzz/obj.cpp

@@ -8,6 +8,7 @@ list(APPEND TAUT_UNIT_TESTS
   scene_fields_test.cpp
   scene_files_test.cpp
   scene_fit_errors_test.cpp
+  scene_gltf_test.cpp
   scene_inheritance_test.cpp
   scene_label_test.cpp
   scene_merge_test.cpp

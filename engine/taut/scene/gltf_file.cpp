@@ -55,8 +55,8 @@ class GltfReader {
     GltfReader(const std::filesystem::path& path, const Confinement& confinement)
         : path_(path), confinement_(confinement), figure_(std::make_shared<Figure>()) {}
 
-    world::MeshData read() {
-        parse();
+    world::MeshData read(std::string_view bytes) {
+        parse(bytes);
         readNodes();
         for (const tinygltf::Skin& skin : model_.skins) readSkin(skin);
         for (std::size_t n = 0; n < model_.nodes.size(); ++n)
@@ -81,8 +81,7 @@ class GltfReader {
 
     // ---- the file and those that it names ----
 
-    void parse() {
-        const std::string bytes = core::fileContent(path_, maxFileSize);
+    void parse(std::string_view bytes) {
         core::Hash hash;
         hash.add(bytes);
         tinygltf::TinyGLTF loader;
@@ -606,7 +605,12 @@ class GltfReader {
 }  // namespace
 
 world::MeshData gltfMesh(const std::filesystem::path& path, const Confinement& confinement) {
-    return GltfReader(path, confinement).read();
+    return gltfMeshText(core::fileContent(path, maxFileSize), path, confinement);
+}
+
+world::MeshData gltfMeshText(std::string_view bytes, const std::filesystem::path& path,
+                             const Confinement& confinement) {
+    return GltfReader(path, confinement).read(bytes);
 }
 
 }  // namespace taut::scene

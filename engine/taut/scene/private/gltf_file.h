@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "taut/scene/private/text_file.h"
 #include "taut/spec/mesh_data.h"
@@ -14,5 +15,8 @@ namespace taut::scene {
 // error: …") for anything that breaks the format, in the words of glTF, for numbers that are not finite, a file without
 // triangles, and extensions without which it cannot be understood.
 world::MeshData gltfMesh(const std::filesystem::path& path, const Confinement& confinement);
+
+// The same for the contents of such a file; the path appears in messages, and other files lie beside it.
+world::MeshData gltfMeshText(std::string_view bytes, const std::filesystem::path& path, const Confinement& confinement);
 
 }  // namespace taut::scene

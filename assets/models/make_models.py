@@ -103,6 +103,19 @@ def surface_net(distance, low, counts, cell):
         return (low[0] + i * cell, low[1] + j * cell, low[2] + k * cell)
 
     value = {(i, j, k): distance(at(i, j, k)) for i in range(nx) for j in range(ny) for k in range(nz)}
+    # Where a square of the grid is inside at two opposite corners only, two sheets would meet in an edge: fill it.
+    squares = [((1, 0, 0), (0, 1, 0)), ((0, 1, 0), (0, 0, 1)), ((0, 0, 1), (1, 0, 0))]
+    filled = True
+    while filled:
+        filled = False
+        for i, j, k in value:
+            for u, v in squares:
+                across = [(i, j, k), (i + u[0] + v[0], j + u[1] + v[1], k + u[2] + v[2])]
+                other = [(i + u[0], j + u[1], k + u[2]), (i + v[0], j + v[1], k + v[2])]
+                inside = [value.get(c, 1.0) < 0 for c in across + other]
+                if inside in ([True, True, False, False], [False, False, True, True]):
+                    value[min(other if inside[0] else across, key=value.get)] = -1e-6
+                    filled = True
     corners = [(a, b, c) for a in (0, 1) for b in (0, 1) for c in (0, 1)]
     pairs = [(a, b) for a in corners for b in corners if a < b and sum(x != y for x, y in zip(a, b)) == 1]
     number, vertices = {}, []

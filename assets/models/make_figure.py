@@ -18,7 +18,7 @@ import struct
 
 import numpy as np
 
-from figure_motion import ANKLE, BALL, ELBOW, HIP, JOINTS, KNEE, NAMES, PARENT, PLACE, SHOULDER, SIDES, WALK_SPEED
+from figure_motion import ANKLE, ELBOW, HIP, JOINTS, KNEE, NAMES, PARENT, PLACE, SHOULDER, SIDES, WALK_SPEED
 from figure_motion import ALONG_ARM, WALK_TIME, WRIST, dance, joints_at, make_clip, smooth, turn, walk
 from make_models import HERE, assert_watertight, capsule, ellipsoid, project, smooth_union, surface_net
 

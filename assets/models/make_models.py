@@ -2,6 +2,7 @@
 """Makes the meshes and pictures that the shipped scenes use: *.obj here and *.png in ../textures.
 
 Plain Python, no packages. Run it from anywhere; it writes the same bytes each time.
+The figure that moves, figure.glb, comes from make_figure.py.
 Lengths in metres, y up. Faces are counter-clockwise seen from outside, or from above for the poncho.
 """
 import math

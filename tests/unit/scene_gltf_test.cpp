@@ -109,10 +109,10 @@ TEST(SceneGltf, AnAnimationOrJointThatIsNotThereIsNamed) {
     folder.write("arm.gltf", armText());
     const std::string scene = "schema = 1\n[collider.f]\nshape = \"figure\"\nmesh = \"arm.gltf\"\n";
     EXPECT_EQ(folder.messageOf(scene), "");
-    EXPECT_EQ(folder.messageOf(scene + "[material.m]\n[rope.r]\nmaterial = \"m\"\nhold = [\"start\"]\n"
+    EXPECT_EQ(folder.messageOf(scene + "[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\nhold = [\"start\"]\n"
                                        "hold_on = 'collider.f.\"uper\"'\n"),
-              "s.toml:9:11: error: collider.f has no joint \"uper\"\n  hold_on = 'collider.f.\"uper\"'\n"
-              "            ^ did you mean \"upper\"?\n");
+              "s.toml:8:11: error: collider.f has no joint \"uper\"\n  hold_on = 'collider.f.\"uper\"'\n"
+              "            ^ did you mean \"upper\"?");
     try {
         const world::World world(folder.load(scene + "animation = \"walk\"\n").spec);
         FAIL();

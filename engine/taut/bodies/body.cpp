@@ -215,4 +215,9 @@ bool bodiesTouch(const SceneSpec& spec) {
         spec.bodies.begin(), spec.bodies.end(), [](const BodySpec& body) { return body.touch != Touch::nothing; });
 }
 
+void meetFigures(SceneSpec& spec) {
+    if (std::any_of(spec.colliders.begin(), spec.colliders.end(), [](const auto& c) { return c.shape == "figure"; }))
+        for (BodySpec& body : spec.bodies) body.meetsFaces = body.collide;
+}
+
 }  // namespace taut::world

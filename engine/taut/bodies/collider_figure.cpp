@@ -29,6 +29,15 @@ glm::dquat turnOf(const glm::dmat3& axes) {
                                                                             : glm::dquat(1, 0, 0, 0);
 }
 
+// The node with the largest weight.
+int mainNodeOf(const figure::Figure& figure, const figure::Part& part, std::size_t vertex) {
+    if (part.skin < 0) return part.node;
+    const auto first = part.influences.begin() + static_cast<std::ptrdiff_t>(part.firstInfluence[vertex]);
+    const auto last = part.influences.begin() + static_cast<std::ptrdiff_t>(part.firstInfluence[vertex + 1]);
+    const auto most = std::max_element(first, last, [](const auto& a, const auto& b) { return a.weight < b.weight; });
+    return figure.skins[static_cast<std::size_t>(part.skin)].joints[static_cast<std::size_t>(most->joint)];
+}
+
 // The colours of the file, where the scene gives none.
 std::shared_ptr<const view::Finish> finishOf(const figure::Piece& piece, const ColliderSpec& spec) {
     if (spec.ownFinish) return finishOf(*spec.ownFinish);
@@ -62,6 +71,8 @@ ColliderFigure::ColliderFigure(const ColliderSpec& spec)
         }
     }
     for (const dvec3& x : mesh_->positions) atRest_.push_back(scale_ * x);
+    for (const figure::Part& part : figure.parts)
+        for (std::size_t i = 0; i < part.positions.size(); ++i) ranks_.push_back(mainNodeOf(figure, part, i));
     for (const figure::Piece& piece : figure.pieces) {
         topologies_.push_back(std::make_shared<const view::Topology>(view::Topology{piece.triangles, piece.uv}));
         finishes_.push_back(finishOf(piece, spec));

@@ -23,6 +23,7 @@ struct ContactConstraint {
     bool isActive;          // the solver gets it; else it only needs a certificate
     std::uint64_t leaves = 0;  // the LeafPair that it was found for
     double recovery = 1.0;  // 0 … 1: share by which an overlap is taken back, see convexityOf()
+    double softness = 0.0;  // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]
     // By leaves, then as in a list of candidates: points and triangles by the triangle, then edges.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "taut/contact/certificate.h"
 #include "taut/contact/closest_points.h"
@@ -12,6 +13,9 @@ namespace {
 
 constexpr int mostSlides = 8, mostZones = 12;
 constexpr double apartSpeed = 0.3;  // [m/s] at which crossings come apart
+constexpr int mostSqueezes = 3;  // rounds of letting through
+constexpr double oneSided = 0.5;  // share of impulses that does not cancel
+constexpr double squeezedShare = 3e-4;  // of the thickness, by which soft pairs of squeezed points yield in an instant
 
 // Sorts, and removes duplicates. Usually there is nothing to do.
 void makeAscending(std::vector<int>& points) {
@@ -139,7 +143,7 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
     makeAscending(moved_);
     broadPhase_.finish(pending_, instant.x0, instant.x1);
     result_.moved = moved_;
-    isCertified_ = isCertified_ && options_.certifies && result_.uncertified == 0;
+    isCertified_ = isCertified_ && options_.certifies && result_.uncertified == 0 && squeezed_.empty();
     if (isCertified_) xCertified_.assign(instant.x1.begin(), instant.x1.end());
     return result_;
 }
@@ -174,12 +178,21 @@ void ContactGroup::solveActive(const Instant& instant) {
         v_[k] = instant.v[k];
         shift_[k] = dvec3(0.0);
     };
-    for (const ContactConstraint& pair : active_)
-        for (int i : pair.points) load(i);
-    for (const Crossing& crossing : crossings_)
-        for (int i : crossing.points) load(i);
+    const auto loadAll = [&] {
+        for (const ContactConstraint& pair : active_)
+            for (int i : pair.points) load(i);
+        for (const Crossing& crossing : crossings_)
+            for (int i : crossing.points) load(i);
+    };
+    loadAll();
 
     solver_.solve(active_, instant.kinematic, instant.inverseMass, instant.h, options_.solver, u_, v_, shift_);
+    squeezed_.clear();
+    for (int round = 0; round < mostSqueezes && findSqueezed(instant); ++round) {
+        std::erase_if(active_, [&](const ContactConstraint& pair) { return isLetThrough(pair); });
+        loadAll();
+        solver_.solve(active_, instant.kinematic, instant.inverseMass, instant.h, options_.solver, u_, v_, shift_);
+    }
 
     for (std::size_t p = 0; p < active_.size(); ++p) {
         if (!(solver_.impulses()[p] > 0)) continue;
@@ -188,6 +201,71 @@ void ContactGroup::solveActive(const Instant& instant) {
     }
     makeAscending(result_.surfaces);
     result_.sweeps = solver_.sweeps();
+}
+
+// Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw it
+// out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others may go
+// through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster than its
+// softness explains. Returns whether any is, beyond those known.
+bool ContactGroup::findSqueezed(const Instant& instant) {
+    struct Pressed {
+        dvec3 sum{0.0};   // [N s] of impulses
+        double size = 0;  // [N s] sum of their sizes
+        bool yields = false;
+        int lowest = 1 << 30, highest = -1;  // rank
+    };
+    if (std::none_of(active_.begin(), active_.end(), [](const auto& pair) { return pair.softness > 0; })) return false;
+    std::map<int, Pressed> pressed;  // by point
+    for (std::size_t p = 0; p < active_.size(); ++p) {
+        const ContactConstraint& pair = active_[p];
+        const double impulse = solver_.impulses()[p];
+        if (!(impulse > 0)) continue;
+        double inverse = 0;
+        for (std::size_t k = 0; k < 4; ++k)
+            inverse += pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
+        const bool yields = pair.softness * inverse * impulse * instant.h > squeezedShare * pair.thickness;
+        for (std::size_t k = 0; k < 4; ++k) {
+            Pressed& own = pressed[pair.points[k]];
+            own.sum += (pair.weights[k] * impulse) * pair.normal;
+            own.size += std::abs(pair.weights[k]) * impulse;
+            own.yields = own.yields || yields;
+            if (!(pair.softness > 0)) continue;
+            own.lowest = std::min(own.lowest, rankOf(pair));
+            own.highest = std::max(own.highest, rankOf(pair));
+        }
+    }
+    bool isAny = false;
+    for (const auto& [point, own] : pressed) {
+        if (!own.yields || !(instant.inverseMass[static_cast<std::size_t>(point)] > 0)) continue;
+        if (length(own.sum) >= oneSided * own.size) continue;
+        const int kept = own.lowest < own.highest ? own.lowest : -1;
+        const auto [known, isNew] = squeezed_.try_emplace(point, kept);
+        isAny = isAny || isNew || kept < known->second;
+        known->second = std::min(known->second, kept);
+    }
+    return isAny;
+}
+
+// Of the driven side of a pair: that of its heaviest point.
+int ContactGroup::rankOf(const ContactConstraint& pair) const {
+    double most = 0;
+    int rank = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const ContactSurface& surface = elements_.surface(elements_.surfaceOf(pair.points[k]));
+        if (!surface.isDriven || !(std::abs(pair.weights[k]) > most)) continue;
+        most = std::abs(pair.weights[k]);
+        rank = surface.ranks[static_cast<std::size_t>(pair.points[k] - surface.points.front())];
+    }
+    return rank;
+}
+
+bool ContactGroup::isLetThrough(const ContactConstraint& pair) const {
+    if (squeezed_.empty() || !(pair.softness > 0)) return false;
+    const int rank = rankOf(pair);
+    return std::any_of(pair.points.begin(), pair.points.end(), [&](int i) {
+        const auto found = squeezed_.find(i);
+        return found != squeezed_.end() && rank > found->second;
+    });
 }
 
 std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
@@ -249,7 +327,7 @@ void ContactGroup::untangle(const Instant& instant) {
 std::vector<const ContactConstraint*> ContactGroup::uncertified(const Instant& instant) const {
     std::vector<const ContactConstraint*> bad;
     for (const ContactConstraint& pair : tested_)
-        if (!isCertified(pair, instant.x0, instant.x1)) bad.push_back(&pair);
+        if (!isCertified(pair, instant.x0, instant.x1) && !isLetThrough(pair)) bad.push_back(&pair);
     return bad;
 }
 

@@ -30,6 +30,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <map>
 #include <vector>
 
 #include "taut/contact/broad_phase.h"
@@ -120,6 +121,8 @@ class ContactGroup {
         for (std::size_t p = 0; p < active_.size() && p < solver_.impulses().size(); ++p)
             if (solver_.impulses()[p] > 0) each(active_[p], solver_.impulses()[p], solver_.frictions()[p]);
     }
+    // Points that parts of driven surfaces closed upon in the last instant, ascending; with them what still presses.
+    const std::map<int, int>& squeezed() const { return squeezed_; }
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
     std::size_t activeCount() const { return active_.size(); }  // pairs that went to the solver
     std::size_t listsMade() const { return broadPhase_.listsMade(); }
@@ -130,6 +133,9 @@ class ContactGroup {
     void detect(std::span<const dvec3> x0, std::span<const dvec3> x1);  // broad and narrow phase -> tested_
     void selectActive(const Instant& instant);                          // tested_ -> active_
     void solveActive(const Instant& instant);                           // active_ -> u_, v_, shift_
+    bool findSqueezed(const Instant& instant);                          // active_ -> squeezed_
+    int rankOf(const ContactConstraint& pair) const;
+    bool isLetThrough(const ContactConstraint& pair) const;
     void untangle(const Instant& instant);                              // crossings_ -> u_, v_
     std::vector<int> applyVelocities(const Instant& instant) const;     // u_, v_, shift_ -> x1, v; the moved points
     void handOver(const Instant& instant, std::span<const int> points);
@@ -166,6 +172,7 @@ class ContactGroup {
     std::vector<ContactConstraint> active_;                // pairs of tested_ that the solver gets
     std::vector<std::vector<ContactConstraint>> perTask_;  // (tasks) scratch
     ContactSolver solver_;
+    std::map<int, int> squeezed_;  // points; the rank of the driven surface that still presses, -1: none
     // (points) [m/s] mean velocity in the instant before and after the solver; [m/s] stored velocity after it; [m]
     // position correction. Set where active pairs or crossings have points.
     std::vector<dvec3> u0_, u_, v_, shift_;

@@ -31,6 +31,9 @@ struct ContactSurface {
     // A collider that moves and deforms as it likes: triangles whose points the group does not move. Like a rigid surface
     // it meets only bodies that meet colliders.
     bool isDriven = false;
+    // (points) Of a driven surface, whose points have ascending numbers without gaps: where parts of it close upon a body,
+    // the one of the lowest rank presses on, and the others go through it.
+    std::vector<int> ranks;
 
     bool isOfCollider() const { return isRigid || isDriven; }
 };

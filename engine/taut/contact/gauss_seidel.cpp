@@ -47,6 +47,7 @@ void putInto(Pack& pack, int lane, const Row& row, int number) {
     pack.mass.of[lane] = row.mass;
     pack.closing.of[lane] = row.closing;
     pack.friction.of[lane] = row.friction;
+    pack.softness.of[lane] = row.softness;
     pack.largestGain.of[lane] = row.largestGain;
     pack.rows[lane] = number;
 }

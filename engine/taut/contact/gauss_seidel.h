@@ -8,6 +8,9 @@
 // The start. Impulses that the rows have already are a guess, for instance those of the instant before. They are scaled
 // by the factor for which the energy is least, 0 or more: so the start is no worse than without them.
 //
+// Softness. Two things that nothing moves may close on a third, and no impulses keep both. Where rows are soft, their
+// impulses end at what closes divided by the softness, instead of growing for ever.
+//
 // Four rows at a time. A row waits for the rows before it that share a velocity with it, and for no others. So rows are
 // put into levels, each one above the highest of those it waits for, and go through the processor in packs of four of
 // one level. The result is that of the rows one after the other, bit for bit; sums over rows are in their order.
@@ -30,6 +33,7 @@ struct Row {
     double mass = 0;       // [kg] effective, along the normal
     double closing = 0;    // [m/s] at which it may close in this instant; below 0: at which it has to part
     double friction = 0;   // Coulomb's μ [-]
+    double softness = 0;   // [m/s] by which it may close further for each impulse of 1
     double largestGain = 0;  // [1/kg]
     int slots[4]{};        // of the velocities
     int source = 0;        // for its owner
@@ -44,7 +48,7 @@ struct Pack {
     Four normal[3]{};
     Four impulse[4]{}, change[4]{}, direction[4]{};  // [N s]
     Four weights[4]{}, gains[4]{};
-    Four mass{}, closing{}, friction{}, largestGain{};
+    Four mass{}, closing{}, friction{}, softness{}, largestGain{};
     int slots[4][4]{};  // lane, velocity
     int rows[4]{};      // lane; the number of rows where there is none
 };

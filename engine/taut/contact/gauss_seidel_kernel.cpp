@@ -82,7 +82,8 @@ inline void visit(Pack& pack, Four* velocities) {
     const Vectors normal = load(pack.normal), velocity = relativeVelocity(pack, velocities);
     const Lanes before[4] = {load(pack.impulse[0]), load(pack.impulse[1]), load(pack.impulse[2]),
                              load(pack.impulse[3])};
-    const Lanes parting = dot(normal, velocity), wanted = before[3] - mass * (parting + load(pack.closing));
+    const Lanes parting = dot(normal, velocity);
+    const Lanes wanted = before[3] - mass * (parting + load(pack.closing) + load(pack.softness) * before[3]);
     const Lanes pressing = wanted > none ? wanted : none;
     // Coulomb's friction: in the disk around 0.
     Vectors next{before[0] - mass * (velocity.x - parting * normal.x),
@@ -110,13 +111,14 @@ inline void storePerRow(const Sweeps& batch, const Pack& pack, const Lanes& valu
     for (int lane = 0; lane < 4; ++lane) batch.perRow[pack.rows[lane]] = values[lane];
 }
 
-// λ · (W u + closing), the slope of the energy along the impulses.
-inline double slope(const Sweeps& batch) {
+// λ · (W u + closing + softness share λ), the slope of the energy along the impulses, of which a share is applied.
+inline double slope(const Sweeps& batch, double share) {
     for (int p = 0; p < batch.packCount; ++p) {
         const Pack& pack = batch.packs[p];
         const Vectors velocity = relativeVelocity(pack, batch.velocities);
+        const Lanes yielding = load(pack.closing) + load(pack.softness) * (share * load(pack.impulse[3]));
         storePerRow(batch, pack,
-                    load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + load(pack.closing)) +
+                    load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + yielding) +
                         dot(load(pack.impulse), velocity));
     }
     return sumOf(batch);
@@ -137,9 +139,9 @@ inline void start(const Sweeps& batch) {
             apply(pack, impulse, batch.velocities);
         }
     };
-    const double before = slope(batch);
+    const double before = slope(batch, 0);
     applyAll(1);
-    const double rise = slope(batch) - before;  // λᵀ A λ
+    const double rise = slope(batch, 1) - before;  // λᵀ A λ
     const double share = before < 0 && rise > 0 ? -before / rise : 0.0;
     applyAll(share - 1);
     for (int p = 0; p < batch.packCount; ++p)

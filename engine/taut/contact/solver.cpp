@@ -183,7 +183,8 @@ void ContactSolver::addRow(int source, const Problem& problem) {
             row.largestGain = std::max(row.largestGain, std::abs(row.gains[i]));
             row.slots[i] = slotOf(pair.points[i], problem);
         }
-        row.mass = 1.0 / inverse;
+        row.softness = pair.softness * inverse;
+        row.mass = 1.0 / (inverse + row.softness);
         const double rebound = reboundOf(row, problem.options, u_);
         row.closing = rebound > 0 ? -rebound : std::max(pair.gap(), 0.0) / problem.h;
     } else {

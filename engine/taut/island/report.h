@@ -57,6 +57,7 @@ struct Metrics {                      // at a published tick, velocities synchro
         0;  // [m] largest height of a collider's corner or edge out of a triangle of a body that meets faces
     double minVolumeRatio = 1;  // smallest V/V0
     ode::Work work{};           // of the methods since the start
+    int squeezed = 0;           // points that parts of a figure closed upon, and were let through, in the last tick
     int bodyContacts = 0;       // pairs of parts of bodies that pressed each other at the end of the last tick
     int crossings = 0;          // edges of touching bodies through triangles of touching bodies; 0 if not looked for
     std::vector<double> measured{};  // (rows of metric_table.h) what rows measure by themselves; empty: none yet

@@ -163,6 +163,7 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     scene.spec.bases = std::move(bases);
     scene.spec.fabrics = std::move(fabrics);
     loadAssets(options, confinementOf(fileName, options), scene, problems);
+    world::meetFigures(scene.spec);
     const BodyIndex bodies(scene.spec, kinds, scene.faulty);
     checkReferences(scene, bodies, problems);
     checkTimeline(root, sections, bodies, scene, problems);

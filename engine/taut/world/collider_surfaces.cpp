@@ -63,6 +63,7 @@ contact::ContactSurface surfaceOf(const ColliderFigure& figure, double friction,
     surface.friction = friction;
     surface.bond = bond;
     for (int i = 0; i < static_cast<int>(figure.atRest().size()); ++i) surface.points.push_back(offset + i);
+    surface.ranks.assign(figure.ranks().begin(), figure.ranks().end());
     for (const std::array<int, 3>& t : figure.triangles())
         surface.triangles.push_back({offset + t[0], offset + t[1], offset + t[2]});
     return surface;

@@ -24,12 +24,6 @@ ecs::Entity addCollider(WorldImpl& w, const ColliderSpec& collider) {
     return entity;
 }
 
-void meetFigures(const WorldImpl& w, BodySpec& body) {
-    const std::vector<ColliderSpec>& all = w.spec.colliders;
-    if (body.collide && std::any_of(all.begin(), all.end(), [](const auto& c) { return c.shape == "figure"; }))
-        body.meetsFaces = true;
-}
-
 void rebuildColliders(WorldImpl& w) {
     collision::Colliders all;
     std::vector<std::string> names;

@@ -10,7 +10,8 @@
 namespace taut::world {
 namespace {
 
-constexpr std::uint64_t spansMark = 0xfff8'7461'7574'0005ULL;  // a NaN
+constexpr std::uint64_t spansMark = 0xfff8'7461'7574'0005ULL;     // a NaN
+constexpr std::uint64_t squeezedMark = 0xfff8'7461'7574'0009ULL;  // a NaN
 
 // With the time: "since 1.20 s", "from 1.20 s to 1.35 s".
 std::string crossingText(const std::string& first, const std::string& second, const std::string& when,
@@ -47,6 +48,8 @@ std::vector<BodyCrossing> crossingsOf(ContactStage& stage) {
 
 void ContactReport::look(const ContactStage& stage, double start) {
     contacts_.clear();
+    squeezed_.clear();
+    for (const int point : stage.squeezed()) ++squeezed_[&stage.bodyOf(stage.elements().surfaceOf(point))];
     const auto bodyOf = [&](int surface) { return stage.isOfBody(surface) ? &stage.bodyOf(surface) : nullptr; };
     hadImpulse_ = hadImpulse_ || stage.hadImpulse();
     for (const contact::ContactPoint& c : stage.contacts())
@@ -82,6 +85,7 @@ void ContactReport::look(const ContactStage& stage, double start) {
 }
 
 void ContactReport::forget(const Body& body) {
+    squeezed_.erase(&body);
     std::erase_if(contacts_, [&](const BodyContact& c) { return c.isOf(body); });
     for (Said& said : said_)
         if (said.first == body.fullName() || said.second == body.fullName()) said.isOn = false;
@@ -98,6 +102,12 @@ std::vector<std::string> ContactReport::warnings() const {
 }
 
 void ContactReport::visit(StateBytes& bytes, std::span<const Body* const> bodies) {
+    const auto visitNumber = [&](const Body*& body) {
+        auto number = static_cast<std::int64_t>(std::find(bodies.begin(), bodies.end(), body) - bodies.begin());
+        const auto count = static_cast<std::int64_t>(bodies.size());  // of a figure
+        bytes.atLeast(number, 0, count);
+        body = number < count ? bodies[static_cast<std::size_t>(number)] : nullptr;
+    };
     bytes.each(said_, [&](Said& said) {
         for (std::string* text : {&said.first, &said.second, &said.text}) bytes(*text);
     });
@@ -105,13 +115,17 @@ void ContactReport::visit(StateBytes& bytes, std::span<const Body* const> bodies
         bytes(c.place);
         bytes(c.normal);
         bytes(c.impulse);
-        for (const Body** body : {&c.first, &c.second}) {
-            auto number = static_cast<std::int64_t>(std::find(bodies.begin(), bodies.end(), *body) - bodies.begin());
-            const auto count = static_cast<std::int64_t>(bodies.size());  // of a figure
-            bytes.atLeast(number, 0, count);
-            *body = number < count ? bodies[static_cast<std::size_t>(number)] : nullptr;
-        }
+        visitNumber(c.first);
+        visitNumber(c.second);
     });
+    if (bytes.mark(squeezedMark, !squeezed_.empty())) {
+        std::vector<std::pair<const Body*, std::int64_t>> all(squeezed_.begin(), squeezed_.end());
+        bytes.each(all, [&](auto& entry) {
+            visitNumber(entry.first);
+            bytes.atLeast(entry.second, 1, std::int64_t{1} << 32);
+        });
+        squeezed_ = {all.begin(), all.end()};
+    }
     if (!bytes.mark(spansMark, !said_.empty())) return;
     for (Said& said : said_) {
         bytes(said.since);

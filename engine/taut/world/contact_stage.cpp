@@ -608,6 +608,12 @@ ContactInfo ContactStage::info() const {
     return info;
 }
 
+std::vector<int> ContactStage::squeezed() const {
+    std::vector<int> points;
+    for (const auto& [point, rank] : group_->squeezed()) points.push_back(point);
+    return points;
+}
+
 std::vector<contact::ContactPoint> ContactStage::contacts() const {
     if (isEmpty()) return {};
     return group_->contactPoints(x1_);

@@ -27,6 +27,8 @@ Metrics metricsOf(WorldImpl& w, const std::function<bool(const Body&)>& wanted, 
         if (!isOfWanted(contact.first) && !isOfWanted(contact.second)) continue;
         ++(contact.first != nullptr && contact.second != nullptr ? metrics.bodyContacts : metrics.contacts);
     }
+    for (const auto& [body, points] : w.contactReport.squeezed())
+        if (counts(*body)) metrics.squeezed += static_cast<int>(points);
     if (what == Measures::butCrossings || !touchesAny(w)) return metrics;
     for (const BodyCrossing& crossing : crossingsOf(w))
         metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;

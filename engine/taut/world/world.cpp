@@ -30,7 +30,7 @@ WorldImpl::WorldImpl(const SceneSpec& scene, const Options& options)
         registry.add(entity, CameraPart{camera});
     }
     for (const ColliderSpec& collider : spec.colliders) addCollider(*this, collider);
-    for (BodySpec& body : spec.bodies) meetFigures(*this, body);
+    meetFigures(spec);
     addBodies(*this);
     rebuildColliders(*this);
     updateHash(*this);

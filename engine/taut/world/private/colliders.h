@@ -16,8 +16,6 @@ namespace taut::world {
 
 struct WorldImpl;
 
-// Makes the faces of a body meet colliders if the scene has a figure, which has nothing else to meet.
-void meetFigures(const WorldImpl& w, BodySpec& body);
 ecs::Entity addCollider(WorldImpl& w, const ColliderSpec& collider);
 void letGo(WorldImpl& w, const std::string& collider);  // frees all that is tied to it
 // Gives the islands the present colliders, with their poses and friction.

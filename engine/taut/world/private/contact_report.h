@@ -2,6 +2,7 @@
 // contact stage it survives changes of bodies, and is saved with the state.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,11 +37,12 @@ class ContactReport {
     void forget(const Body& body);
 
     const std::vector<BodyContact>& contacts() const { return contacts_; }  // at the end of the last tick
+    const std::map<const Body*, std::int64_t>& squeezed() const { return squeezed_; }  // number of points of a body
     bool hadImpulse() const { return hadImpulse_; }                   // at any time since it was made
     // One warning for each pair of bodies, or of a body and a figure, that cross or have crossed.
     std::vector<std::string> warnings() const;
 
-    bool isWorthSaving() const { return !said_.empty() || !contacts_.empty(); }
+    bool isWorthSaving() const { return !said_.empty() || !contacts_.empty() || !squeezed_.empty(); }
     // Expects the same bodies in the same order for writing and reading.
     void visit(StateBytes& bytes, std::span<const Body* const> bodies);
 
@@ -55,6 +57,7 @@ class ContactReport {
         bool isOn = true;             // they cross at present
     };
     std::vector<BodyContact> contacts_;
+    std::map<const Body*, std::int64_t> squeezed_;
     std::vector<Said> said_;
     bool hadImpulse_ = false;
 };

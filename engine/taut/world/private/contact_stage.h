@@ -84,6 +84,7 @@ class ContactStage {
     int instants() const { return instants_; }
     const contact::InstantResult& result() const { return result_; }
     ContactInfo info() const;
+    std::vector<int> squeezed() const;  // points of the group that were squeezed in its last instant
     std::vector<contact::ContactPoint> contacts() const;         // at its end
     std::span<const contact::Crossing> crossingsBefore() const;  // at its start
     bool hadImpulse() const { return hadImpulse_; }        // whether any pair had an impulse, in any tick

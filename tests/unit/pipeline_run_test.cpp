@@ -200,7 +200,7 @@ TEST(RunRecord, MetricsHaveALineAFrameWithTheColumnsOfTheHeading) {
     std::getline(lines, heading);
     EXPECT_TRUE(heading.starts_with("frame,time_s,kinetic_J,elastic_J,gravitational_J,total_J,"));
     EXPECT_TRUE(heading.ends_with(
-        ",torn_springs,volume_ratio,penetration_m,body_contacts,crossings,face_penetration_m,max_speed_m_per_s,"
+        ",torn_springs,volume_ratio,penetration_m,body_contacts,crossings,face_penetration_m,squeezed,max_speed_m_per_s,"
         "asleep,slept_J"));
     int count = 0;
     while (std::getline(lines, line)) {

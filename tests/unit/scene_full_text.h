@@ -189,6 +189,13 @@ scale = 0.02
 [collider.floor]
 shape = "plane"
 normal = [0, 5, 0]
+[collider.hero]
+shape = "figure"
+mesh = "arm.gltf"
+animation = "bend"
+start_s = 0.5
+speed = 2
+loop = false
 [collider.lift]
 shape = "box"
 size = [1, 2, 3]

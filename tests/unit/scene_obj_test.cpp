@@ -117,11 +117,11 @@ TEST(SceneObj, WhatMakesNoClothIsNamedByTheLineOfItsFace) {
 
 TEST(SceneObj, OtherFormatsAreRefusedByName) {
     const AssetFolder folder;
-    folder.write("shirt.glb", "glTF");
+    folder.write("shirt.fbx", "glTF");
     EXPECT_EQ(
-        folder.messageOf("schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"shirt.glb\"\n"),
-        "s.toml:5:8: error: cannot use this mesh: shirt.glb: error: only OBJ is read: export it as Wavefront OBJ\n"
-        "  mesh = \"shirt.glb\"\n"
+        folder.messageOf("schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"shirt.fbx\"\n"),
+        "s.toml:5:8: error: cannot use this mesh: shirt.fbx: error: only OBJ and glTF are read: export it as Wavefront OBJ or as GLB\n"
+        "  mesh = \"shirt.fbx\"\n"
         "         ^");
 }
 

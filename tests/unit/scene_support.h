@@ -26,6 +26,7 @@ class AssetFolder {
         write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
         write("square.png", "");
         write("curve.csv", "time,value,sigma\n0,1,0.5\n1.5,2,0.25\n");
+        std::filesystem::copy(TAUT_SOURCE_DIR "/tests/support/arm.gltf", path_ / "arm.gltf");
         std::filesystem::create_directory(path_ / "models");
     }
     ~AssetFolder() {

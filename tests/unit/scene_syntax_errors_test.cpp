@@ -272,7 +272,7 @@ TEST(SceneErrors, KeysAndTablesOutOfPlaceAreReportedWithARemedy) {
          "shape = \"hull\"\n",
          "s.toml:2:11: error: [collider.s] needs mesh\n"
          "  [collider.s]\n"
-         "            ^ mesh is a text: OBJ file"},
+         "            ^ mesh is a text: OBJ or glTF file"},
     });
 }
 

@@ -52,6 +52,7 @@ TEST(Figure, AMovingFaceDragsWhatLiesOnItByFriction) {
     animate(belt, 0, Path::translation, {0, 1}, {0, -0.1, 0, 1, -0.1, 0});
     SceneSpec scene = sceneOf(looseSheet(apart), belt);
     scene.colliders[0].friction = 0.2;
+    scene.materials["m"].drag = 0;
     World world(scene);
     run(world, 6);
     const double before = meanVelocity(world).x;

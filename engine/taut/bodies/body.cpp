@@ -217,7 +217,7 @@ bool bodiesTouch(const SceneSpec& spec) {
 
 void meetFigures(SceneSpec& spec) {
     if (std::any_of(spec.colliders.begin(), spec.colliders.end(), [](const auto& c) { return c.shape == "figure"; }))
-        for (BodySpec& body : spec.bodies) body.meetsFaces = body.collide;
+        for (BodySpec& body : spec.bodies) body.meetsFigures = body.collide;
 }
 
 }  // namespace taut::world

@@ -93,7 +93,8 @@ struct BodySpec {
     double friction = 1.0;           // factor on the collider's friction
     double thickness = 0.005;        // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
     bool collide = true;
-    bool meetsFaces = false;  // its faces meet colliders even if it touches nothing
+    bool meetsFaces = false;    // its faces meet colliders even if it touches nothing
+    bool meetsFigures = false;  // there are figures, which its faces meet
     Touch touch = Touch::nothing;
     FinishSpec finish;
     SolverOverride solver;

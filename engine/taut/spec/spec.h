@@ -90,7 +90,7 @@ struct SceneSpec {
 // Whether any body of the scene touches others or itself.
 bool bodiesTouch(const SceneSpec& spec);
 
-// Makes the faces of all bodies that collide meet colliders if there is a figure, which has nothing else to meet.
+// Makes all bodies that collide meet the figures, if there are any.
 void meetFigures(SceneSpec& spec);
 
 }  // namespace taut::world

@@ -25,7 +25,7 @@ double secondsSince(Clock::time_point start) {
 }
 
 bool touchesColliders(const BodySpec& spec) {
-    return spec.collide && (spec.meetsFaces || spec.touch != Touch::nothing);
+    return spec.collide && (spec.meetsFaces || spec.meetsFigures || spec.touch != Touch::nothing);
 }
 
 bool mayTouch(const BodySpec& spec) {

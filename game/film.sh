@@ -17,7 +17,7 @@ mkdir -p "$out"
 
 if [ "${1-film}" = stills ]; then
     # Scene and frame.
-    for still in show:75 cape:160 laundry:300 flag:166; do
+    for still in show:75 laundry:300 flag:166 dance:312; do
         scene=${still%:*} frame=${still#*:}
         "$taut" render "$scene" -o "$out/$scene-######.png" --frames "$frame" --size "$size" --samples 16 -y --quiet
         number=$(printf %06d "$frame")

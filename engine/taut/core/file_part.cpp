@@ -13,13 +13,14 @@ constexpr std::uint64_t mostAround = std::uint64_t{256} << 20U;  // [bytes] of t
 
 struct FilePart {
     std::string file;
-    std::uint64_t offset = 0, length = 0;
+    std::size_t offset = 0, length = 0;
 };
 
 std::optional<FilePart> parse(const std::string& name) {
     const std::size_t mark = name.rfind('#');
     if (mark == std::string::npos) return std::nullopt;
-    FilePart part{name.substr(0, mark)};
+    FilePart part;
+    part.file = name.substr(0, mark);
     const char* const end = name.data() + name.size();
     const auto [plus, first] = std::from_chars(name.data() + mark + 1, end, part.offset);
     if (first != std::errc() || plus == end || *plus != '+') return std::nullopt;
@@ -30,7 +31,7 @@ std::optional<FilePart> parse(const std::string& name) {
 
 }  // namespace
 
-std::string filePartName(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t length,
+std::string filePartName(const std::filesystem::path& file, std::size_t offset, std::size_t length,
                          std::string_view ending) {
     return file.string() + "#" + std::to_string(offset) + "+" + std::to_string(length) + std::string(ending);
 }

@@ -1,6 +1,7 @@
 // A file within a file, such as a picture in a GLB. Its name is "FILE#OFFSET+LENGTH.ENDING".
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace taut::core {
 
-std::string filePartName(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t length,
+std::string filePartName(const std::filesystem::path& file, std::size_t offset, std::size_t length,
                          std::string_view ending);
 bool isFilePart(const std::filesystem::path& name);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>  // tinygltf forgets it
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <set>
@@ -88,7 +89,7 @@ class GltfReader {
         if (bytes.starts_with("glTF") && bytes.size() > 28) {
             std::uint32_t textLength = 0;
             std::memcpy(&textLength, bytes.data() + 12, sizeof textLength);
-            binaryStart_ = std::uint64_t{28} + textLength;  // behind a head, the text, and the head of each chunk
+            binaryStart_ = std::size_t{28} + textLength;  // behind a head, the text, and the head of each chunk
         }
         loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                                  void*) { return true; }, nullptr);
@@ -590,7 +591,7 @@ class GltfReader {
     const Confinement& confinement_;
     tinygltf::Model model_;
     core::Hash hash_;
-    std::uint64_t binaryStart_ = 0;  // of a GLB: where in the file its buffer begins
+    std::size_t binaryStart_ = 0;  // of a GLB: where in the file its buffer begins
     std::shared_ptr<Figure> figure_;
     world::MeshData mesh_;
     std::vector<bool> isDrawn_;  // (nodes of the file) in its scene

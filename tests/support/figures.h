@@ -27,7 +27,8 @@ inline figure::Figure boxes(const std::vector<glm::dvec3>& places, const glm::dv
         std::map<std::array<int, 3>, int> known;
         const auto vertex = [&](const std::array<int, 3>& at) {
             const auto [found, isNew] = known.try_emplace(at, first + static_cast<int>(part.positions.size()));
-            if (isNew) part.positions.push_back(size * (glm::dvec3(at[0], at[1], at[2]) / static_cast<double>(n) - 0.5));
+            if (isNew)
+                part.positions.push_back(size * (glm::dvec3(at[0], at[1], at[2]) / static_cast<double>(n) - 0.5));
             return found->second;
         };
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -57,8 +58,7 @@ inline void animate(figure::Figure& figure, int node, figure::Path path, std::ve
     if (figure.animations.empty()) figure.animations.push_back({"move", 0, {}});
     figure::Animation& animation = figure.animations.front();
     animation.seconds = std::max(animation.seconds, times.back());
-    animation.channels.push_back(
-        {node, path, figure::Interpolation::linear, std::move(times), std::move(values)});
+    animation.channels.push_back({node, path, figure::Interpolation::linear, std::move(times), std::move(values)});
 }
 
 // collider.f

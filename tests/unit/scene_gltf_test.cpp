@@ -43,10 +43,12 @@ TEST(SceneGltf, AVertexFollowsItsJointsByTheirWeights) {
     const auto turned = [&](const dvec3& p) {
         return dvec3(c * p.x - s * (p.y - 1), 1 + s * p.x + c * (p.y - 1), 0.0);
     };
-    const auto expectNear = [](const dvec3& a, const dvec3& b) { EXPECT_LT(glm::length(a - b), 1e-7) << a.x << " " << a.y; };
-    expectNear(x[3], {0.25, 0.5, 0});          // the lower joint's
-    expectNear(x[9], turned({0.25, 2, 0}));    // the upper one's
-    const double w = 128.0 / 255.0;            // between both
+    const auto expectNear = [](const dvec3& a, const dvec3& b) {
+        EXPECT_LT(glm::length(a - b), 1e-7) << a.x << " " << a.y;
+    };
+    expectNear(x[3], {0.25, 0.5, 0});        // the lower joint's
+    expectNear(x[9], turned({0.25, 2, 0}));  // the upper one's
+    const double w = 128.0 / 255.0;          // between both
     expectNear(x[5], w * dvec3(0.25, 1, 0) + (1 - w) * turned({0.25, 1, 0}));
     // Beyond its ends the animation stays.
     EXPECT_EQ(placesAt(*mesh.figure, "bend", 7.0), placesAt(*mesh.figure, "bend", 1.0));
@@ -76,8 +78,7 @@ TEST(SceneGltf, SaysWhatIsWrong) {
     EXPECT_EQ(wrong("\"version\": \"2.0\"", "\"version\": \"1.0\""), intro + "only glTF 2.0 is read");
     EXPECT_EQ(wrong("\"children\": [1]", "\"children\": [0]"), intro + "nodes are parents of their parents");
     EXPECT_EQ(wrong("\"children\": [1]", "\"children\": [1, 7]"), intro + "there is no node 7: the file has 3");
-    EXPECT_EQ(wrong("\"joints\": [0, 1]", "\"joints\": [0]"),
-              intro + "mesh \"strip\" follows joint 1: its skin has 1");
+    EXPECT_EQ(wrong("\"joints\": [0, 1]", "\"joints\": [0]"), intro + "mesh \"strip\" follows joint 1: its skin has 1");
     EXPECT_EQ(wrong("\"count\": 24", "\"count\": 23"), intro + "mesh \"strip\" has 23 corners of triangles");
     EXPECT_EQ(wrong("\"count\": 24", "\"count\": 400"), intro + "an accessor leaves its bufferView");
     EXPECT_EQ(wrong("\"mesh\": 0, \"skin\": 0", "\"skin\": 0"), intro + "there are no triangles");

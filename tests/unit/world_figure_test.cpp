@@ -14,8 +14,8 @@ namespace {
 
 using figure::Path;
 using support::animate;
-using support::colliderOf;
 using support::boxes;
+using support::colliderOf;
 using support::run;
 
 constexpr double apart = 0.01;  // [m]
@@ -179,7 +179,10 @@ TEST(Figure, KeysAreJoinedAsGltfSaysThatTheyAre) {
 
     // A rotation goes evenly the short way: from 0 to -160 degrees about x, given by the opposite quaternion.
     const double angle = core::radians(-160.0);
-    const figure::Channel turn{0, Path::rotation, figure::Interpolation::linear, {0, 1},
+    const figure::Channel turn{0,
+                               Path::rotation,
+                               figure::Interpolation::linear,
+                               {0, 1},
                                {0, 0, 0, 1, -core::sine(angle / 2), 0, 0, -core::cosine(angle / 2)}};
     std::array<double, 4> q{};
     for (const double share : {0.1, 0.37, 0.9}) {

@@ -65,7 +65,7 @@ mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {
 Section ClothSpec::section() {
     // Two variants: each field says to which it belongs.
     Section section;
-    section.help = "A cloth: a grid, or a mesh from an OBJ file.";
+    section.help = "A cloth: a grid, or a mesh from an OBJ or glTF file.";
     section.variant = [](const fields::Node& table) -> std::string {
         return table.find("mesh") != nullptr ? "a cloth from a mesh" : "a cloth grid";
     };
@@ -93,7 +93,8 @@ Section ClothSpec::section() {
             .flag("round", &ClothSpec::isRound,
                   "Only the cells of which the middle lies in the ellipse that fits into its size: a round tablecloth.")
             .only(grid)
-            .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file; its groups and objects (g, o) are names of points.")
+            .text("mesh", &ClothSpec::mesh, Role::mesh,
+                  "OBJ or glTF file; groups and objects of an OBJ (g, o) are names of points.")
             .only(mesh)
             .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
             .only(mesh)

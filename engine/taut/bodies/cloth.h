@@ -1,4 +1,4 @@
-// A cloth: a grid, or a mesh from an OBJ file.
+// A cloth: a grid, or a mesh from a file.
 #pragma once
 
 #include "taut/spec/body_spec.h"
@@ -16,7 +16,7 @@ struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     dvec3 down{0.0, -1.0, 0.0};   // direction from top to bottom
     double grain = 0.0;           // [rad] from across to the warp, towards down
     bool isRound = false;
-    // … or an OBJ mesh, which excludes the six fields above.
+    // … or a mesh, which excludes the six fields above.
     dvec3 position{0.0};  // [m]
     dvec3 rotation{0.0};  // [rad] about x, then y, then z
     double scale = 1.0;

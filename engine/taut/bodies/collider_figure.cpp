@@ -56,7 +56,11 @@ std::shared_ptr<const view::Finish> finishOf(const figure::Piece& piece, const C
 }  // namespace
 
 ColliderFigure::ColliderFigure(const ColliderSpec& spec)
-    : name_(spec.name), mesh_(spec.meshData), scale_(spec.scale), start_(spec.start), speed_(spec.speed),
+    : name_(spec.name),
+      mesh_(spec.meshData),
+      scale_(spec.scale),
+      start_(spec.start),
+      speed_(spec.speed),
       loops_(spec.loops) {
     const figure::Figure& figure = *mesh_->figure;
     if (!spec.animation.empty()) {
@@ -65,9 +69,9 @@ ColliderFigure::ColliderFigure(const ColliderSpec& spec)
             std::string names;
             for (const figure::Animation& other : figure.animations)
                 names += (names.empty() ? "" : ", ") + ("\"" + other.name + "\"");
-            throw core::Error(core::ErrorKind::badContent,
-                              spec.mesh + " has no animation \"" + spec.animation + "\"; " +
-                                  (names.empty() ? "it has none" : "it has " + names));
+            throw core::Error(core::ErrorKind::badContent, spec.mesh + " has no animation \"" + spec.animation +
+                                                               "\"; " +
+                                                               (names.empty() ? "it has none" : "it has " + names));
         }
     }
     for (const dvec3& x : mesh_->positions) atRest_.push_back(scale_ * x);
@@ -107,10 +111,9 @@ std::optional<collision::Pose> ColliderFigure::Moment::frameOf(const ColliderTar
     const int number = mesh_->figure->nodeNamed(target.joint);
     if (number < 0) return std::nullopt;
     const glm::dmat4& world = posture_.world[static_cast<std::size_t>(number)];
-    return collision::Pose{
-        Placing(pose_, scale_)(dvec3(world[3])),
-        glm::normalize(pose_.rotation) *
-            turnOf({unitOf(dvec3(world[0])), unitOf(dvec3(world[1])), unitOf(dvec3(world[2]))})};
+    return collision::Pose{Placing(pose_, scale_)(dvec3(world[3])),
+                           glm::normalize(pose_.rotation) *
+                               turnOf({unitOf(dvec3(world[0])), unitOf(dvec3(world[1])), unitOf(dvec3(world[2]))})};
 }
 
 int ColliderFigure::Moment::nearestFace(const dvec3& x) const {

@@ -20,7 +20,8 @@ class ColliderFigure {
 
     std::span<const std::array<int, 3>> triangles() const { return mesh_->triangles; }
     std::span<const dvec3> atRest() const { return atRest_; }  // (vertices) [m] with the collider at the origin
-    // (vertices) The node that moves a vertex most. Limbs have higher numbers than the trunk, children than their parents.
+    // (vertices) The node that moves a vertex most. Limbs have higher numbers than the trunk, children than their
+    // parents.
     std::span<const int> ranks() const { return ranks_; }
 
     // All of it at one time.

@@ -54,7 +54,7 @@ enum class Role {
     material,     // [material.NAME]
     camera,       // [camera.NAME]
     method,       // a method of integration
-    mesh,         // a path of an OBJ file
+    mesh,         // a path of a mesh file
     texture,      // a path of a picture
     environment,  // a path of a picture of all that is around
     points,       // KIND.NAME@SELECTOR

@@ -68,8 +68,7 @@ void sample(const Channel& channel, std::size_t width, double seconds, std::span
         } else if (channel.path == Path::rotation) {
             slerp(key(a, 1), key(b, 1), s, values);
         } else {
-            for (std::size_t i = 0; i < width; ++i)
-                values[i] = key(a, 1)[i] + s * (key(b, 1)[i] - key(a, 1)[i]);
+            for (std::size_t i = 0; i < width; ++i) values[i] = key(a, 1)[i] + s * (key(b, 1)[i] - key(a, 1)[i]);
         }
     }
     if (channel.path == Path::rotation) normalise(values);

@@ -41,8 +41,8 @@ int Figure::vertexCount() const {
 }
 
 const Animation* Figure::find(std::string_view animation) const {
-    const auto found = std::find_if(
-        animations.begin(), animations.end(), [&](const Animation& other) { return other.name == animation; });
+    const auto found = std::find_if(animations.begin(), animations.end(),
+                                    [&](const Animation& other) { return other.name == animation; });
     return found != animations.end() ? &*found : nullptr;
 }
 
@@ -59,8 +59,7 @@ Posture postureAt(const Figure& figure, const Animation* animation, double secon
     Posture posture;
     for (const Node& node : nodes) {
         const dmat4 local = localOf(node);
-        posture.world.push_back(node.parent < 0 ? local
-                                                : posture.world[static_cast<std::size_t>(node.parent)] * local);
+        posture.world.push_back(node.parent < 0 ? local : posture.world[static_cast<std::size_t>(node.parent)] * local);
         posture.weights.push_back(node.weights);
     }
     return posture;

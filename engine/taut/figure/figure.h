@@ -45,7 +45,7 @@ struct Animation {
 };
 
 struct Skin {
-    std::vector<int> joints;        // nodes
+    std::vector<int> joints;         // nodes
     std::vector<dmat4> inverseBind;  // (joints) from the mesh to the joint
 };
 

@@ -19,8 +19,8 @@
 #include <tiny_gltf.h>
 
 #include "taut/core/error.h"
-#include "taut/core/private/hash.h"
 #include "taut/core/file_part.h"
+#include "taut/core/private/hash.h"
 #include "taut/core/whole_file.h"
 #include "taut/figure/figure.h"
 
@@ -92,7 +92,8 @@ class GltfReader {
             binaryStart_ = std::size_t{28} + textLength;  // behind a head, the text, and the head of each chunk
         }
         loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
-                                 void*) { return true; }, nullptr);
+                                 void*) { return true; },
+                              nullptr);
         loader.SetFsCallbacks(
             {[](const std::string& name, void*) { return core::isThere(name); },
              [](const std::string& name, void*) { return name; },
@@ -211,12 +212,14 @@ class GltfReader {
             fail(fmt::format("accessor {} replaces {} of {} elements", accessorNumber, sparse.count, accessor.count));
         const auto count = static_cast<std::size_t>(sparse.count);
         std::vector<std::size_t> places(count);
-        unpack(viewed(sparse.indices.bufferView), static_cast<std::size_t>(sparse.indices.byteOffset), 0, count, 1,
-               sparse.indices.componentType, false, [&](std::size_t i, std::size_t, double v) {
-                   if (!(v >= 0 && v < static_cast<double>(accessor.count)))
-                       fail(fmt::format("accessor {} replaces an element that it has not", accessorNumber));
-                   places[i] = static_cast<std::size_t>(v);
-               });
+        unpack(
+            viewed(sparse.indices.bufferView), static_cast<std::size_t>(sparse.indices.byteOffset), 0, count, 1,
+            sparse.indices.componentType, false,
+            [&](std::size_t i, std::size_t, double v) {
+                if (!(v >= 0 && v < static_cast<double>(accessor.count)))
+                    fail(fmt::format("accessor {} replaces an element that it has not", accessorNumber));
+                places[i] = static_cast<std::size_t>(v);
+            });
         unpack(viewed(sparse.values.bufferView), static_cast<std::size_t>(sparse.values.byteOffset), 0, count, width,
                accessor.componentType, accessor.normalized,
                [&](std::size_t i, std::size_t k, double v) { store(places[i], k, v); });
@@ -233,8 +236,7 @@ class GltfReader {
         for (std::size_t n = 0; n < count; ++n)
             for (const int child : model_.nodes[n].children) {
                 at(model_.nodes, child, "node");
-                if (parent[static_cast<std::size_t>(child)] >= 0)
-                    fail(fmt::format("node {} has two parents", child));
+                if (parent[static_cast<std::size_t>(child)] >= 0) fail(fmt::format("node {} has two parents", child));
                 parent[static_cast<std::size_t>(child)] = static_cast<int>(n);
             }
         isDrawn_.assign(count, model_.scenes.empty());
@@ -248,8 +250,7 @@ class GltfReader {
         for (std::size_t n = 0; n < count; ++n)
             if (parent[n] < 0) order.push_back(static_cast<int>(n));
         for (std::size_t next = 0; next < order.size(); ++next)
-            for (const int child : model_.nodes[static_cast<std::size_t>(order[next])].children)
-                order.push_back(child);
+            for (const int child : model_.nodes[static_cast<std::size_t>(order[next])].children) order.push_back(child);
         if (order.size() < count) fail("nodes are parents of their parents");
         for (const int number : order) {
             const auto n = static_cast<std::size_t>(number);
@@ -262,7 +263,8 @@ class GltfReader {
             }
             for (const auto* list : {&from.translation, &from.rotation, &from.scale, &from.matrix, &from.weights})
                 for (const double v : *list)
-                    if (!(std::abs(v) <= maxPlace)) fail(fmt::format("node {} has a number that is not finite", number));
+                    if (!(std::abs(v) <= maxPlace))
+                        fail(fmt::format("node {} has a number that is not finite", number));
             const auto sized = [&](const std::vector<double>& list, std::size_t size) {
                 if (!list.empty() && list.size() != size)
                     fail(fmt::format("node {} has {} numbers where {} belong", number, list.size(), size));
@@ -303,11 +305,10 @@ class GltfReader {
                                                                {"rotation", figure::Path::rotation},
                                                                {"scale", figure::Path::scale},
                                                                {"weights", figure::Path::weights}};
-        static const std::map<std::string, figure::Interpolation> ways{
-            {"", figure::Interpolation::linear},
-            {"LINEAR", figure::Interpolation::linear},
-            {"STEP", figure::Interpolation::step},
-            {"CUBICSPLINE", figure::Interpolation::cubic}};
+        static const std::map<std::string, figure::Interpolation> ways{{"", figure::Interpolation::linear},
+                                                                       {"LINEAR", figure::Interpolation::linear},
+                                                                       {"STEP", figure::Interpolation::step},
+                                                                       {"CUBICSPLINE", figure::Interpolation::cubic}};
         figure::Animation animation;
         animation.name = from.name.empty() ? std::to_string(figure_->animations.size()) : from.name;
         for (const tinygltf::AnimationChannel& of : from.channels) {
@@ -412,7 +413,8 @@ class GltfReader {
         if (drawn_ > maxElements) fail(fmt::format("more than {} corners of triangles", maxElements));
         std::vector<std::array<std::size_t, 3>> triangles;
         if (isList) {
-            if (corners.size() % 3 != 0) fail(fmt::format("mesh \"{}\" has {} corners of triangles", name, corners.size()));
+            if (corners.size() % 3 != 0)
+                fail(fmt::format("mesh \"{}\" has {} corners of triangles", name, corners.size()));
             for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
                 triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
         } else {
@@ -428,8 +430,8 @@ class GltfReader {
         std::vector<int> vertexOf;
         for (std::size_t i = 0; i < positions.count(); ++i) {
             const dvec3 p = positions.place(i) + dvec3(0.0);  // -0 becomes +0
-            const auto [found, isNew] = weld.known.try_emplace(
-                {p.x, p.y, p.z}, weld.first + static_cast<int>(part.positions.size()));
+            const auto [found, isNew] =
+                weld.known.try_emplace({p.x, p.y, p.z}, weld.first + static_cast<int>(part.positions.size()));
             if (isNew) part.positions.push_back(p);
             vertexOf.push_back(found->second);
         }
@@ -459,7 +461,8 @@ class GltfReader {
             if (found == from.targets[t].end()) continue;
             const Numbers moves = numbers(found->second, 3, "a morph target");
             if (moves.count() != count) fail("a morph target has another number of vertices than its mesh");
-            eachNew(vertexOf, weld, before, [&](std::size_t own, std::size_t i) { part.targets[t][own] = moves.place(i); });
+            eachNew(vertexOf, weld, before,
+                    [&](std::size_t own, std::size_t i) { part.targets[t][own] = moves.place(i); });
         }
     }
 
@@ -486,7 +489,8 @@ class GltfReader {
                     part.influences.push_back({static_cast<int>(joint), weight});
                     sum += weight;
                 }
-            if (part.influences.size() == first) fail(fmt::format("mesh \"{}\" has a vertex that follows no joint", name));
+            if (part.influences.size() == first)
+                fail(fmt::format("mesh \"{}\" has a vertex that follows no joint", name));
             for (std::size_t k = first; k < part.influences.size(); ++k) part.influences[k].weight /= sum;
             part.firstInfluence.push_back(part.influences.size());
         });
@@ -501,8 +505,9 @@ class GltfReader {
         std::map<std::tuple<int, double, double, double>, int> smooth;
         for (std::size_t i = 0; i < vertexOf.size(); ++i) {
             const dvec3 n = normals.values.empty() ? dvec3(0.0) : normals.place(i);
-            smoothOf[i] = smooth.try_emplace({vertexOf[i], n.x, n.y, n.z},
-                                             figure_->smoothCount + static_cast<int>(smooth.size())).first->second;
+            smoothOf[i] =
+                smooth.try_emplace({vertexOf[i], n.x, n.y, n.z}, figure_->smoothCount + static_cast<int>(smooth.size()))
+                    .first->second;
         }
         figure_->smoothCount += static_cast<int>(smooth.size());
         for (const std::array<std::size_t, 3>& corners : triangles) {
@@ -549,8 +554,9 @@ class GltfReader {
         if (image.bufferView >= 0 && binaryStart_ > 0) {
             const tinygltf::BufferView& view = at(model_.bufferViews, image.bufferView, "bufferView");
             if (view.buffer == 0) {
-                piece.texture = core::filePartName(path_, binaryStart_ + view.byteOffset, viewed(image.bufferView).size(),
-                                                   image.mimeType == "image/png" ? ".png" : ".jpg");
+                piece.texture =
+                    core::filePartName(path_, binaryStart_ + view.byteOffset, viewed(image.bufferView).size(),
+                                       image.mimeType == "image/png" ? ".png" : ".jpg");
                 return;
             }
         }

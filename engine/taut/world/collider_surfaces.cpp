@@ -108,8 +108,8 @@ bool ColliderSurfaces::hasFigures() const {
 }
 
 const std::string& ColliderSurfaces::nameOf(int surface) const {
-    const auto owner = std::find_if(
-        colliders_.begin(), colliders_.end(), [&](const Collider& own) { return surface < own.lastSurface; });
+    const auto owner = std::find_if(colliders_.begin(), colliders_.end(),
+                                    [&](const Collider& own) { return surface < own.lastSurface; });
     TAUT_EXPECTS(owner != colliders_.end());
     return owner->name;
 }
@@ -142,9 +142,9 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double end, 
         const std::span<dvec3> velocities = v.subspan(static_cast<std::size_t>(own.firstPoint), own.vertices.size());
         double square = 0;
         for (std::size_t i = 0; i < velocities.size(); ++i) {
-            velocities[i] = (own.figure != nullptr ? own.xTo[i] - own.xFrom[i]
-                                                   : to(own.vertices[i]) - from(own.vertices[i])) /
-                            tickSeconds;
+            velocities[i] =
+                (own.figure != nullptr ? own.xTo[i] - own.xFrom[i] : to(own.vertices[i]) - from(own.vertices[i])) /
+                tickSeconds;
             square = std::max(square, glm::dot(velocities[i], velocities[i]));
         }
         if (!(square > jumpSpeed * jumpSpeed)) continue;

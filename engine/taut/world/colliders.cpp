@@ -71,31 +71,32 @@ void carryTied(WorldImpl& w) {
             return !island->plan().grips.empty() || !island->plan().carriers.empty();
         }))
         return;
-    w.registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart& part) {
-        const Placement& placement = *w.registry.find<Placement>(entity);
-        const mechanics::PosePath path = pathOf(placement.from, placement.to, w.now().start(), w.ticksPerSecond);
-        for (const auto& island : w.islands) island->carry(w.now(), identity.fullName(), path);
-        if (part.model->figure == nullptr) return;
-        // Its joints and faces.
-        const ColliderFigure& figure = *part.model->figure;
-        std::set<std::string> holders;
-        for (const auto& island : w.islands) {
-            for (const Grip& grip : island->plan().grips) holders.insert(grip.holder);
-            for (const Carrier& carrier : island->plan().carriers) holders.insert(carrier.collider);
-        }
-        std::erase_if(holders, [&](const std::string& holder) {
-            return holder == identity.fullName() || parseCollider(holder).collider != identity.fullName();
+    w.registry.each<Identity, ColliderPart>(
+        [&](ecs::Entity entity, const Identity& identity, const ColliderPart& part) {
+            const Placement& placement = *w.registry.find<Placement>(entity);
+            const mechanics::PosePath path = pathOf(placement.from, placement.to, w.now().start(), w.ticksPerSecond);
+            for (const auto& island : w.islands) island->carry(w.now(), identity.fullName(), path);
+            if (part.model->figure == nullptr) return;
+            // Its joints and faces.
+            const ColliderFigure& figure = *part.model->figure;
+            std::set<std::string> holders;
+            for (const auto& island : w.islands) {
+                for (const Grip& grip : island->plan().grips) holders.insert(grip.holder);
+                for (const Carrier& carrier : island->plan().carriers) holders.insert(carrier.collider);
+            }
+            std::erase_if(holders, [&](const std::string& holder) {
+                return holder == identity.fullName() || parseCollider(holder).collider != identity.fullName();
+            });
+            if (holders.empty()) return;
+            const ColliderFigure::Moment from = figure.at(w.now().start(), placement.from);
+            const ColliderFigure::Moment to = figure.at(w.now().end(), placement.to);
+            for (const std::string& holder : holders) {
+                const ColliderTarget target = parseCollider(holder);
+                const mechanics::PosePath own =
+                    pathOf(from.frameOf(target).value(), to.frameOf(target).value(), w.now().start(), w.ticksPerSecond);
+                for (const auto& island : w.islands) island->carry(w.now(), holder, own);
+            }
         });
-        if (holders.empty()) return;
-        const ColliderFigure::Moment from = figure.at(w.now().start(), placement.from);
-        const ColliderFigure::Moment to = figure.at(w.now().end(), placement.to);
-        for (const std::string& holder : holders) {
-            const ColliderTarget target = parseCollider(holder);
-            const mechanics::PosePath own = pathOf(from.frameOf(target).value(), to.frameOf(target).value(),
-                                                   w.now().start(), w.ticksPerSecond);
-            for (const auto& island : w.islands) island->carry(w.now(), holder, own);
-        }
-    });
 }
 
 void letGo(WorldImpl& w, const std::string& collider) {
@@ -115,15 +116,16 @@ collision::Pose poseAhead(const Placement& placement, double ticks) {
 std::optional<collision::Pose> poseOf(const WorldImpl& w, const std::string& holder, double ahead) {
     const ColliderTarget target = parseCollider(holder);
     std::optional<collision::Pose> pose;
-    w.registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart& part) {
-        if (pose || identity.fullName() != target.collider) return;
-        pose = poseAhead(*w.registry.find<Placement>(entity), ahead * w.ticksPerSecond);
-        if (target.joint.empty() && target.face < 0) return;
-        if (part.model->figure != nullptr)
-            pose = part.model->figure->at(w.seconds() + ahead, *pose).frameOf(target);
-        else
-            pose = std::nullopt;
-    });
+    w.registry.each<Identity, ColliderPart>(
+        [&](ecs::Entity entity, const Identity& identity, const ColliderPart& part) {
+            if (pose || identity.fullName() != target.collider) return;
+            pose = poseAhead(*w.registry.find<Placement>(entity), ahead * w.ticksPerSecond);
+            if (target.joint.empty() && target.face < 0) return;
+            if (part.model->figure != nullptr)
+                pose = part.model->figure->at(w.seconds() + ahead, *pose).frameOf(target);
+            else
+                pose = std::nullopt;
+        });
     return pose;
 }
 

@@ -1,6 +1,7 @@
-// Colliders as surfaces of a ContactGroup, with which they move. Corners and edges of rigid ones catch what the points of
-// bodies miss, such as a cloth over a corner between two of its points. A figure is stopped by nothing else: its faces,
-// edges and corners move evenly from where they are at the start of a tick to where they are at its end. Knows no bodies.
+// Colliders as surfaces of a ContactGroup, with which they move. Corners and edges of rigid ones catch what the points
+// of bodies miss, such as a cloth over a corner between two of its points. A figure is stopped by nothing else: its
+// faces, edges and corners move evenly from where they are at the start of a tick to where they are at its end. Knows
+// no bodies.
 #pragma once
 
 #include <span>
@@ -15,25 +16,27 @@ namespace taut::world {
 
 struct TouchedCollider {
     std::string name;
-    std::vector<collision::Outline> outlines;       // corners and edges
+    std::vector<collision::Outline> outlines;        // corners and edges
     std::shared_ptr<const ColliderFigure> figure{};  // null: it is rigid
-    double friction = 0;                            // Coulomb's μ [-]
-    collision::Pose pose;                           // at present
+    double friction = 0;                             // Coulomb's μ [-]
+    collision::Pose pose;                            // at present
 };
 
 class ColliderSurfaces {
   public:
     ColliderSurfaces() = default;
-    // Expects colliders in their order; seconds: the present time. Appends their surfaces and points (points) [m] to those of a group. A ball or a
-    // capsule is included only if it is thin enough to slip through the cells of the touching surfaces.
+    // Expects colliders in their order; seconds: the present time. Appends their surfaces and points (points) [m] to
+    // those of a group. A ball or a capsule is included only if it is thin enough to slip through the cells of the
+    // touching surfaces.
     ColliderSurfaces(const std::vector<TouchedCollider>& colliders, double seconds,
                      std::vector<contact::ContactSurface>& surfaces, std::vector<dvec3>& rest);
 
     bool isEmpty() const { return colliders_.empty(); }
     bool hasFigures() const;
     const std::string& nameOf(int surface) const;  // of a collider
-    // Starts a tick that ends at `end` [s], in which these colliders move, and figures besides. Sets the velocities of their points (points) [m/s]. Returns whether
-    // a collider jumps; as in Colliders::move, it is then at the end of its motion at once.
+    // Starts a tick that ends at `end` [s], in which these colliders move, and figures besides. Sets the velocities of
+    // their points (points) [m/s]. Returns whether a collider jumps; as in Colliders::move, it is then at the end of
+    // its motion at once.
     bool move(std::span<const ColliderMotion> moving, double end, double tickSeconds, contact::Elements& elements,
               std::span<dvec3> v);
     // Sets the places (points) [m] of moving colliders at a share of the tick; at its end those of all colliders.

@@ -137,7 +137,8 @@ class SkinDrawing final : public BodyDrawing {
     static view::FineMesh fineMesh(const mechanics::Model& model, const Skin& skin, const VertexNumbers& vertexOf,
                                    std::span<const std::uint32_t> triangles, int levels) {
         std::vector<glm::dvec3> rest(vertexOf.size());
-        for (const auto& [key, number] : vertexOf) rest[number] = skin.vertices[static_cast<std::size_t>(key.first)].rest;
+        for (const auto& [key, number] : vertexOf)
+            rest[number] = skin.vertices[static_cast<std::size_t>(key.first)].rest;
         std::vector<view::Face> faces;
         for (std::size_t t = 0; t < triangles.size(); t += 3) {
             const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
@@ -147,9 +148,10 @@ class SkinDrawing final : public BodyDrawing {
             else
                 faces.push_back({a, b, c, view::noVertex});
         }
-        // A round grid has steps on its border.
-        const bool isWhole = model.grid[0] == 0 || static_cast<int>(model.groups.at("all").size()) == model.pointCount();
-        return view::subdivided(std::move(faces), rest, isWhole, levels);
+        // A round grid, which leaves points out, has steps on its border.
+        const bool hasSteps =
+            model.grid[0] > 0 && static_cast<int>(model.groups.at("all").size()) < model.pointCount();
+        return view::subdivided(std::move(faces), rest, !hasSteps, levels);
     }
 
     static glm::dvec3 normalOf(const Skin& skin, const SkinTriangle& triangle) {

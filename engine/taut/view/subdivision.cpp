@@ -1,6 +1,6 @@
 // Catmull and Clark's surface of quadrangles and Loop's of triangles, and where they meet what is both: each face is
-// split in its plane, then every vertex goes to the mean of what the faces around it say (Warren and Schaefer: A Factored
-// Approach to Subdivision Surfaces, 2004). A border is a cubic B-spline of its own vertices.
+// split in its plane, then every vertex goes to the mean of what the faces around it say (Warren and Schaefer: A
+// Factored Approach to Subdivision Surfaces, 2004). A border is a cubic B-spline of its own vertices.
 //
 // Such a surface lies inside of what its vertices bend about, by a sixth of their second differences. So they do not
 // control it themselves: each is first moved by as much as the surface would miss it, which leaves the square of that.
@@ -176,10 +176,14 @@ void tangents(std::uint32_t v, const Fan& fan, Add&& add) {
             const double a = 2.0 * std::numbers::pi * share / whole;
             return glm::dvec2(std::cos(a), std::sin(a));
         };
+        const auto addFrom = [&](std::uint32_t to, glm::dvec2 weights) {
+            add(to, weights);
+            add(v, -weights);
+        };
         for (std::size_t i = 0; i < fan.opposite.size(); ++i) {
-            add(fan.edges[i], edge * at(angle));
+            addFrom(fan.edges[i], edge * at(angle));
             const double next = angle + angleOf(fan.opposite[i]);
-            if (hasQuad(fan.opposite[i])) add(fan.opposite[i], at(angle) + at(next));
+            if (hasQuad(fan.opposite[i])) addFrom(fan.opposite[i], at(angle) + at(next));
             angle = next;
         }
         return;
@@ -216,10 +220,10 @@ struct Facets {
 
 // Splits each face into four.
 //
-//    d - 2 - c        c
-//    |   |   |       / \      Corners keep their place in the parts, so that all diagonals a-c of these run alike.
-//    3 - m - 1      2 - 1
-//    |   |   |     / \ / \                                                                                       .
+//        c        d - 2 - c
+//       / \       |   |   |
+//      2 - 1      3 - m - 1    Corners keep their place in the parts, so that all diagonals a-c run alike.
+//     / \ / \     |   |   |
 //    a - 0 - b    a - 0 - b
 Facets split(Facets mesh, RowSum& sum) {
     Facets fine;

@@ -62,20 +62,24 @@ TEST(ViewSubdivision, WeightsOfAPlaceAddUpToOneAndThoseOfTangentsToNothing) {
     places.insert(places.end(), {{2, 1, 0}, {2, 2, 0}});
     for (const std::vector<Face>& faces : {gridFaces(4, true), gridFaces(4, false), mixedFaces()}) {
         const FineMesh fine = subdivided(faces, places, true, 2);
-        for (std::size_t v = 0; v + 1 < fine.first.size(); ++v) {
-            glm::vec3 sum(0.0F);
-            for (std::size_t i = fine.first[v]; i < fine.first[v + 1]; ++i) sum += fine.terms[i].weights;
-            ASSERT_LT(glm::length(sum - glm::vec3(1.0F, 0.0F, 0.0F)), 1e-5F) << v;  // 40 roundings of up to 9
-        }
+        for (const SparseRows* rows : {&fine.controls, &fine.surface})
+            for (std::size_t v = 0; v < rows->count(); ++v) {
+                glm::vec3 sum(0.0F);
+                for (std::size_t i = rows->first[v]; i < rows->first[v + 1]; ++i) sum += rows->terms[i].weights;
+                ASSERT_LT(glm::length(sum - glm::vec3(1.0F, 0.0F, 0.0F)), 1e-5F);  // 16 roundings of up to 9
+            }
     }
 }
 
 TEST(ViewSubdivision, AFlatSheetStaysFlatWithItsUvWhereTheyWere) {
-    const std::vector<glm::dvec3> places = gridPlaces(4, [](double x, double y) { return 0.5 * x - y; });
+    std::vector<glm::dvec3> places = gridPlaces(4, [](double x, double y) { return 0.5 * x - y; });
+    places.push_back(places[2]);
+    std::vector<Face> slit = gridFaces(4, true);  // from the middle of the border to vertex 7
+    slit[2][0] = 25;
     std::vector<glm::vec2> uv;
     for (const glm::dvec3& p : places) uv.emplace_back(p.x + p.y, 2.0 * p.y);
     const glm::vec3 normal = glm::normalize(glm::vec3(-0.5F, 1.0F, 1.0F));
-    for (const std::vector<Face>& faces : {gridFaces(4, true), gridFaces(4, false)}) {
+    for (const std::vector<Face>& faces : {gridFaces(4, true), gridFaces(4, false), slit}) {
         const FineMesh fine = subdivided(faces, places, true, 2);
         const Geometry geometry = fine.geometry(floats(places));
         const std::vector<glm::vec2> fineUv = fine.spread(uv);
@@ -83,7 +87,9 @@ TEST(ViewSubdivision, AFlatSheetStaysFlatWithItsUvWhereTheyWere) {
             const glm::vec3 p = geometry.positions[v];
             ASSERT_NEAR(p.z, 0.5F * p.x - p.y, 1e-6F);
             ASSERT_LT(glm::length(fineUv[v] - glm::vec2(p.x + p.y, 2.0F * p.y)), 2e-6F);
-            ASSERT_LT(glm::length(geometry.normals[v] - normal), 1e-5F);
+            if (v != 25 || faces[2][0] == 25) {  // a vertex of the slit alone
+                ASSERT_LT(glm::length(geometry.normals[v] - normal), 1e-5F) << v;
+            }
         }
     }
 }

@@ -51,6 +51,20 @@ class RowSum {
     std::vector<std::uint32_t> touched_;
 };
 
+void append(const Row& row, SparseRows& rows) {
+    for (const Term& term : row) rows.terms.push_back({term.vertex, glm::vec3(term.weights)});
+    rows.first.push_back(rows.terms.size());
+}
+
+template <class Vector>
+std::vector<Vector> product(const SparseRows& rows, std::span<const Vector> x) {
+    std::vector<Vector> sums(rows.count(), Vector(0.0F));
+    for (std::size_t r = 0; r < sums.size(); ++r)
+        for (std::size_t i = rows.first[r]; i < rows.first[r + 1]; ++i)
+            sums[r] += rows.terms[i].weights.x * x[rows.terms[i].column];
+    return sums;
+}
+
 std::size_t sidesOf(const Face& face) {
     return face[3] == noVertex ? 3 : 4;
 }
@@ -104,15 +118,20 @@ std::vector<Fan> fansOf(const std::vector<Face>& faces, std::size_t vertices) {
     return fans;
 }
 
-// Of the sizes of angles in a flat regular mesh, a right one of quadrangles and 60 degrees of triangles.
+// Of a face in a flat regular mesh, in twelfths of the way round.
 double angleOf(std::uint32_t opposite) {
     return opposite == noVertex ? 2.0 : 3.0;
 }
 
-// How far a vertex inside goes to the mean of its faces; 1 where 360 degrees of angles meet.
+double angleAround(const Fan& fan) {
+    double sum = 0.0;
+    for (const std::uint32_t opposite : fan.opposite) sum += angleOf(opposite);
+    return sum;
+}
+
+// How far a vertex inside goes to the mean of its faces; 1 where 360 degrees meet.
 double stepOf(const Fan& fan) {
-    double angles = 0.0;
-    for (const std::uint32_t opposite : fan.opposite) angles += angleOf(opposite);
+    const double angles = angleAround(fan);
     return angles == 6.0 ? 1.5 : 12.0 / angles;
 }
 
@@ -126,9 +145,7 @@ void smooth(std::uint32_t v, const Fan& fan, Add&& add) {
         add(fan.edges.back(), 0.25);
         return;
     }
-    const double step = stepOf(fan);
-    double angles = 0.0;
-    for (const std::uint32_t opposite : fan.opposite) angles += angleOf(opposite);
+    const double step = stepOf(fan), angles = angleAround(fan);
     add(v, 1.0 - step);
     for (std::size_t i = 0; i < fan.opposite.size(); ++i) {
         const bool isQuad = fan.opposite[i] != noVertex;
@@ -159,57 +176,48 @@ void limit(std::uint32_t v, const Fan& fan, Add&& add) {
         if (opposite != noVertex) add(opposite, 0.25 * edge / sum);
 }
 
-// The same for two tangents there, the second to the left of the first, where all faces are alike; across a border
-// that is not regular, and where both kinds meet, ones that the fan itself has.
+// The same for two tangents there, the second to the left of the first, where all faces are alike; across a border that
+// is not regular, and where both kinds meet, ones that the fan itself has.
 template <class Add>
 void tangents(std::uint32_t v, const Fan& fan, Add&& add) {
     const std::size_t n = fan.edges.size();
     const auto hasQuad = [](std::uint32_t opposite) { return opposite != noVertex; };
-    if (n < 2) return;
-    if (!fan.isBorder) {
-        double whole = 0.0, angle = 0.0;
-        for (const std::uint32_t opposite : fan.opposite) whole += angleOf(opposite);
+    const auto addWay = [&](std::uint32_t from, std::uint32_t to, glm::dvec2 weights) {
+        add(to, weights);
+        add(from, -weights);
+    };
+    if (fan.isFixed || !fan.isBorder) {
+        // All around for a vertex inside; at a corner, which may be the end of a slit, as far as its faces reach.
+        double angle = 0.0;
+        const double unit = 2.0 * std::numbers::pi / (fan.isFixed ? 12.0 : angleAround(fan));
         const double turn = 2.0 * std::numbers::pi / static_cast<double>(n), c = std::cos(turn);
-        const bool isQuad = std::any_of(fan.opposite.begin(), fan.opposite.end(), hasQuad);
+        const bool isQuad = !fan.isFixed && std::any_of(fan.opposite.begin(), fan.opposite.end(), hasQuad);
         const double edge = isQuad ? 1.0 + c + std::cos(0.5 * turn) * std::sqrt(2.0 * (9.0 + c)) : 1.0;
-        const auto at = [&](double share) {
-            const double a = 2.0 * std::numbers::pi * share / whole;
-            return glm::dvec2(std::cos(a), std::sin(a));
-        };
-        const auto addFrom = [&](std::uint32_t to, glm::dvec2 weights) {
-            add(to, weights);
-            add(v, -weights);
-        };
-        for (std::size_t i = 0; i < fan.opposite.size(); ++i) {
-            addFrom(fan.edges[i], edge * at(angle));
+        const auto at = [&](double a) { return glm::dvec2(std::cos(a * unit), std::sin(a * unit)); };
+        for (std::size_t i = 0; i < n; ++i) {
+            addWay(v, fan.edges[i], edge * at(angle));
+            if (i == fan.opposite.size()) break;
             const double next = angle + angleOf(fan.opposite[i]);
-            if (hasQuad(fan.opposite[i])) addFrom(fan.opposite[i], at(angle) + at(next));
+            if (isQuad && hasQuad(fan.opposite[i])) addWay(v, fan.opposite[i], at(angle) + at(next));
             angle = next;
         }
         return;
     }
-    add(fan.edges.front(), {1.0, 0.0});
-    add(fan.edges.back(), {-1.0, 0.0});
-    const auto across = [&](std::uint32_t to, double weight) { add(to, {0.0, weight}); };
-    if (n == 3 && !fan.isFixed && hasQuad(fan.opposite[0]) && hasQuad(fan.opposite[1])) {
-        const std::uint32_t from[] = {fan.edges[0], v, fan.edges[2]};
-        const std::uint32_t to[] = {fan.opposite[0], fan.edges[1], fan.opposite[1]};
-        for (std::size_t i = 0; i < 3; ++i) {
-            across(to[i], i == 1 ? 4.0 : 1.0);
-            across(from[i], i == 1 ? -4.0 : -1.0);
-        }
-    } else if (n > 2 && !fan.isFixed) {
-        const double angle = std::numbers::pi / static_cast<double>(n - 1);
-        for (std::size_t i = 1; i + 1 < n; ++i)
-            across(fan.edges[i], (2.0 - 2.0 * std::cos(angle)) * std::sin(static_cast<double>(i) * angle));
-        for (const std::uint32_t end : {fan.edges.front(), fan.edges.back()}) across(end, -std::sin(angle));
-    } else {
-        const std::size_t skipped = n > 2 ? 1 : 0;
-        for (std::size_t i = skipped; i + skipped < n; ++i) {
-            across(fan.edges[i], 1.0);
-            across(v, -1.0);
-        }
+    const glm::dvec2 across(0.0, 1.0);
+    addWay(fan.edges.back(), fan.edges.front(), {1.0, 0.0});
+    if (n == 3 && hasQuad(fan.opposite[0]) && hasQuad(fan.opposite[1])) {
+        addWay(v, fan.edges[1], 4.0 * across);
+        addWay(fan.edges[0], fan.opposite[0], across);
+        addWay(fan.edges[2], fan.opposite[1], across);
+        return;
     }
+    const double angle = std::numbers::pi / static_cast<double>(std::max<std::size_t>(n - 1, 2));
+    for (std::size_t i = 1; i + 1 < n; ++i)
+        add(fan.edges[i], (2.0 - 2.0 * std::cos(angle)) * std::sin(static_cast<double>(i) * angle) * across);
+    const double ends = n > 2 ? -std::sin(angle) : 1.0;
+    add(fan.edges.front(), ends * across);
+    add(fan.edges.back(), ends * across);
+    if (n == 2) add(v, -2.0 * across);
 }
 
 // Faces with the rows of their vertices.
@@ -272,11 +280,13 @@ FineMesh subdivided(std::vector<Face> faces, std::span<const dvec3> rest, bool k
     RowSum sum(count);
     const auto unit = [](std::uint32_t v) { return Row{{v, dvec3(1.0, 0.0, 0.0)}}; };
     Facets mesh{std::move(faces), {}};
+    FineMesh fine;
     for (std::uint32_t v = 0; v < count; ++v) {
         if (fans[v].isFixed || (keepsCorners && isCorner(v, fans[v], rest))) isFixed[v] = fans[v].isFixed = true;
         sum.add(unit(v), dvec3(2.0, 0.0, 0.0));
         limit(v, fans[v], [&](std::uint32_t of, double weight) { sum.add(unit(of), dvec3(-weight, 0.0, 0.0)); });
-        mesh.rows.push_back(sum.take());
+        append(sum.take(), fine.controls);
+        mesh.rows.push_back(unit(v));
     }
     for (int level = 0; level < levels; ++level) {
         mesh = split(std::move(mesh), sum);
@@ -290,13 +300,10 @@ FineMesh subdivided(std::vector<Face> faces, std::span<const dvec3> rest, bool k
         mesh.rows = std::move(smoothed);
     }
 
-    FineMesh fine;
-    fine.first.push_back(0);
     for (std::uint32_t v = 0; v < mesh.rows.size(); ++v) {
         limit(v, fans[v], [&](std::uint32_t of, double w) { sum.add(mesh.rows[of], dvec3(w, 0.0, 0.0)); });
         tangents(v, fans[v], [&](std::uint32_t of, glm::dvec2 w) { sum.add(mesh.rows[of], dvec3(0.0, w.x, w.y)); });
-        for (const Term& term : sum.take()) fine.terms.push_back({term.vertex, glm::vec3(term.weights)});
-        fine.first.push_back(fine.terms.size());
+        append(sum.take(), fine.surface);
     }
     for (const Face& face : mesh.faces) {
         fine.triangles.insert(fine.triangles.end(), {face[0], face[1], face[2]});
@@ -306,16 +313,17 @@ FineMesh subdivided(std::vector<Face> faces, std::span<const dvec3> rest, bool k
 }
 
 Geometry FineMesh::geometry(std::span<const glm::vec3> positions) const {
+    const std::vector<glm::vec3> x = product(controls, positions);
     Geometry geometry;
-    geometry.positions.reserve(first.size() - 1);
-    geometry.normals.reserve(first.size() - 1);
-    for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    geometry.positions.reserve(surface.count());
+    geometry.normals.reserve(surface.count());
+    for (std::size_t v = 0; v < surface.count(); ++v) {
         glm::vec3 place(0.0F), along(0.0F), across(0.0F);
-        for (std::size_t i = first[v]; i < first[v + 1]; ++i) {
-            const auto& [vertex, weights] = terms[i];
-            place += weights.x * positions[vertex];
-            along += weights.y * positions[vertex];
-            across += weights.z * positions[vertex];
+        for (std::size_t i = surface.first[v]; i < surface.first[v + 1]; ++i) {
+            const auto& [column, weights] = surface.terms[i];
+            place += weights.x * x[column];
+            along += weights.y * x[column];
+            across += weights.z * x[column];
         }
         const glm::vec3 normal = glm::cross(along, across);
         const float square = glm::dot(normal, normal);
@@ -326,10 +334,7 @@ Geometry FineMesh::geometry(std::span<const glm::vec3> positions) const {
 }
 
 std::vector<glm::vec2> FineMesh::spread(std::span<const glm::vec2> uv) const {
-    std::vector<glm::vec2> fine(first.size() - 1, glm::vec2(0.0F));
-    for (std::size_t v = 0; v < fine.size(); ++v)
-        for (std::size_t i = first[v]; i < first[v + 1]; ++i) fine[v] += terms[i].weights.x * uv[terms[i].vertex];
-    return fine;
+    return product<glm::vec2>(surface, product(controls, uv));
 }
 
 }  // namespace taut::view

@@ -1,5 +1,5 @@
-// A smooth surface that the vertices of a mesh control, as a finer mesh: every vertex of that is a sum of vertices of
-// the mesh with weights that never change. It knows no cloth.
+// A smooth surface that the vertices of a mesh control, as a finer mesh: every vertex of that is a sum of vertices
+// of the mesh with weights that never change. It knows no cloth.
 #pragma once
 
 #include <array>
@@ -16,14 +16,21 @@ namespace taut::view {
 using Face = std::array<std::uint32_t, 4>;
 inline constexpr std::uint32_t noVertex = ~0U;
 
-struct FineMesh {
+// Of a matrix that is mostly zero.
+struct SparseRows {
     struct Term {
-        std::uint32_t vertex;  // of the mesh
-        glm::vec3 weights;     // of the place, and of two tangents
+        std::uint32_t column;
+        glm::vec3 weights;  // of a place, and of two tangents there
     };
-    std::vector<std::uint32_t> triangles;  // (3 · triangles)
-    std::vector<std::size_t> first;        // (vertices + 1) terms of v are terms[first[v]] … terms[first[v + 1] - 1]
+    std::vector<std::size_t> first{0};  // (rows + 1) terms of row r are terms[first[r]] … terms[first[r + 1] - 1]
     std::vector<Term> terms;
+    std::size_t count() const { return first.size() - 1; }
+};
+
+struct FineMesh {
+    std::vector<std::uint32_t> triangles;  // (3 · triangles)
+    SparseRows controls;  // of vertices of the mesh: what controls the surface so that it passes close to them
+    SparseRows surface;   // of controls: vertices on the surface
 
     // Expects a position, or uv, of every vertex of the mesh.
     Geometry geometry(std::span<const glm::vec3> positions) const;

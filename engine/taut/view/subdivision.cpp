@@ -176,8 +176,9 @@ void limit(std::uint32_t v, const Fan& fan, Add&& add) {
         if (opposite != noVertex) add(opposite, 0.25 * edge / sum);
 }
 
-// The same for two tangents there, the second to the left of the first, where all faces are alike; across a border that
-// is not regular, and where both kinds meet, ones that the fan itself has.
+// The same for two tangents there, the second to the left of the first (Halstead, Kass and DeRose 1993; Hoppe et al.
+// 1994). They are the limit's own where all faces are alike; those at corners, across a border of quadrangles that is
+// not regular, and where both kinds meet, are but close to it.
 template <class Add>
 void tangents(std::uint32_t v, const Fan& fan, Add&& add) {
     const std::size_t n = fan.edges.size();

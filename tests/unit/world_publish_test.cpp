@@ -77,6 +77,26 @@ TEST(Publish, VerticesOfAMeshAreInTheOrderOfItsFile) {
     EXPECT_EQ(view.surfaces[0].topology->triangles, (std::vector<std::uint32_t>{2, 0, 1, 2, 3, 0}));
 }
 
+TEST(Publish, SmoothClothHasFourTrianglesForEachAndSmoothRopesTwoRings) {
+    SceneSpec scene = smallScene();
+    const view::FrameView coarse = World(scene).view(false);
+    RopeSpec& rope = scene.bodies.of<RopeSpec>()[0];
+    scene.bodies.of<ClothSpec>()[0].finish.smooth = rope.finish.smooth = 1;
+    const view::FrameView fine = World(scene).view(false);
+    const view::Surface &before = *surface(coarse, "cloth.a"), &cloth = *surface(fine, "cloth.a");
+    EXPECT_EQ(cloth.topology->triangles.size(), 4 * before.topology->triangles.size());
+    EXPECT_EQ(cloth.topology->uv.size(), 81U);
+    // A flat cloth stays as it is, its own vertices first: to a rounding of 40 weights.
+    for (std::size_t v = 0; v < 25; ++v) {
+        EXPECT_LT(glm::length(cloth.geometry->positions[v] - before.geometry->positions[v]), 1e-5F);
+        EXPECT_LT(glm::length(cloth.geometry->normals[v] - before.geometry->normals[v]), 1e-4F);
+        EXPECT_LT(glm::length(cloth.topology->uv[v] - before.topology->uv[v]), 1e-5F);
+    }
+    constexpr std::size_t sides = 10, more = 2;
+    EXPECT_EQ(surface(fine, "rope.b")->topology->uv.size() - surface(coarse, "rope.b")->topology->uv.size(),
+              sides * more * static_cast<std::size_t>(rope.segments));
+}
+
 TEST(Publish, WhatDoesNotChangeIsShared) {
     World world(smallScene());
     const view::FrameView first = world.view(false);

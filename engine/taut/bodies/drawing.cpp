@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "taut/core/private/srgb.h"
+#include "taut/view/private/subdivision.h"
 #include "taut/view/private/tube.h"
 #include "taut/bodies/private/skin_pieces.h"
 
@@ -77,7 +79,7 @@ class SkinDrawing final : public BodyDrawing {
         const mechanics::Model& model = body.model;
         const Skin skin = body.damage.isEmpty() ? wholeSkin(model) : skinOf(body);
         const BlockAxes axes = twoSided_ ? BlockAxes{} : BlockAxes(model);
-        std::map<std::pair<int, int>, std::uint32_t> vertexOf;  // (vertex of the skin, side of the block)
+        VertexNumbers vertexOf;
         const auto vertexAt = [&](int v, int side) {
             const SkinVertex& vertex = skin.vertices[static_cast<std::size_t>(v)];
             const auto [entry, isNew] = vertexOf.try_emplace({v, side}, static_cast<std::uint32_t>(points_.size()));
@@ -99,6 +101,11 @@ class SkinDrawing final : public BodyDrawing {
                                        : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
             for (int v : triangle.vertices) topology->triangles.push_back(vertexAt(v, side));
         }
+        if (const int levels = body.spec->finish.smooth; twoSided_ && levels > 0) {
+            fine_ = fineMesh(model, skin, vertexOf, topology->triangles, levels);
+            topology->uv = fine_->spread(topology->uv);
+            topology->triangles = fine_->triangles;
+        }
         topology_ = topology;
     }
 
@@ -106,8 +113,12 @@ class SkinDrawing final : public BodyDrawing {
         auto geometry = std::make_shared<view::Geometry>();
         for (int point : points_) geometry->positions.push_back(positions[static_cast<std::size_t>(point)]);
         for (const auto& [vertex, terms] : beyond_) geometry->positions[vertex] = terms.at(positions);
-        geometry->normals.resize(points_.size());
-        view::smoothNormals(geometry->positions, topology_->triangles, geometry->normals);
+        if (fine_) {
+            *geometry = fine_->geometry(geometry->positions);
+        } else {
+            geometry->normals.resize(points_.size());
+            view::smoothNormals(geometry->positions, topology_->triangles, geometry->normals);
+        }
         view::Surface surface;
         surface.name = name_;
         surface.topology = topology_;
@@ -120,6 +131,28 @@ class SkinDrawing final : public BodyDrawing {
 
   private:
     static constexpr int sidesOfBlock = 6;
+    using VertexNumbers = std::map<std::pair<int, int>, std::uint32_t>;  // by vertex of the skin, and side of the block
+
+    // The cells of a grid are smoothed as such: their diagonals would show.
+    static view::FineMesh fineMesh(const mechanics::Model& model, const Skin& skin, const VertexNumbers& vertexOf,
+                                   std::span<const std::uint32_t> triangles, int levels) {
+        std::vector<glm::dvec3> rest(vertexOf.size());
+        for (const auto& [key, number] : vertexOf)
+            rest[number] = skin.vertices[static_cast<std::size_t>(key.first)].rest;
+        std::vector<view::Face> faces;
+        for (std::size_t t = 0; t < triangles.size(); t += 3) {
+            const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+            if (model.grid[0] > 0 && !faces.empty() && faces.back()[3] == view::noVertex && faces.back()[0] == a &&
+                faces.back()[2] == b)
+                faces.back()[3] = c;
+            else
+                faces.push_back({a, b, c, view::noVertex});
+        }
+        // A round grid, which leaves points out, has steps on its border.
+        const bool hasSteps =
+            model.grid[0] > 0 && static_cast<int>(model.groups.at("all").size()) < model.pointCount();
+        return view::subdivided(std::move(faces), rest, !hasSteps, levels);
+    }
 
     static glm::dvec3 normalOf(const Skin& skin, const SkinTriangle& triangle) {
         const auto at = [&](std::size_t i) {
@@ -150,6 +183,7 @@ class SkinDrawing final : public BodyDrawing {
     std::shared_ptr<const view::Finish> finish_;
     std::vector<int> points_;                                 // (vertices) their points of the model
     std::vector<std::pair<std::size_t, SkinVertex>> beyond_;  // vertices at a cut, beyond all points
+    std::optional<view::FineMesh> fine_;                      // of a sheet that is smoothed
     std::shared_ptr<const view::Topology> topology_;
 };
 

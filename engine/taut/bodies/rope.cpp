@@ -22,13 +22,16 @@ using fields::Section;
 namespace {
 
 constexpr int tubeSides = 10;
-constexpr int tubeSubdivisions = 2;
+constexpr int tubeSubdivisions = 2;  // of what is not smoothed further
 
 // Draws a rope or its pieces. Each piece of a cut rope goes straight on beyond its last point up to the cut.
 class RopeDrawing final : public BodyDrawing {
   public:
     RopeDrawing(const RopeSpec& spec, const Body& body)
-        : name_(body.fullName()), radius_(static_cast<float>(spec.radius)), finish_(finishOf(spec.finish)) {
+        : name_(body.fullName()),
+          radius_(static_cast<float>(spec.radius)),
+          subdivisions_(tubeSubdivisions << spec.finish.smooth),
+          finish_(finishOf(spec.finish)) {
         const mechanics::Model& model = body.model;
         double length = 0;
         for (const mechanics::Spring& s : model.springs)
@@ -60,7 +63,7 @@ class RopeDrawing final : public BodyDrawing {
             surface.name = name_;
             surface.topology = piece.topology;
             surface.geometry =
-                std::make_shared<view::Geometry>(view::tubeGeometry(line, tubeSubdivisions, tubeSides, radius_));
+                std::make_shared<view::Geometry>(view::tubeGeometry(line, subdivisions_, tubeSides, radius_));
             surface.finish = finish_;
             surface.tubeRadius = radius_;
             surfaces.push_back(std::move(surface));
@@ -93,12 +96,13 @@ class RopeDrawing final : public BodyDrawing {
         const int points = piece.last - piece.first + 1 + (piece.before > 0 ? 1 : 0) + (piece.after > 0 ? 1 : 0);
         const float segments = static_cast<float>(piece.last - piece.first) + piece.before + piece.after;
         piece.topology = std::make_shared<view::Topology>(
-            view::tubeTopology(points, tubeSubdivisions, tubeSides, perSegment * segments, radius_));
+            view::tubeTopology(points, subdivisions_, tubeSides, perSegment * segments, radius_));
         pieces_.push_back(std::move(piece));
     }
 
     std::string name_;
     float radius_;
+    int subdivisions_;  // of a segment
     std::shared_ptr<const view::Finish> finish_;
     std::vector<int> order_;  // points of the model in drawing order
     std::vector<Piece> pieces_;

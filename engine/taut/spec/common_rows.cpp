@@ -106,6 +106,9 @@ Section finishSection() {
             .number("hem_m", &FinishSpec::hem, "m", Range{0.0, 1.0},
                     "Thickness of a cloth as its free edges show it where that is more than a pixel; nothing else "
                     "knows of it.")
+            .whole("smooth", &FinishSpec::smooth, "", Range{0.0, 3.0},
+                   "Of a cloth or a rope: times that each length of it is halved for the picture and put on a smooth "
+                   "surface or curve; nothing else knows of it.")
             .text("texture", &FinishSpec::texture, Role::texture, "Picture file, PNG or JPEG.")
             .required()
             .only({"the pattern image"})

@@ -23,6 +23,7 @@ struct FinishSpec {
     double translucency = 0.2;  // 0 … 1
     double anisotropy = 0.0;    // 0 … 1
     double hem = 0.001;         // [m] thickness of a cloth at its free edges
+    int smooth = 0;             // times that a cloth or a rope is drawn twice as fine
     std::string texture;        // path, resolved by the loader
 };
 

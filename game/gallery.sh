@@ -21,6 +21,7 @@ make() {
     file=$1
     shift
     [ -e "$out/$file" ] || { "$@" "$out/part-$file" && mv "$out/part-$file" "$out/$file"; }
+    rm -f "$out/part-${file%.*}.run.json"
 }
 
 cards=
@@ -36,7 +37,9 @@ for text in "$root"/assets/scenes/*.toml; do
         ffmpeg -v error -y -ss "$seconds" -i "$out/$scene.mp4" -frames:v 1 -q:v 3 "$out/$scene.jpg"
     fi
     title=$(sed -n 's/^title = "\(.*\)"$/\1/p' "$text" | head -n 1 | escaped)
-    line=$(sed -n '1s/^# *//p' "$text" | escaped)
+    # The first sentence of its first comment.
+    line=$(awk '/^#/ { sub(/^# */, ""); all = all $0 " "; next } { exit } END { print substr(all, 1, index(all, ". ")) }' \
+        "$text" | escaped)
     cards="$cards
 <article>
   <a href=\"$scene.html\"><img src=\"$scene.jpg\" alt=\"$title\" width=\"640\" height=\"360\" loading=\"lazy\"></a>
@@ -53,7 +56,7 @@ for chart in cloth-corners-time:"Error against time of every method" stability-m
     charts="$charts
 <figure><a href=\"${chart%%:*}.png\"><img src=\"${chart%%:*}.png\" alt=\"\" loading=\"lazy\"></a><figcaption>${chart#*:}</figcaption></figure>"
 done
-[ -e "$out/reality/index.html" ] || "$taut" reality --quiet -y -o "$out/reality"
+[ -e "$out/reality/reality.html" ] || "$taut" reality --quiet -o "$out/reality"
 
 cat >"$out/index.html" <<END
 <!DOCTYPE html>
@@ -74,7 +77,7 @@ cat >"$out/index.html" <<END
 </main>
 <section>
   <h1>Measured</h1>
-  <p><a href="reality/index.html">The table against theory and measurement</a></p>
+  <p><a href="reality/reality.html">The table against theory and measurement</a></p>
   <div class="charts">$charts
   </div>
 </section>

@@ -327,6 +327,38 @@ def make_ball():
     return len(vertices)
 
 
+# ---- the cushion: two square foils that share their rim and lie on each other, barely apart ----
+
+
+def make_cushion(side=1.0, cells=26, apart=0.008):
+    def inside(i, j):
+        return 0 < i < cells and 0 < j < cells
+
+    numbers, vertices, uv = {}, [], []
+    for face in (1, -1):
+        for j in range(cells + 1):
+            for i in range(cells + 1):
+                u, v = i / cells - 0.5, j / cells - 0.5
+                if face < 0 and not inside(i, j):
+                    numbers[face, i, j] = numbers[1, i, j]
+                    continue
+                numbers[face, i, j] = len(vertices)
+                vertices.append((side * u, face * 0.5 * apart * (1 - 4 * u * u) * (1 - 4 * v * v), side * v))
+                uv.append((u + 0.5, 0.5 - v))
+    triangles = []
+    for face in (1, -1):
+        for j in range(cells):
+            for i in range(cells):
+                a, b, c, d = (numbers[face, i + k % 2, j + k // 2] for k in range(4))
+                # From the middle outwards, so that no triangle lies on the rim alone.
+                halves = ((a, c, d), (a, d, b)) if (2 * i < cells) == (2 * j < cells) else ((a, c, b), (b, c, d))
+                triangles += [t if face > 0 else t[::-1] for t in halves]
+    assert_watertight(vertices, triangles)
+    write_obj("cushion.obj", "Two foils that share their rim, flat. Watertight.", vertices, triangles, uv)
+    return len(vertices)
+
+
+
 # ---- pictures ----
 
 
@@ -413,5 +445,6 @@ if __name__ == "__main__":
     print("curtain", *make_curtain(), "vertices, metres of cloth")
     print("cape", make_cape(), "vertices")
     print("ball", make_ball(), "vertices")
+    print("cushion", make_cushion(), "vertices")
     write_png("poncho.png", 768, poncho_colour)
     write_png("flag.png", 512, flag_colour)

@@ -7,6 +7,7 @@ list(APPEND TAUT_UNIT_TESTS
   mechanics_builders_mesh_cloth_test.cpp
   mechanics_builders_net_test.cpp
   mechanics_builders_rope_test.cpp
+  mechanics_filling_generator_test.cpp
   mechanics_gravity_generator_test.cpp
   mechanics_gust_generator_test.cpp
   mechanics_index_runs_generator_test.cpp

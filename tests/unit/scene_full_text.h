@@ -25,6 +25,7 @@ sleep_error_m = 2e-4
 [world]
 gravity = [0.5, -1.62, 0.25]
 air_density_kg_per_m3 = 0.02
+air_pressure_Pa = 2e4
 [contact]
 friction = 0.45
 instants = 8
@@ -214,6 +215,11 @@ gust = { amplitude = 2.5, period_s = 1.7, length_m = 3, seed = 7 }
 drag = 1.1
 lift = 0.5
 on = ["cloth.flag.*"]
+[filling.foam]
+in = ["block.jelly"]
+pressure_Pa = 12
+keeps = "volume"
+bulk_modulus_Pa = 2e3
 [camera.main]
 fov_deg = 45
 keys = [{ t = 0, eye = [1, 2, 3], target = [4, 5, 6], fov_deg = 30, ease = "hold" }, { t = 1, eye = [1, 2, 4], target = [4, 5, 6] }]

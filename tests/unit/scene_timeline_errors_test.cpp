@@ -196,7 +196,7 @@ TEST(SceneErrors, RampsOfWhatCannotChangeAreReported) {
          "ends = [[0, 0, 0], [1, 0, 0]]\n",
          "s.toml:3:31: error: nothing of solver can change while the scene runs\n"
          "    { t = 1, do = \"ramp\", key = \"solver.dt\", to = 0.1 },\n"
-         "                                ^ what may: world, material, rope, block, net, anchor, wind, collider, "
+         "                                ^ what may: world, material, rope, block, net, anchor, wind, filling, collider, "
          "camera, light, lamp, environment, background"},
         {"an unknown wind",
          "at = [\n"

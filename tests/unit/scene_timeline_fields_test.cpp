@@ -224,7 +224,7 @@ TEST(SceneTimeline, MomentsBetweenTicksOfFilmAndTelevisionDoNotWarn) {
 TEST(SceneTimeline, TheManualNamesWhatARampMayChange) {
     const std::string text = manual();
     EXPECT_NE(text.find("  wind.NAME      velocity, gust.amplitude, drag, lift\n"), std::string::npos);
-    EXPECT_NE(text.find("  world          gravity, air_density_kg_per_m3\n"), std::string::npos);
+    EXPECT_NE(text.find("  world          gravity, air_density_kg_per_m3, air_pressure_Pa\n"), std::string::npos);
 }
 
 }  // namespace

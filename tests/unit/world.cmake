@@ -10,6 +10,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_encounters_test.cpp
   world_envelope_test.cpp
   world_faces_test.cpp
+  world_filling_test.cpp
   world_figure_test.cpp
   world_forces_test.cpp
   world_freeze_test.cpp

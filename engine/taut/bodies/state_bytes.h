@@ -89,7 +89,8 @@ class StateBytes {
     void operator()(glm::dvec3& v) {
         for (int p = 0; p < 3; ++p) (*this)(v[p]);
     }
-    void operator()(mechanics::LinearPath& path) {
+    template <class Value>
+    void operator()(mechanics::LinearPathOf<Value>& path) {
         (*this)(path.from);
         (*this)(path.to);
         (*this)(path.t0);

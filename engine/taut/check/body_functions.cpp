@@ -1,4 +1,6 @@
 // What is measured of whole bodies.
+#include <glm/geometric.hpp>
+
 #include "taut/check/private/function_table.h"
 #include "taut/check/private/places.h"
 #include "taut/check/private/shadow.h"
@@ -21,6 +23,17 @@ Quantity shadow(const Now& now, std::span<const Expression> arguments) {
     for (const auto& t : now.triangles(arguments[0].target))
         flat.push_back({glm::dvec2(t[0][u], t[0][v]), {t[1][u], t[1][v]}, {t[2][u], t[2][v]}});
     return {glm::dvec3(coveredArea(std::move(flat)), 0, 0)};
+}
+
+// Seen from a corner of its own.
+Quantity enclosed(const Now& now, std::span<const Expression> arguments) {
+    const auto triangles = now.triangles(arguments[0].target);
+    double sixfold = 0.0;
+    for (const auto& t : triangles) {
+        const glm::dvec3& origin = triangles.front()[0];
+        sixfold += glm::dot(t[0] - origin, glm::cross(t[1] - origin, t[2] - origin));
+    }
+    return {glm::dvec3(sixfold / 6.0, 0, 0)};
 }
 
 std::string bodiesOf(std::span<const Expression> arguments) {
@@ -60,6 +73,16 @@ std::vector<Function> bodyFunctions() {
                          "Ropes and nets have none.",
                          shadow,
                          {}});
+    functions.push_back(
+        {"enclosed",
+         {Takes::bodies},
+         false,
+         false,
+         "m³",
+         "Volume that the bodies' surfaces enclose, their fronts outside; a surface that is open has none "
+         "of its own.",
+         enclosed,
+         {}});
     return functions;
 }
 

@@ -124,6 +124,9 @@ SceneSection worldSection() {
                          .number("air_density_kg_per_m3", &WorldSpec::airDensity, "kg/m³", Range{0.0, 1e6},
                                  "Density of the air, for wind.")
                          .ramps(Affects::forces)
+                         .number("air_pressure_Pa", &WorldSpec::airPressure, "Pa", Range{0.0, 1e9},
+                                 "Pressure of the air, against which a sealed filling stands; 0: none.")
+                         .ramps(Affects::forces)
                          .take();
     return section;
 }

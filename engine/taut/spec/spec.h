@@ -34,6 +34,7 @@ class KindTable;
 struct WorldSpec {
     dvec3 gravity{0.0, -9.81, 0.0};  // [m/s²]
     double airDensity = 1.2;         // [kg/m³]
+    double airPressure = 101325.0;   // [Pa]
 };
 
 // For bodies that touch each other or themselves.

@@ -12,7 +12,8 @@
     KIND(rodKind)
 #define TAUT_FORCES(KIND) \
     KIND(anchorKind)      \
-    KIND(windKind)
+    KIND(windKind)        \
+    KIND(fillingKind)
 #define TAUT_ACTIONS(KIND) \
     KIND(grabKind)         \
     KIND(moveKind)         \

@@ -74,8 +74,8 @@ TEST_P(EveryPrecision, HashesOfEveryMethodAreTheSameForThreadsAndInstructionSets
 }
 
 // Pins, rods and springs that break, are released and cut, and a step that follows the pull of rods; sheets and ropes
-// that bend, in several tasks and with scattered points; meshes that bend away from a curve; threads that rub; a figure; seams
-// that close and tear.
+// that bend, in several tasks and with scattered points; meshes that bend away from a curve; threads that rub; a
+// figure; seams that close and tear.
 TEST_P(EveryPrecision, HashesOfJointsAndBendingAreTheSameForThreadsAndInstructionSets) {
     const auto orDefault = [](core::InstructionSet wanted) {
         return core::isSupported(wanted) ? wanted : core::instructionSet();

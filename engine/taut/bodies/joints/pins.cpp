@@ -169,7 +169,8 @@ bool Pins::draw(std::span<dvec3> values, const Moment& moment) {
     return any;
 }
 
-// Of closed pins. A node without inverse mass, a place on a collider or a held point, draws all others to it and bears the reaction.
+// Of closed pins. A node without inverse mass, a place on a collider or a held point, draws all others to it and bears
+// the reaction.
 bool Pins::join(std::span<dvec3> values, const Moment& moment) {
     bool any = false;
     for (const Cluster& cluster : clusters_) {

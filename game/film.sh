@@ -48,7 +48,7 @@ fi
 shots='show 10 177 taut: ropes, cloth and soft bodies
 flag 120 239 Wind on every triangle
 laundry 186 305 Cloth on cloth
-cape 60 179 Held by what moves
+dress 12 131 Sewn on who then dances
 twist 216 323 Wrung four turns, and let go
 knot 120 215 A rope through its own loop
 tower 76 189 Soft blocks, stiff and stiffer

@@ -257,7 +257,9 @@ TEST(SceneFields, NetLandsInItsMembers) {
 
 TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
-    ASSERT_EQ(scene.joints.size(), 3U);
+    ASSERT_EQ(scene.joints.size(), 4U);
+    EXPECT_EQ(scene.joints.of<world::SeamJoint>().at(0).over, 2.0);
+    EXPECT_EQ(scene.joints[3].breakForce, 13.0);
     const world::JointSpec& spring = scene.joints[0];
     EXPECT_EQ(spring.a.targets, std::vector<std::string>{"rope.rail@end"});
     EXPECT_EQ(spring.b.targets, std::vector<std::string>{"net.cradle@b"});

@@ -166,6 +166,16 @@ a = "net.cradle@a"
 b = "collider.ball"
 kind = "rod"
 place = [0, 1, 2.5]
+[[seam]]
+a = "cloth.flag.0@left"
+b = "cloth.flag.1@right"
+over_s = 2
+name = "side"
+break_N = 13
+turns = 1
+radius = 0.001
+coil_radius = 0.01
+finish = { colour = [1, 1, 0] }
 [[mass]]
 target = "block.*@corners"
 mass_kg = 1.5

@@ -30,6 +30,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_restoring_test.cpp
   world_rods_test.cpp
   world_saving_test.cpp
+  world_seam_test.cpp
   world_sleep_test.cpp
   world_start_doubts_test.cpp
   world_step_choice_test.cpp

@@ -11,6 +11,7 @@
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
 #include "taut/bodies/joints/constraint.h"
+#include "taut/bodies/private/seam_pairing.h"
 #include "taut/bodies/private/ties.h"
 
 namespace taut::world {
@@ -63,7 +64,10 @@ class Planner {
           welds_(firstGlobalEnd()) {
         int number = 0;
         for (const JointSpec& joint : spec.joints) {
-            if (!isTie(joint)) addJoint(joint, number);
+            if (joint.isSeam())
+                addSeam(joint, number);
+            else if (!isTie(joint))
+                addJoint(joint, number);
             ++number;
         }
     }
@@ -120,6 +124,64 @@ class Planner {
                 once.push_back(p);
             }
         return once;
+    }
+
+    // The points of the edge that a side of a seam names, from one end to the other.
+    std::vector<PointRef> edge(const JointSide& side, const Source& source) const {
+        const std::vector<PointRef> named = points(side, source);
+        std::vector<int> own;
+        for (const PointRef& p : named) {
+            if (p.body != named.front().body)
+                throw Error(ErrorKind::badContent, at(source) + "\"" + side.text() +
+                                                       "\" names edges of several bodies; write a [[seam]] for each");
+            own.push_back(p.point);
+        }
+        std::vector<PointRef> line;
+        for (const int i : lineOf(body(named.front().body).model, own)) line.push_back({named.front().body, i});
+        if (line.empty())
+            throw Error(ErrorKind::badContent,
+                        at(source) + "\"" + side.text() +
+                            "\" is no edge to sew: its points are not one line with two ends; name a part of it, as "
+                            "@left of a cloth");
+        return line;
+    }
+
+    void addSeam(const JointSpec& seam, int ofScene) {
+        const std::vector<PointRef> as = edge(seam.a, seam.source), bs = edge(seam.b, seam.source);
+        const int a = as.front().body, b = bs.front().body;
+        double longest = 0;  // [m] from a point of a side to the next; partners are half of it aside at most
+        const auto distance = [](const dvec3& d) { return std::sqrt(glm::dot(d, d)); };
+        const auto places = [&](const std::vector<PointRef>& line) {
+            std::vector<dvec3> x;
+            for (const PointRef& p : line) {
+                if (!x.empty()) longest = std::max(longest, distance(position(p) - x.back()));
+                x.push_back(position(p));
+            }
+            return x;
+        };
+        JointReport& report = reports_.emplace_back();
+        report.spec = &seam;
+        int sewn = 0;
+        for (const auto& [i, j] : pairedByLength(places(as), places(bs))) {
+            const PointRef &first = as[static_cast<std::size_t>(i)], &second = bs[static_cast<std::size_t>(j)];
+            if (global(first) == global(second)) continue;  // where two edges of one body meet
+            const double apart = distance(position(second) - position(first));
+            if (apart > seam.reach() + 0.5 * longest)
+                throw Error(ErrorKind::badContent, at(seam.source) + "the seam \"" + seam.a.text() + "\" – \"" +
+                                                       seam.b.text() + "\" starts " + std::to_string(apart) +
+                                                       " m apart; say how long it takes to close, e.g. over_s = 1.0");
+            if (seam.isWeld()) report.jump = std::max(report.jump, apart);
+            ++sewn;
+            if (seam.isWeld() && a != b && !seam.hasOwnTies())
+                welds_.unite(global(first), global(second));
+            else
+                joints_.push_back({first, second, &seam, ofScene, apart});
+        }
+        if (sewn == 0)
+            throw Error(ErrorKind::badContent, at(seam.source) + "the seam sews \"" + seam.a.text() +
+                                                   "\" to itself; name two edges");
+        islands_.unite(a, b);
+        report.pairs.push_back({&body(a), &body(b), sewn});
     }
 
     // Over 60 lines: it ties each point of one side to the nearest of the other, and reports what it did not tie.
@@ -204,7 +266,11 @@ class Planner {
         const int a = pointOf(joint.a), b = pointOf(joint.b);
         addTie(
             plan,
-            {.joint = joint.number, .a = a, .b = b, .breakForce = joint.spec->breakForce.value_or(HUGE_VAL)},
+            {.joint = joint.number,
+             .a = a,
+             .b = b,
+             .breakForce = joint.spec->breakForce.value_or(HUGE_VAL),
+             .isSeam = joint.spec->isSeam()},
             [&] { joint.spec->tie(plan, a, b, joint.distance); });
     }
 

@@ -53,6 +53,7 @@ struct JointTie {
     std::string collider{};   // "collider.pole", or empty
     dvec3 offset{0.0};      // [m] of the place, from the unturned collider
     double breakForce = HUGE_VAL;  // [N]
+    bool isSeam = false;           // the cells at both points do not touch each other
     std::vector<int> springs{};    // of the plan
     struct Part {
         int constraint, tie;  // number in the plan, and number within the constraint

@@ -136,8 +136,7 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     const auto addPoints = [&](const LeafBoxes& points, const core::Aabb& boxOfPoints, const LeafBoxes& triangles,
                                const core::Aabb& boxOfTriangles) {
         boxes.forEach(triangles.triangles, boxOfTriangles, points.points, boxOfPoints, [&](int t, int i) {
-            const std::array<int, 3>& c = query.triangle(t).points;
-            if (i != c[0] && i != c[1] && i != c[2]) scratch.overlapping.push_back({i, t, thickness});
+            if (!elements_.areNeighbours(i, query.triangle(t))) scratch.overlapping.push_back({i, t, thickness});
         });
     };
     addPoints(ofA, boxA, ofB, boxB);
@@ -154,8 +153,7 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
 
     // Then pairs of edges.
     boxes.forEach(ofA.edges, boxA, ofB.edges, boxB, [&](int e, int f) {
-        const Edge &first = query.edge(e), &second = query.edge(f);
-        if (first.a != second.a && first.a != second.b && first.b != second.a && first.b != second.b)
+        if (!elements_.areNeighbours(query.edge(e), query.edge(f)))
             scratch.overlapping.push_back({std::min(e, f), std::max(e, f), thickness});
     });
     appendInReach(

@@ -239,10 +239,11 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
     };
     const auto test = [&](int e, int t, std::vector<Crossing>& found) {
         const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
-        const std::array<int, 3>& c = elements.triangles()[static_cast<std::size_t>(t)].points;
-        const auto isCorner = [&](int i) { return i == c[0] || i == c[1] || i == c[2]; };
+        const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
+        const std::array<int, 3>& c = triangle.points;
         Piercing p;
-        if (isCorner(edge.a) || isCorner(edge.b) || !mayPierce(edge)) return;
+        if (!mayPierce(edge)) return;
+        if (elements.areNeighbours(edge.a, triangle) || elements.areNeighbours(edge.b, triangle)) return;
         if (!pierces(at(edge.a), at(edge.b), at(c[0]), at(c[1]), at(c[2]), p)) return;
         found.push_back({e,
                          t,

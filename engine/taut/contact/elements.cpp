@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace taut::contact {
 
@@ -12,7 +13,9 @@ Elements::Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest
     : surfaces_(std::move(surfaces)),
       rest_(std::move(rest)),
       surfaceOf_(rest_.size(), -1),
+      oneOf_(rest_.size()),
       isStill_(surfaces_.size(), 0) {
+    std::iota(oneOf_.begin(), oneOf_.end(), 0);
     for (int s = 0; s < static_cast<int>(surfaces_.size()); ++s) addSurface(s);
     firstTriangleOf_.push_back(triangles_.size());
     firstEdgeOf_.push_back(edges_.size());
@@ -60,6 +63,11 @@ void Elements::setGone(int number, const std::function<bool(std::size_t triangle
         triangles_[t].isGone = isTriangleGone(t - firstTriangleOf_[s]);
     for (std::size_t e = firstEdgeOf_[s]; e < firstEdgeOf_[s + 1]; ++e)
         isSevered_[e] = isEdgeSevered(edges_[e].a, edges_[e].b);
+}
+
+void Elements::sew(int a, int b) {
+    const int first = oneOf_[static_cast<std::size_t>(a)], second = oneOf_[static_cast<std::size_t>(b)];
+    std::replace(oneOf_.begin(), oneOf_.end(), std::max(first, second), std::min(first, second));
 }
 
 void Elements::refresh() {

@@ -2,6 +2,7 @@
 // only.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -39,6 +40,17 @@ class Elements {
                  const std::function<bool(int a, int b)>& isEdgeSevered);
     // Call it after the last setGone().
     void refresh();
+    // Two points of a seam: their elements count as neighbours and never touch. To be called before any list is made.
+    void sew(int a, int b);
+    bool areOne(int a, int b) const {
+        return oneOf_[static_cast<std::size_t>(a)] == oneOf_[static_cast<std::size_t>(b)];
+    }
+    bool areNeighbours(int point, const Triangle& triangle) const {
+        return std::any_of(triangle.points.begin(), triangle.points.end(), [&](int i) { return areOne(point, i); });
+    }
+    bool areNeighbours(const Edge& a, const Edge& b) const {
+        return areOne(a.a, b.a) || areOne(a.a, b.b) || areOne(a.b, b.a) || areOne(a.b, b.b);
+    }
 
     const std::vector<ContactSurface>& surfaces() const { return surfaces_; }
     const ContactSurface& surface(int i) const { return surfaces_[static_cast<std::size_t>(i)]; }
@@ -95,6 +107,7 @@ class Elements {
     int firstBall_ = 0;
     std::vector<bool> isSevered_;  // (edges without balls)
     std::vector<int> surfaceOf_;   // (points)
+    std::vector<int> oneOf_;       // (points) the lowest point that it is sewn to, with all between; else itself
     std::vector<int> ring_, firstTriangle_;
     std::vector<std::size_t> ringStart_;
     std::vector<double> shortest_;  // (surfaces)

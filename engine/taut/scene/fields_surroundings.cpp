@@ -1,4 +1,4 @@
-// The field table, part three: joints, masses and colliders.
+// The field table, part three: joints, seams, masses and colliders.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/merged_rows.h"
 #include "taut/scene/private/sections.h"
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/private/ties.h"
 
 namespace taut::scene {
@@ -181,6 +182,19 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
         return field.only.empty() ? variantsOf(kind) : field.only;
     });
     section.fields.insert(section.fields.begin() + 2, what);
+    return section;
+}
+
+SceneSection seamSection() {
+    const Kind<JointSpec> kind = seamKind();
+    SceneSection section{kind.section, {}, {}};
+    section.name = kind.name;
+    section.layout = Layout::list;
+    section.enter = [make = kind.make](SceneSpec& scene, const std::string&, const Source& source) -> void* {
+        JointSpec& seam = scene.joints.add(make());
+        seam.source = source;
+        return dynamic_cast<void*>(&seam);
+    };
     return section;
 }
 

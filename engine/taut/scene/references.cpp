@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "taut/bodies/private/ties.h"
 #include "taut/spec/targets.h"
@@ -134,8 +135,11 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
         }
     }
     problems.about("");
-    for (std::size_t i = 0; i < scene.spec.joints.size(); ++i)
-        checkJoint(scene.spec.joints[i], scene.owners.at(fmt::format("joint[{}]", i)), bodies, problems);
+    std::map<std::string, int> count;  // of [[joint]] and of [[seam]]
+    for (const world::JointSpec& joint : scene.spec.joints) {
+        const std::string section = joint.isSeam() ? "seam" : "joint";
+        checkJoint(joint, scene.owners.at(fmt::format("{}[{}]", section, count[section]++)), bodies, problems);
+    }
 }
 
 std::optional<TargetFault> nameFault(const world::SceneSpec& scene, const std::string& name) {

@@ -109,7 +109,7 @@ std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
         all.push_back(kindSection(kind, &world::SceneSpec::bodies));
         if (all.back().find("material") != nullptr) all[material].fields.push_back(thingsOfMaterial(all.back()));
     }
-    all.insert(all.end(), {jointSection(kinds.joints), massSection()});
+    all.insert(all.end(), {jointSection(kinds.joints), seamSection(), massSection()});
     for (const auto& kind : kinds.forces.all()) all.push_back(kindSection(kind, &world::SceneSpec::forces));
     all.insert(all.end(), {colliderSection(kinds.shapes), cameraSection(), lightSection(), lampSection(),
                            environmentSection(), backgroundSection(), labelSection(), handSection(),

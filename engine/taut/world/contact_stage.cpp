@@ -102,6 +102,9 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     contact::ContactOptions options;
     options.friction = spec.friction;
     group_ = std::make_unique<contact::ContactGroup>(std::move(surfaces), std::move(rest), options);
+    for (const Part& part : parts_)
+        for (const JointTie& tie : part.island->plan().ties)
+            if (tie.isSeam) group_->elements().sew(part.first + tie.a, part.first + tie.b);
     colliders_.placeAll(x1_);
     x0_ = x1_;
 }

@@ -36,6 +36,7 @@ class Constraint {
         // (ties) Adds to this what each tie pulls its first end with: mass times change of x [kg m] or of v [kg m/s]. A
         // constraint of one tie may leave it alone; its points tell.
         std::span<dvec3> pull;
+        double time = 0;  // [s] of x and v
     };
 
     virtual ~Constraint() = default;

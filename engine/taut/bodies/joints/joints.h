@@ -1,6 +1,7 @@
 // The joints of the engine.
 #pragma once
 
+#include <cmath>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -43,5 +44,22 @@ struct RodJoint final : SpecOf<RodJoint, JointSpec> {
     void tie(IslandPlan& plan, int a, int b, double distance) const override;
     void carry(IslandPlan& plan, Grip grip) const override;
 };
+
+// Draws two edges together, then keeps them together.
+struct SeamJoint final : SpecOf<SeamJoint, JointSpec> {
+    static constexpr std::string_view kindName = "seam";
+    double over = 0;  // [s] until it is closed; 0: it is as the scene starts
+
+    std::string_view title() const override { return "a seam"; }
+    double reach() const override { return over > 0 ? HUGE_VAL : WeldJoint().furthest; }
+    bool tiesWithin() const override { return true; }
+    bool isWeld() const override { return !(over > 0); }
+    bool isSeam() const override { return true; }
+    void tie(IslandPlan& plan, int a, int b, double distance) const override;
+    void carry(IslandPlan& plan, Grip grip) const override;
+};
+
+// It is not among the kinds of [[joint]]: scenes have [[seam]].
+Kind<JointSpec> seamKind();
 
 }  // namespace taut::world

@@ -8,6 +8,9 @@ namespace taut::world {
 namespace {
 
 constexpr double roundingOfPins = 1e-15;  // of a coordinate or velocity
+constexpr double drawnTo = 1e-9;          // of the length at first: how exactly an open pin draws
+constexpr double nearlyDrawn = 1e-6;      // likewise: so near to its most, velocities are drawn
+constexpr int mostDraws = 20;             // open pins that share points take turns
 
 }  // namespace
 
@@ -21,21 +24,49 @@ int Pins::numberOf(int point) {
 void Pins::tie(int a, int b, const Source& source) {
     const int first = numberOf(a), second = numberOf(b);
     pins_.push_back({first, second, source});
-    layOut();
+    layOut(0.0);
+}
+
+void Pins::sew(int a, int b, const Closing& closing, const Source& source) {
+    const int first = numberOf(a), second = numberOf(b);
+    pins_.push_back({first, second, source, closing});
+    layOut(0.0);
+}
+
+double Pins::Closing::mostAt(double t) const {
+    const double left = 1.0 - t / over;
+    return left > 0 ? length * left * left * (1.0 + 2.0 * (t / over)) : 0.0;
+}
+
+double Pins::Closing::speedAt(double t) const {
+    const double share = t / over;
+    return share < 1 ? -6.0 * length / over * share * (1.0 - share) : 0.0;
 }
 
 void Pins::tie(int a, const Place& b, const Source& source) {
     places_.push_back(b);
     pins_.push_back({numberOf(a), -static_cast<int>(places_.size()), source});
-    layOut();
+    layOut(0.0);
 }
 
-// Walks along the pins that hold: from each place, then from each remaining point.
-void Pins::layOut() {
+// Walks along the pins that hold and are closed: from each place, then from each remaining point.
+void Pins::layOut(double t) {
+    time_ = t;
+    from_ = 0;
+    until_ = HUGE_VAL;
+    open_.clear();
+    for (int p = 0; p < size(); ++p) {
+        const double end = pins_[static_cast<std::size_t>(p)].closing.over;
+        if (t < end)
+            until_ = std::min(until_, end);
+        else
+            from_ = std::max(from_, end);
+        if (t < end && holds(p)) open_.push_back(p);
+    }
     const std::size_t count = points_.size() + places_.size();
     std::vector<std::vector<int>> at(count);  // pins
     for (int p = 0; p < size(); ++p)
-        if (holds(p))
+        if (holds(p) && t >= pins_[static_cast<std::size_t>(p)].closing.over)
             for (const int number : {pins_[static_cast<std::size_t>(p)].a, pins_[static_cast<std::size_t>(p)].b})
                 at[static_cast<std::size_t>(end(number))].push_back(p);
     nodes_.clear();
@@ -102,8 +133,45 @@ void Pins::check() const {
     }
 }
 
-// A node without inverse mass, a place on a collider or a held point, draws all others to it and bears the reaction.
 bool Pins::project(std::span<dvec3> values, const Moment& moment) {
+    if (moment.time < from_ || moment.time >= until_) layOut(moment.time);
+    bool any = false;
+    for (int turn = 0; turn < mostDraws; ++turn) {
+        const bool drew = draw(values, moment);
+        any = join(values, moment) || drew || any;
+        if (!drew) break;
+    }
+    return any;
+}
+
+// Of open pins: along the line between the ends, so that only these two bear it.
+bool Pins::draw(std::span<dvec3> values, const Moment& moment) {
+    bool any = false;
+    const bool isOfPlaces = values.data() == moment.x.data();
+    for (const int p : open_) {
+        const Pin& pin = pins_[static_cast<std::size_t>(p)];
+        const auto a = static_cast<std::size_t>(end(pin.a)), b = static_cast<std::size_t>(end(pin.b));
+        const dvec3 d = moment.x[b] - moment.x[a];
+        const double length = std::sqrt(glm::dot(d, d)), most = pin.closing.mostAt(moment.time);
+        const double weight = moment.inverseMass[a] + moment.inverseMass[b];
+        const double slack = (isOfPlaces ? drawnTo : -nearlyDrawn) * pin.closing.length;
+        if (!(length > most + slack) || !(weight > 0)) continue;
+        const dvec3 along = d / length;
+        const double excess =
+            isOfPlaces ? length - most : glm::dot(along, moment.v[b] - moment.v[a]) - pin.closing.speedAt(moment.time);
+        if (!(excess > 0)) continue;
+        const dvec3 impulse = (excess / weight) * along;
+        values[a] += moment.inverseMass[a] * impulse;
+        values[b] -= moment.inverseMass[b] * impulse;
+        moment.pull[static_cast<std::size_t>(p)] += impulse;
+        any = true;
+    }
+    return any;
+}
+
+// Of closed pins. A node without inverse mass, a place on a collider or a held point, draws all others to it and bears
+// the reaction.
+bool Pins::join(std::span<dvec3> values, const Moment& moment) {
     bool any = false;
     for (const Cluster& cluster : clusters_) {
         const auto nodes = std::span(nodes_).subspan(static_cast<std::size_t>(cluster.first),

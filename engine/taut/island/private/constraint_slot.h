@@ -189,6 +189,7 @@ class ConstraintSlot {
     }
     // Loads x at t [s]. Velocities of points come from `velocities`; places move with their colliders.
     void load(double t, const Planes& velocities) {
+        time_ = t;
         for (std::size_t i = 0; i < points_.size(); ++i) {
             inverseMass_[i] = static_cast<double>(system_.inverseMasses()[points_[i]]);
             x_[i] = planar_.at(state_.x, points_[i]);
@@ -254,7 +255,7 @@ class ConstraintSlot {
                 const bool isOne = size == 1;
                 const std::span<dvec3> pull =
                     isOne ? std::span(ignored) : std::span(pull_).subspan(static_cast<std::size_t>(tie.first), size);
-                if (!((*tie.constraint).*projection)({tie.w, tie.from, tie.x, tie.v, pull})) continue;
+                if (!((*tie.constraint).*projection)({tie.w, tie.from, tie.x, tie.v, pull, time_})) continue;
                 moves = true;
                 if (isOne) isOfPlaces ? seePull(tie, tie.x, x_) : seePull(tie, tie.v, v_);
                 for (std::size_t k = 0; k < tie.constraint->points().size(); ++k) {
@@ -273,6 +274,7 @@ class ConstraintSlot {
     std::vector<Tie> ties_;
     std::vector<int> points_;                // all points of any tie, ascending
     std::vector<Constraint::Place> places_;  // likewise
+    double time_ = 0;                        // [s] of what was loaded
     // (points, then places)
     std::vector<double> inverseMass_;
     std::vector<dvec3> from_, x_, v_;

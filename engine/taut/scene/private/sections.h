@@ -42,6 +42,7 @@ SceneSection materialSection();
 
 // What ties, pushes and shows the scene.
 SceneSection jointSection(const world::KindTable<world::JointSpec>& kinds);
+SceneSection seamSection();
 SceneSection massSection();
 SceneSection colliderSection(const collision::ShapeKinds& shapes);
 SceneSection cameraSection();

@@ -1,11 +1,14 @@
 // The pins of an island: points kept in one place, with each other or with a place on a collider. They may come apart
-// again; merged points never do.
+// again; merged points never do. A pin of a seam closes by and by: until then its ends are drawn to a distance that
+// shrinks to nothing, and may be nearer.
 //
 // A cluster is all that pins hold together. It is projected at once. Its points come to their centre of mass and get
 // its velocity, as if they were one point, or they follow the collider. The constraint is linear, so this is exact and
 // keeps momentum and angular momentum. Each pin of a spanning tree of the cluster bears the impulses of all points
 // beyond it.
 #pragma once
+
+#include <cmath>
 
 #include "taut/bodies/joints/constraint.h"
 #include "taut/spec/source.h"
@@ -17,6 +20,14 @@ class Pins final : public ConstraintOf<Pins> {
     // Ties two points of the plan, or a point and a place.
     void tie(int a, int b, const Source& source);
     void tie(int a, const Place& b, const Source& source);
+    // Ties two points, `length` [m] apart at 0 s, that have come together `over` [s] > 0 later. In between they are at
+    // most length (1 - s)² (1 + 2 s) apart, s = t/over: it begins and ends at rest.
+    struct Closing {
+        double length = 0, over = 0;
+        double mostAt(double t) const;   // [m]
+        double speedAt(double t) const;  // [m/s] below 0
+    };
+    void sew(int a, int b, const Closing& closing, const Source& source);
     // The points that pins hold together with this one, itself included, ascending.
     std::vector<int> clusterOf(int point) const;
 
@@ -32,6 +43,7 @@ class Pins final : public ConstraintOf<Pins> {
     struct Pin {
         int a, b;  // of points_; below 0: -1 - place
         Source source;
+        Closing closing{};  // over = 0: it is closed from the start
     };
     // A point or place of a cluster, in the order of a walk from its root.
     struct Node {
@@ -46,15 +58,20 @@ class Pins final : public ConstraintOf<Pins> {
     int numberOf(int point);
     int end(int number) const { return number >= 0 ? number : static_cast<int>(points_.size()) - 1 - number; }
     bool isPlace(int number) const { return number >= static_cast<int>(points_.size()); }
-    void tiesChanged() override { layOut(); }
-    void layOut();
+    void tiesChanged() override { layOut(time_); }
+    void layOut(double t);
     bool project(std::span<dvec3> values, const Moment& moment);
+    bool draw(std::span<dvec3> values, const Moment& moment);
+    bool join(std::span<dvec3> values, const Moment& moment);
 
     std::vector<int> points_;
     std::vector<Place> places_;
     std::vector<Pin> pins_;
     std::vector<Node> nodes_;
     std::vector<Cluster> clusters_;
+    std::vector<int> open_;              // pins that are not closed yet at time_ [s]
+    double time_ = 0;
+    double from_ = 0, until_ = HUGE_VAL;  // [s] when the pins that are open are these
     std::vector<dvec3> sum_;  // (nodes) scratch
 };
 

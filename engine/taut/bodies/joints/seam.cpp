@@ -1,0 +1,50 @@
+#include "taut/bodies/island_plan.h"
+#include "taut/bodies/joints/joints.h"
+#include "taut/bodies/private/joints/only_constraint.h"
+#include "taut/bodies/private/joints/pins.h"
+#include "taut/core/error.h"
+#include "taut/fields/private/problems.h"
+#include "taut/spec/common_rows.h"
+
+namespace taut::world {
+
+// The plan has the right length: welding may have moved the points away from their bodies' positions.
+void SeamJoint::tie(IslandPlan& plan, int first, int second, double distance) const {
+    if (isWeld()) {
+        WeldJoint weld;
+        weld.source = source;
+        return weld.tie(plan, first, second, distance);
+    }
+    const dvec3 d = plan.positions[static_cast<std::size_t>(second)] - plan.positions[static_cast<std::size_t>(first)];
+    changeOnly<Pins>(plan, [&](Pins& pins) { pins.sew(first, second, {std::sqrt(glm::dot(d, d)), over}, source); });
+}
+
+void SeamJoint::carry(IslandPlan&, Grip grip) const {
+    throw core::Error(core::ErrorKind::badContent, at(source) + "a seam sews edges of bodies, and " + grip.holder +
+                                                       " is a collider; use a [[joint]]");
+}
+
+Kind<JointSpec> seamKind() {
+    Kind<JointSpec> kind = jointKind<SeamJoint>(
+        "Sews two edges together. Each point goes with that of the other edge at the same share of the length, in the "
+        "direction in which they lie nearer.",
+        fields::FieldList<SeamJoint>().number(
+            "over_s", &SeamJoint::over, "s", fields::notNegative,
+            "From the start until it is closed; until then points are drawn together. 0: they meet as the scene "
+            "starts."));
+    for (fields::Field& row : kind.section.fields)
+        if (row.key == "a" || row.key == "b") {
+            row.role = fields::Role::points;
+            row.help = row.key == "a" ? "An edge: KIND.NAME@SELECTOR." : "The other, of the same body or of another.";
+        }
+    kind.section.check = [](const fields::CheckInput& input, void* target) {
+        const auto& seam = *static_cast<const SeamJoint*>(target);
+        checkJoint(input, seam);
+        for (const auto& [key, side] : {std::pair("a", &seam.a), std::pair("b", &seam.b)})
+            if (side->targets.size() > 1)
+                input.problems.addError(input.at(key), "a side of a seam is one edge", "write a [[seam]] for each");
+    };
+    return kind;
+}
+
+}  // namespace taut::world

@@ -1,0 +1,189 @@
+// Seams: which points they pair, how they close, what keeps off what then, how they come apart, what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/timelines.h"
+#include "taut/bodies/private/seam_pairing.h"
+#include "taut/mechanics/builders.h"
+#include "taut/world/world.h"
+#include "unit/scene_support.h"
+
+namespace taut::world::seams {
+namespace {
+
+using support::run;
+using Pairs = std::vector<std::pair<int, int>>;
+
+std::vector<dvec3> line(int points, const dvec3& from, const dvec3& to) {
+    std::vector<dvec3> x;
+    for (int i = 0; i < points; ++i) x.push_back(from + (i / (points - 1.0)) * (to - from));
+    return x;
+}
+
+TEST(SeamPairing, PairsEqualEdgesPointByPointInTheNearerDirection) {
+    const auto a = line(4, {0, 0, 0}, {0, 3, 0});
+    EXPECT_EQ(pairedByLength(a, line(4, {1, 0, 0}, {1, 3, 0})), (Pairs{{0, 0}, {1, 1}, {2, 2}, {3, 3}}));
+    EXPECT_EQ(pairedByLength(a, line(4, {1, 3, 0}, {1, 0, 0})), (Pairs{{0, 3}, {1, 2}, {2, 1}, {3, 0}}));
+}
+
+// Of a longer edge with more points each has a partner, at the same share of the length; so from either side.
+TEST(SeamPairing, GathersTheFinerEdgeEvenly) {
+    const auto few = line(3, {0, 0, 0}, {0, 2, 0}), many = line(6, {1, 4, 0}, {1, 0, 0});
+    EXPECT_EQ(pairedByLength(few, many), (Pairs{{0, 5}, {0, 4}, {1, 3}, {1, 2}, {2, 1}, {2, 0}}));
+    EXPECT_EQ(pairedByLength(many, few), (Pairs{{0, 2}, {1, 2}, {2, 1}, {3, 1}, {4, 0}, {5, 0}}));
+}
+
+TEST(SeamPairing, LeavesNoPointOfAnUnevenEdgeAlone) {
+    const std::vector<dvec3> uneven{{0, 0, 0}, {0, 0.1, 0}, {0, 0.2, 0}, {0, 3, 0}};
+    EXPECT_EQ(pairedByLength(uneven, line(4, {1, 0, 0}, {1, 3, 0})),
+              (Pairs{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {3, 2}, {3, 3}}));
+}
+
+TEST(SeamPairing, AnEdgeIsALineWithTwoEnds) {
+    mechanics::ClothShape shape;
+    shape.cells = {3, 2};
+    const mechanics::Model cloth = mechanics::buildCloth(shape);
+    const auto lineAt = [&](const char* group) { return lineOf(cloth, cloth.groups.at(group)); };
+    EXPECT_EQ(lineAt("right"), (std::vector{3, 7, 11}));
+    EXPECT_EQ(lineOf(cloth, std::vector{6, 4, 5, 7}), (std::vector{4, 5, 6, 7}));  // threads, inside
+    EXPECT_EQ(lineOf(cloth, std::vector{8, 4, 0, 1, 2}), (std::vector{2, 1, 0, 4, 8}));  // around a corner
+    EXPECT_TRUE(lineAt("all").empty());
+    EXPECT_TRUE(lineAt("edges").empty());                           // a loop
+    EXPECT_TRUE(lineAt("top-left").empty());                        // a point
+    EXPECT_TRUE(lineOf(cloth, std::vector{0, 1, 8, 9}).empty());    // two lines
+    EXPECT_TRUE(lineOf(cloth, std::vector{4, 5, 6, 9}).empty());    // a fork
+}
+
+// Two panels side by side in free space, `apart` [m], the second of other cells.
+std::string panels(const std::string& apart, const std::string& seam, const std::string& more = "") {
+    const std::string panel =
+        "material = \"m\"\nthickness = 0.01\ntouch = \"all\"\nsize = [0.3, 0.4]\n";
+    return "schema = 1\n[run]\nfps = 100\nseconds = 10\n[solver]\nprecision = \"double\"\n[world]\n"
+           "gravity = [0, 0, 0]\n[material.m]\ndrag_per_s = 0\n[cloth.a]\ncells = [3, 4]\norigin = [-0.3, 1, 0]\n" +
+           panel + "[cloth.b]\ncells = [3, 6]\norigin = [" + apart + ", 1, 0]\n" + panel + more +
+           "[[seam]]\na = \"cloth.a@right\"\nb = \"cloth.b@left\"\n" + seam;
+}
+
+SceneSpec sceneOf(const std::string& text) {
+    return scene::loadSceneText(text, "seams.toml", {}).spec;
+}
+
+double lengthOf(const dvec3& d) {
+    return std::sqrt(glm::dot(d, d));
+}
+
+// The largest distance of a point of the finer edge from its partner: points 0, 1, … of 7 go with 0, 1, 1, 2, 3, 3, 4.
+double gap(const World& world) {
+    const auto a = world.points("cloth.a@right").x, b = world.points("cloth.b@left").x;
+    constexpr std::size_t partners[] = {0, 1, 1, 2, 3, 3, 4};
+    double most = 0;
+    for (std::size_t i = 0; i < b.size(); ++i) most = std::max(most, lengthOf(b[i] - a[partners[i]]));
+    return most;
+}
+
+TEST(Seams, CloseInTheirTimeAndKeepMomentum) {
+    World world(sceneOf(panels("0.2", "over_s = 1.0\n", "velocity = [0, 0, 0.5]\n")));
+    const Metrics before = world.metrics();
+    const double start = gap(world);
+    for (const double share : {0.25, 0.5, 0.75}) {
+        run(world, 25);
+        const double most = start * (1 - share) * (1 - share) * (1 + 2 * share);
+        EXPECT_LT(gap(world), most * (1 + 1e-6)) << share;  // a start that is a little nearer may lag by that
+        EXPECT_GT(gap(world), 0.5 * most) << share;
+    }
+    run(world, 25);
+    EXPECT_LT(gap(world), 1e-14);
+    run(world, 50);
+    EXPECT_LT(gap(world), 1e-14);
+    const Metrics after = world.metrics();
+    EXPECT_LT(lengthOf(after.momentum - before.momentum), 1e-12);
+    EXPECT_EQ(after.crossings, 0);
+}
+
+// They lie flat side by side, much nearer than their thickness.
+TEST(Seams, NothingBesideThemTouches) {
+    World world(sceneOf(panels("0.2", "over_s = 0.3\n")));
+    for (int tick = 0; tick < 60; ++tick) {
+        run(world, 1);
+        EXPECT_EQ(world.metrics().bodyContacts, 0) << tick;
+    }
+    EXPECT_LT(gap(world), 1e-14);
+    EXPECT_FALSE(world.hasTouched());
+}
+
+TEST(Seams, GoOnWithTheSameBitsFromTheMiddle) {
+    const SceneSpec scene = sceneOf(panels("0.2", "over_s = 0.3\nname = \"s\"\n"));
+    World world(scene);
+    for (const int ticks : {10, 25}) {  // before and after it closes
+        run(world, ticks);
+        World other(scene);
+        other.restore(world.save());
+        run(other, 25);
+        run(world, 25);
+        EXPECT_EQ(world.save(), other.save());
+    }
+}
+
+TEST(Seams, AreClosedAtOnceWhereTheyMeet) {
+    World merged(sceneOf(panels("0.0", ""))), named(sceneOf(panels("0.001", "name = \"s\"\n")));
+    EXPECT_EQ(merged.islands().front().points, 4 * 5 + 4 * 7 - 7);
+    EXPECT_EQ(named.islands().front().points, 4 * 5 + 4 * 7);
+    EXPECT_EQ(gap(merged), 0);
+    EXPECT_EQ(gap(named), 0);
+    EXPECT_EQ(named.joints().front().kind, "seam");
+    EXPECT_EQ(named.joints().front().pairs.at(0).points, 7);
+}
+
+TEST(Seams, ComeApartWhenReleasedTornOrCut) {
+    const std::string leaves = "velocity = [1, 0, 0]\n";
+    const auto at = [](const std::string& action) { return "[[at]]\nt = 0.4\n" + action; };
+    for (const auto& [name, apart, seam, more, left] :
+         {std::tuple{"holds", "0.02", "over_s = 0.3\nbreak_N = 1e9\n", leaves, 7},
+          {"torn", "0.02", "over_s = 0.3\nbreak_N = 0.1\n", leaves, 0},
+          {"released", "0.02", "over_s = 0.3\nname = \"s\"\n", leaves + at("do = \"release\"\nid = \"s\"\n"), 0},
+          {"cut while it closes", "0.2", "over_s = 0.6\n",
+           at("do = \"cut\"\ntarget = \"cloth.*\"\nplane = [[0.1, 1, 0], [1, 0, 0]]\n"), 0}}) {
+        World world(sceneOf(panels(apart, seam, more)));
+        run(world, 100);
+        EXPECT_EQ(world.joints().front().left, left) << name;
+        EXPECT_EQ(gap(world) < 1e-14, left > 0) << name << gap(world);
+        EXPECT_EQ(world.metrics().brokenSprings, 7 - left) << name;
+    }
+}
+
+TEST(Seams, WhatCannotBeSewnIsRefused) {
+    const auto messageOf = [](const std::string& text) -> std::string {
+        try {
+            World world(sceneOf(text));
+        } catch (const core::Error& error) {
+            EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
+            return error.what();
+        }
+        return "";
+    };
+    const auto with = [](const std::string& a, const std::string& b, const std::string& more = "") {
+        const std::string text = panels("0.2", "");
+        return text.substr(0, text.find("[[seam]]")) + "[[seam]]\na = " + a + "\nb = " + b + "\n" + more;
+    };
+    const std::string left = "\"cloth.b@left\"";
+    for (const auto& [text, message] :
+         {std::pair{with("\"cloth.a@righ\"", left), "cloth.a has no points \"righ\""},
+          {with("\"cloth.c@right\"", left), "there is no cloth.c"},
+          {with("[\"cloth.a@right\", \"cloth.a@top\"]", left), "write a [[seam]] for each"},
+          {with("\"cloth.*@right\"", left, "over_s = 1\n"),
+           "seams.toml:25:1: error: \"cloth.*@right\" names edges of several bodies; write a [[seam]] for each"},
+          {with("\"cloth.a@all\"", left, "over_s = 1\n"),
+           "seams.toml:25:1: error: \"cloth.a@all\" is no edge to sew: its points are not one line with two ends; name a "
+           "part of it, as @left of a cloth"},
+          {with(left, left), "seams.toml:25:1: error: the seam sews \"cloth.b@left\" to itself; name two edges"},
+          {with("\"cloth.a@right\"", left),
+           "seams.toml:25:1: error: the seam \"cloth.a@right\" – \"cloth.b@left\" starts 0.200000 m apart; say how "
+           "long it takes to close, e.g. over_s = 1.0"},
+          {with("\"collider.k\"", left, "[collider.k]\nshape = \"sphere\"\n"), "collider.k"}}) {
+        EXPECT_NE(messageOf(text).find(message), std::string::npos) << messageOf(text);
+    }
+}
+
+}  // namespace
+}  // namespace taut::world::seams

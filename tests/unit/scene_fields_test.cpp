@@ -65,6 +65,7 @@ TEST(SceneFields, SettingsLandInTheirMembers) {
     EXPECT_EQ(scene.picture.camera, "main");
     EXPECT_EQ(scene.picture.samples, 1);
     EXPECT_EQ(scene.picture.shadowSize, 1024);
+    EXPECT_EQ(scene.picture.smooth, 1);
 }
 
 TEST(SceneFields, LightsAndBackgroundLandInTheirMembers) {
@@ -137,6 +138,7 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
     EXPECT_EQ(body.finish.roughness, 0.5);
     EXPECT_EQ(body.finish.sheen, 0.6);
     EXPECT_EQ(body.finish.anisotropy, 0.45);
+    EXPECT_EQ(body.finish.skin, (folder / "square.obj").string());
     EXPECT_EQ(body.finish.texture, (folder / "square.png").string());
     EXPECT_EQ(body.solver.integrator, "euler");
     EXPECT_EQ(body.solver.dt, 2e-4);

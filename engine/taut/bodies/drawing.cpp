@@ -140,9 +140,9 @@ class SkinDrawing final : public BodyDrawing {
 
   private:
     static constexpr int sidesOfBlock = 6;
-    // Contact keeps triangles a thickness clear of colliders and two of each other. Of that half is left to the eye,
-    // folds that are as tight as their cells allow take the rest.
-    static constexpr float shareOfThickness = 0.5F;
+    // Contact keeps triangles a thickness clear of colliders and two of each other, but for sides of a tight fold, which
+    // come nearer: so less than that is room for what is drawn.
+    static constexpr float shareOfThickness = 0.4F;
     using VertexNumbers = std::map<std::pair<int, int>, std::uint32_t>;  // by vertex of the skin, and side of the block
 
     // What a fine mesh is made of. It is made for the first picture: a run may have none.

@@ -82,7 +82,7 @@ TAUT_DRAWS(curtain);
 TAUT_DRAWS(poncho);
 TAUT_DRAWS(show);
 
-#define TAUT_DRAWS_FINER(scene)                                                                            \
+#define TAUT_DRAWS_FINER(scene)                                                                                    \
     BENCHMARK_CAPTURE(drawScene, scene##_as_computed, #scene, true, 0)->Unit(benchmark::kMillisecond)->MinTime(2); \
     BENCHMARK_CAPTURE(drawScene, scene##_finer, #scene, true, 1)->Unit(benchmark::kMillisecond)->MinTime(2)
 TAUT_DRAWS_FINER(drape);

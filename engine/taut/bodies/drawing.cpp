@@ -140,8 +140,8 @@ class SkinDrawing final : public BodyDrawing {
 
   private:
     static constexpr int sidesOfBlock = 6;
-    // Contact keeps triangles a thickness clear of colliders and two of each other, but for sides of a tight fold, which
-    // come nearer: so less than that is room for what is drawn.
+    // Contact keeps triangles a thickness clear of colliders and two of each other, but for sides of a tight fold,
+    // which come nearer: so less than that is room for what is drawn.
     static constexpr float shareOfThickness = 0.4F;
     using VertexNumbers = std::map<std::pair<int, int>, std::uint32_t>;  // by vertex of the skin, and side of the block
 

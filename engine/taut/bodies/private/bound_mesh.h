@@ -13,8 +13,8 @@ namespace taut::world {
 
 // Each vertex is a sum of places of what it is bound to, and stands above that along the normal there:
 //
-//          p             Of a cloth, as fine as it is drawn, the places are the corners of the nearest triangle, and the
-//          |             normal is the smooth one between theirs.
+//          p             Of a cloth, as fine as it is drawn, the places are the corners of the nearest triangle, and
+//          |             the normal is the smooth one between theirs.
 //     a----+--b          Of a block they are the corners of the cell in which the vertex is, or which is nearest.
 class BoundMesh {
   public:

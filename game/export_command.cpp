@@ -37,7 +37,8 @@ struct ExportFlags {
     std::vector<std::string> only, of, sliders;  // as they are given
     std::vector<std::string> overrides;
     std::int64_t every = 1;
-    int digits = 0;  // 0: not given
+    int digits = 0;   // 0: not given
+    int smooth = -1;  // -1: not given
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
     OverwriteFlags overwrite;
@@ -157,6 +158,7 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
 std::vector<std::string> allOverrides(const ExportFlags& flags) {
     std::vector<std::string> overrides = flags.overrides;
     addRunOverrides(flags.fps, flags.seconds, overrides);
+    addSmoothOverride(flags.smooth, overrides);
     return overrides;
 }
 
@@ -405,6 +407,7 @@ Action declareExport(Options& options, const Formats& formats) {
     options.value("--every", flags->every, "Every n-th frame only, and the last; tells how far off that is in between")
         .within<std::int64_t>(1, 1000000);
     addRunFlags(options, flags->fps, flags->seconds);
+    addSmoothFlag(options, flags->smooth);
     options.flag("--no-normals", flags->noNormals, "Leave normals out: half the size, and others shade as they like");
     options
         .value("--digits", flags->digits,

@@ -74,6 +74,17 @@ void addRunOverrides(double fps, double seconds, std::vector<std::string>& overr
     if (seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", seconds));
 }
 
+void addSmoothFlag(Options& options, int& smooth) {
+    options
+        .value("--smooth", smooth,
+               "Draw cloth and ropes this many times twice as fine as they are computed; 0: as they are")
+        .within(0, 3);
+}
+
+void addSmoothOverride(int smooth, std::vector<std::string>& overrides) {
+    if (smooth >= 0) overrides.push_back(fmt::format("picture.smooth={}", smooth));
+}
+
 void addThreadsFlag(Options& options, int& threads) {
     options.value("--threads", threads, "Threads to use; all of the machine when not given").within(1, 1024);
 }

@@ -54,6 +54,10 @@ void addRunFlags(Options& options, double& fps, double& seconds);
 // These flags in the words of the scene format.
 void addRunOverrides(double fps, double seconds, std::vector<std::string>& overrides);
 
+// --smooth, which draws all cloth and ropes finer than they are computed; -1: not given.
+void addSmoothFlag(Options& options, int& smooth);
+void addSmoothOverride(int smooth, std::vector<std::string>& overrides);
+
 // Limits of `--seconds`; values beyond them are slips.
 inline constexpr double leastSeconds = 1e-3, mostSeconds = 86400.0;  // [s]
 

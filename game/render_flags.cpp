@@ -23,6 +23,7 @@ std::vector<std::string> allOverrides(const RenderFlags& flags) {
         overrides.push_back(fmt::format("picture.size=[{}, {}]", size.width, size.height));
     }
     if (flags.samples > 0) overrides.push_back(fmt::format("picture.samples={}", flags.samples));
+    addSmoothOverride(flags.smooth, overrides);
     if (!flags.camera.empty()) overrides.push_back(fmt::format("picture.camera=\"{}\"", flags.camera));
     return overrides;
 }
@@ -148,6 +149,7 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
         .value("--samples", flags.samples,
                "Samples a pixel against jagged edges; 8 and 16 draw each picture two and four times")
         .oneOf({"1", "4", "8", "16"});
+    addSmoothFlag(options, flags.smooth);
     addRendererFlag(options, flags.gl);
     const Option debug = options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
     options.flag("--overlay", flags.overlay,

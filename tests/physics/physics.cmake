@@ -28,7 +28,7 @@ list(APPEND TAUT_PHYSICS_TESTS
   touching_long_test.cpp
   touching_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode Boost::headers)
-list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp tearing_test.cpp)
+list(APPEND TAUT_PHYSICS_TESTS drawn_finer_test.cpp shipped_scenes_test.cpp tearing_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::scene)
 list(APPEND TAUT_PHYSICS_TESTS study_reference_test.cpp study_threshold_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::study)

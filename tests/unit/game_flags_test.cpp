@@ -41,6 +41,14 @@ TEST(Flags, SizeIsWidthAndHeight) {
         EXPECT_THROW(pictureSize(text), core::Error) << text;
 }
 
+TEST(Flags, SmoothSaysHowFineAllIsDrawnOrNothing) {
+    std::vector<std::string> overrides;
+    addSmoothOverride(-1, overrides);
+    EXPECT_TRUE(overrides.empty());
+    addSmoothOverride(0, overrides);
+    EXPECT_EQ(overrides, std::vector<std::string>{"picture.smooth=0"});
+}
+
 TEST(Suggestion, DistanceCountsInsertionsRemovalsReplacementsAndSwaps) {
     EXPECT_EQ(core::editDistance("flag", "flag"), 0);
     EXPECT_EQ(core::editDistance("flag", "flags"), 1);

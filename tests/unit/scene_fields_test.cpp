@@ -65,6 +65,7 @@ TEST(SceneFields, SettingsLandInTheirMembers) {
     EXPECT_EQ(scene.picture.camera, "main");
     EXPECT_EQ(scene.picture.samples, 1);
     EXPECT_EQ(scene.picture.shadowSize, 1024);
+    EXPECT_EQ(scene.picture.smooth, 1);
 }
 
 TEST(SceneFields, LightsAndBackgroundLandInTheirMembers) {
@@ -137,6 +138,7 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
     EXPECT_EQ(body.finish.roughness, 0.5);
     EXPECT_EQ(body.finish.sheen, 0.6);
     EXPECT_EQ(body.finish.anisotropy, 0.45);
+    EXPECT_EQ(body.finish.skin, (folder / "square.obj").string());
     EXPECT_EQ(body.finish.texture, (folder / "square.png").string());
     EXPECT_EQ(body.solver.integrator, "euler");
     EXPECT_EQ(body.solver.dt, 2e-4);
@@ -157,7 +159,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 68);
+    EXPECT_EQ(flag.source.line, 69);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 
@@ -242,7 +244,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 131);
+    EXPECT_EQ(net.points[1].source.line, 132);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "taut/view/primitives.h"
 
@@ -37,6 +38,8 @@ std::vector<glm::dvec3> gridPlaces(std::uint32_t n, Height&& height) {
         }
     return places;
 }
+
+constexpr float unlimited = std::numeric_limits<float>::infinity();
 
 double flat(double, double) {
     return 0.0;
@@ -81,7 +84,7 @@ TEST(ViewSubdivision, AFlatSheetStaysFlatWithItsUvWhereTheyWere) {
     const glm::vec3 normal = glm::normalize(glm::vec3(-0.5F, 1.0F, 1.0F));
     for (const std::vector<Face>& faces : {gridFaces(4, true), gridFaces(4, false), slit}) {
         const FineMesh fine = subdivided(faces, places, true, 2);
-        const Geometry geometry = fine.geometry(floats(places));
+        const Geometry geometry = fine.geometry(floats(places), unlimited);
         const std::vector<glm::vec2> fineUv = fine.spread(uv);
         for (std::size_t v = 0; v < fineUv.size(); ++v) {
             const glm::vec3 p = geometry.positions[v];
@@ -100,7 +103,7 @@ glm::dvec2 errorsOn(std::uint32_t n, bool isWhole, int levels) {
     const std::vector<glm::dvec3> places = gridPlaces(n, height);
     Geometry geometry{floats(places), std::vector<glm::vec3>(places.size())};
     const FineMesh fine = subdivided(gridFaces(n, isWhole), places, true, 1);
-    if (levels > 0) geometry = fine.geometry(floats(places));
+    if (levels > 0) geometry = fine.geometry(floats(places), unlimited);
     if (levels == 0) {
         std::vector<std::uint32_t> triangles;
         for (const Face& face : gridFaces(n, false)) triangles.insert(triangles.end(), face.begin(), face.begin() + 3);
@@ -134,13 +137,38 @@ TEST(ViewSubdivision, CornersStayAndTheBorderBetweenThemIsRound) {
     std::vector<glm::vec3> bent = floats(places);
     bent[2].z = 1.0F;  // of the border y = 0
     const FineMesh fine = subdivided(gridFaces(4, true), places, true, 1);
-    const Geometry geometry = fine.geometry(bent);
+    const Geometry geometry = fine.geometry(bent, unlimited);
     for (const std::size_t corner : {0U, 4U, 20U, 24U}) EXPECT_EQ(geometry.positions[corner], bent[corner]);
     // A second difference by a sixth of which a spline misses its points leaves 1 - (1/9 + 2/36) of a spike.
     EXPECT_NEAR(geometry.positions[2].z, 5.0F / 6.0F, 1e-6F);
     EXPECT_NEAR(geometry.normals[2].x, 0.0F, 1e-6F);
     // Without corners they are rounded like the rest.
-    EXPECT_GT(glm::length(subdivided(gridFaces(4, true), places, false, 1).geometry(bent).positions[0]), 0.01F);
+    const Geometry round = subdivided(gridFaces(4, true), places, false, 1).geometry(bent, unlimited);
+    EXPECT_GT(glm::length(round.positions[0]), 0.01F);
+}
+
+TEST(ViewSubdivision, NoPlaceIsFurtherFromTheFlatMeshThanThereIsRoom) {
+    const std::vector<glm::dvec3> places = gridPlaces(4, [](double x, double y) { return std::sin(9.0 * x) * y; });
+    for (const bool isWhole : {true, false}) {
+        const FineMesh fine = subdivided(gridFaces(4, isWhole), places, true, 2);
+        const std::vector<glm::vec3> free = fine.geometry(floats(places), unlimited).positions;
+        const std::vector<glm::vec3> held = fine.geometry(floats(places), 0.01F).positions;
+        const std::vector<glm::vec3> wide = fine.geometry(floats(places), 10.0F).positions;
+        std::vector<glm::vec3> lying = floats(places);  // in the triangles of the mesh
+        for (const auto& [a, b] : fine.middles) lying.push_back(0.5F * (lying[a] + lying[b]));
+        ASSERT_EQ(lying.size(), free.size());
+        float farthest = 0.0F;
+        for (std::size_t v = 0; v < free.size(); ++v) {
+            farthest = std::max(farthest, glm::distance(free[v], lying[v]));
+            ASSERT_LT(glm::distance(held[v], lying[v]), 0.01F);
+            ASSERT_LT(glm::distance(wide[v], free[v]), 1e-6F);  // of 10 m there is room enough: roundings
+        }
+        EXPECT_GT(farthest, 0.1F);
+        for (std::size_t v = 25; v < lying.size(); ++v) {  // x and y of a flat place are those of a grid of 16 cells
+            const glm::vec2 cells(16.0F * lying[v].x, 16.0F * lying[v].y);
+            ASSERT_LT(glm::distance(cells, glm::round(cells)), 1e-5F);
+        }
+    }
 }
 
 }  // namespace

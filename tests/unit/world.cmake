@@ -7,6 +7,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_components_test.cpp
   world_cutting_test.cpp
   world_divergence_test.cpp
+  world_drawn_finer_test.cpp
   world_encounters_test.cpp
   world_envelope_test.cpp
   world_faces_test.cpp

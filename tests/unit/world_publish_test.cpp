@@ -80,8 +80,9 @@ TEST(Publish, VerticesOfAMeshAreInTheOrderOfItsFile) {
 TEST(Publish, SmoothClothHasFourTrianglesForEachAndSmoothRopesTwoRings) {
     SceneSpec scene = smallScene();
     const view::FrameView coarse = World(scene).view(false);
-    RopeSpec& rope = scene.bodies.of<RopeSpec>()[0];
-    scene.bodies.of<ClothSpec>()[0].finish.smooth = rope.finish.smooth = 1;
+    const RopeSpec& rope = scene.bodies.of<RopeSpec>()[0];
+    scene.bodies.of<ClothSpec>()[0].finish.smooth = 3;
+    scene.picture.smooth = 1;  // in place of that
     const view::FrameView fine = World(scene).view(false);
     const view::Surface &before = *surface(coarse, "cloth.a"), &cloth = *surface(fine, "cloth.a");
     EXPECT_EQ(cloth.topology->triangles.size(), 4 * before.topology->triangles.size());

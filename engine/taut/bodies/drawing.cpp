@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <optional>
 
 #include "taut/core/private/srgb.h"
 #include "taut/view/private/subdivision.h"
 #include "taut/view/private/tube.h"
+#include "taut/bodies/private/bound_mesh.h"
 #include "taut/bodies/private/skin_pieces.h"
 
 namespace taut::world {
@@ -74,6 +77,8 @@ class SkinDrawing final : public BodyDrawing {
         : name_(body.fullName()),
           twoSided_(twoSided),
           hem_(twoSided ? static_cast<float>(body.spec->finish.hem) : 0.0F),
+          room_(body.spec->facesMeet() ? shareOfThickness * static_cast<float>(body.spec->thickness)
+                                       : std::numeric_limits<float>::infinity()),
           finish_(finishOf(body.spec->finish)) {
         auto topology = std::make_shared<view::Topology>();
         const mechanics::Model& model = body.model;
@@ -101,28 +106,32 @@ class SkinDrawing final : public BodyDrawing {
                                        : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
             for (int v : triangle.vertices) topology->triangles.push_back(vertexAt(v, side));
         }
-        if (const int levels = body.spec->finish.smooth; twoSided_ && levels > 0) {
-            fine_ = fineMesh(model, skin, vertexOf, topology->triangles, levels);
-            topology->uv = fine_->spread(topology->uv);
-            topology->triangles = fine_->triangles;
-        }
         topology_ = topology;
+        if (const int levels = body.spec->finish.smooth; twoSided_ && levels > 0)
+            refinement_ = refinement(model, skin, vertexOf, topology->triangles, levels);
+        // What is cut or torn shows its own surface.
+        if (body.spec->finish.skinData == nullptr || !body.damage.isEmpty()) return;
+        if (!twoSided_) {
+            bound_ = std::make_unique<BoundMesh>(body);
+        } else {
+            bound_ = std::make_unique<BoundMesh>(body, topology_->triangles, sheet(startOf(body)), topology_->uv);
+            bodyToBind_ = refinement_.levels > 0 ? &body : nullptr;
+        }
     }
 
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
-        auto geometry = std::make_shared<view::Geometry>();
-        for (int point : points_) geometry->positions.push_back(positions[static_cast<std::size_t>(point)]);
-        for (const auto& [vertex, terms] : beyond_) geometry->positions[vertex] = terms.at(positions);
-        if (fine_) {
-            *geometry = fine_->geometry(geometry->positions);
+        std::call_once(isRefined_, [&] { refine(); });
+        view::Geometry geometry;
+        if (bound_ && !twoSided_) {
+            geometry = bound_->geometry(positions, {});
         } else {
-            geometry->normals.resize(points_.size());
-            view::smoothNormals(geometry->positions, topology_->triangles, geometry->normals);
+            geometry = sheet(positions);
+            if (bound_) geometry = bound_->geometry(geometry.positions, geometry.normals);
         }
         view::Surface surface;
         surface.name = name_;
-        surface.topology = topology_;
-        surface.geometry = geometry;
+        surface.topology = bound_ ? bound_->topology() : topology_;
+        surface.geometry = std::make_shared<view::Geometry>(std::move(geometry));
         surface.finish = finish_;
         surface.twoSided = twoSided_;
         surface.hem = hem_;
@@ -131,11 +140,22 @@ class SkinDrawing final : public BodyDrawing {
 
   private:
     static constexpr int sidesOfBlock = 6;
+    // Contact keeps triangles a thickness clear of colliders and two of each other, but for sides of a tight fold,
+    // which come nearer: so less than that is room for what is drawn.
+    static constexpr float shareOfThickness = 0.4F;
     using VertexNumbers = std::map<std::pair<int, int>, std::uint32_t>;  // by vertex of the skin, and side of the block
 
+    // What a fine mesh is made of. It is made for the first picture: a run may have none.
+    struct Refinement {
+        std::vector<view::Face> faces;
+        std::vector<glm::dvec3> rest;  // (vertices) [m]
+        bool keepsCorners = true;
+        int levels = 0;
+    };
+
     // The cells of a grid are smoothed as such: their diagonals would show.
-    static view::FineMesh fineMesh(const mechanics::Model& model, const Skin& skin, const VertexNumbers& vertexOf,
-                                   std::span<const std::uint32_t> triangles, int levels) {
+    static Refinement refinement(const mechanics::Model& model, const Skin& skin, const VertexNumbers& vertexOf,
+                                 std::span<const std::uint32_t> triangles, int levels) {
         std::vector<glm::dvec3> rest(vertexOf.size());
         for (const auto& [key, number] : vertexOf)
             rest[number] = skin.vertices[static_cast<std::size_t>(key.first)].rest;
@@ -151,7 +171,27 @@ class SkinDrawing final : public BodyDrawing {
         // A round grid, which leaves points out, has steps on its border.
         const bool hasSteps =
             model.grid[0] > 0 && static_cast<int>(model.groups.at("all").size()) < model.pointCount();
-        return view::subdivided(std::move(faces), rest, !hasSteps, levels);
+        return {std::move(faces), std::move(rest), !hasSteps, levels};
+    }
+    void refine() const {
+        if (refinement_.levels == 0) return;
+        fine_ = view::subdivided(refinement_.faces, refinement_.rest, refinement_.keepsCorners, refinement_.levels);
+        topology_ =
+            std::make_shared<view::Topology>(view::Topology{fine_->triangles, fine_->spread(topology_->uv)});
+        if (bodyToBind_ != nullptr)
+            bound_ = std::make_unique<BoundMesh>(*bodyToBind_, topology_->triangles, sheet(startOf(*bodyToBind_)),
+                                                 topology_->uv);
+    }
+
+    // The surface that points make of the triangles, or finer.
+    view::Geometry sheet(std::span<const glm::vec3> positions) const {
+        view::Geometry geometry;
+        for (int point : points_) geometry.positions.push_back(positions[static_cast<std::size_t>(point)]);
+        for (const auto& [vertex, terms] : beyond_) geometry.positions[vertex] = terms.at(positions);
+        if (fine_) return fine_->geometry(geometry.positions, room_);
+        geometry.normals.resize(points_.size());
+        view::smoothNormals(geometry.positions, topology_->triangles, geometry.normals);
+        return geometry;
     }
 
     static glm::dvec3 normalOf(const Skin& skin, const SkinTriangle& triangle) {
@@ -179,12 +219,17 @@ class SkinDrawing final : public BodyDrawing {
 
     std::string name_;
     bool twoSided_;
-    float hem_;  // [m]
+    float hem_;   // [m]
+    float room_;  // [m] how far a smooth sheet may go from its triangles
     std::shared_ptr<const view::Finish> finish_;
     std::vector<int> points_;                                 // (vertices) their points of the model
     std::vector<std::pair<std::size_t, SkinVertex>> beyond_;  // vertices at a cut, beyond all points
-    std::optional<view::FineMesh> fine_;                      // of a sheet that is smoothed
-    std::shared_ptr<const view::Topology> topology_;
+    Refinement refinement_;                                   // of a sheet that is smoothed
+    mutable std::once_flag isRefined_;
+    mutable std::optional<view::FineMesh> fine_;
+    mutable std::shared_ptr<const view::Topology> topology_;
+    mutable std::unique_ptr<BoundMesh> bound_;  // what is drawn in its place; null: nothing
+    const Body* bodyToBind_ = nullptr;          // that to which it is bound once that is refined
 };
 
 // Draws springs as rods and points as balls.

@@ -81,6 +81,17 @@ double Colliders::distance(const glm::dvec3& position) const {
     return least;
 }
 
+Colliders::Near Colliders::nearest(const glm::dvec3& position, double reach) const {
+    Near near{std::numeric_limits<double>::infinity(), dvec3(0.0)};
+    for (const Solid& solid : impl_->solids) {
+        if (solid.bounded && !solid.bounds.overlaps({position, position}, reach)) continue;
+        const Nearest found = solid.form->nearest(solid.to.toLocal(position));
+        if (found.distance < std::min(reach, near.distance))
+            near = {found.distance, solid.to.directionToWorld(found.normal)};
+    }
+    return near;
+}
+
 Colliders::Inside Colliders::inside(const glm::dvec3& position) const {
     Inside deepest;
     for (const Solid& solid : impl_->solids) {

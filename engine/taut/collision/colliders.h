@@ -141,6 +141,13 @@ class Colliders {
     // a closed mesh. Infinite without colliders.
     double distance(const glm::dvec3& position) const;
 
+    // The same with the direction in which it grows fastest, unit, if it is less than `reach` [m]; otherwise infinite.
+    struct Near {
+        double distance;
+        glm::dvec3 away;
+    };
+    Near nearest(const glm::dvec3& position, double reach) const;
+
     // The collider whose end-of-step pose contains the position deepest, and how deep [m]; -1 and 0 outside all.
     struct Inside {
         int collider = -1;

@@ -125,6 +125,18 @@ void warnOfLostFriction(const ReadScene& scene, Problems& problems) {
     }
 }
 
+void setSkin(Place place, world::BodySpec& body, const Assets& meshes, Problems& problems) {
+    if (body.finish.skin.empty()) return;
+    if (body.kind() != "cloth" && body.kind() != "block")
+        return problems.addWarning(
+            place, fmt::format("finish.skin does nothing in {}: cloths and blocks have one", body.fullName()),
+            "leave it out");
+    const auto found = meshes.find(body.finish.skin);
+    if (found == meshes.end()) return;
+    body.finish.skin = found->second.found;
+    body.finish.skinData = found->second.mesh;
+}
+
 // Replaces names by what was found.
 void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
     for (world::BodySpec& body : scene.spec.bodies) {
@@ -139,6 +151,7 @@ void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, P
             }
         }
         setTexture(body.finish.texture, textures);
+        setSkin(scene.owners.at(body.fullName()), body, meshes, problems);
     }
     warnOfLostDirections(scene, problems);
     warnOfLostFriction(scene, problems);

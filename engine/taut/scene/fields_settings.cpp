@@ -178,6 +178,8 @@ SceneSection pictureSection() {
             .oneOf({1, 4, 8, 16})
             .whole("shadow_size", &PictureSpec::shadowSize, "px", Range{128, 16384}, "Edge of the shadow map.")
             .multipleOf(128)
+            .whole("smooth", &PictureSpec::smooth, "", Range{0.0, 3.0},
+                   "In place of finish.smooth of every cloth and rope.")
             .take();
     return section;
 }

@@ -46,6 +46,7 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
     files.add(scene.environment.image);
     for (const world::BodySpec& body : scene.bodies) {
         if (const world::MeshSource* mesh = body.meshSource()) files.add(mesh->mesh);
+        files.add(body.finish.skin);
         files.add(body.finish.texture);
     }
     for (const world::ColliderSpec& collider : scene.colliders) {
@@ -64,7 +65,10 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
 std::vector<UsedFile> pictureFiles(const world::SceneSpec& scene) {
     Files files;
     files.add(scene.environment.image);
-    for (const world::BodySpec& body : scene.bodies) files.add(body.finish.texture);
+    for (const world::BodySpec& body : scene.bodies) {
+        files.add(body.finish.skin);
+        files.add(body.finish.texture);
+    }
     for (const world::ColliderSpec& collider : scene.colliders) {
         files.add(collider.finish.texture);
         for (const world::ColliderSpec& part : collider.parts)

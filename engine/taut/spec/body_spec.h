@@ -118,6 +118,10 @@ struct BodySpec {
     virtual std::unique_ptr<BodyDrawing> drawing(const Body& body) const;
     // The number of its points, springs and cells. By default it builds the body and counts them.
     virtual BodyOutline outline(const SceneSpec& scene) const;
+    // Whether not its points alone but its faces meet other bodies, or colliders.
+    bool facesMeetColliders() const { return collide && (meetsFaces || meetsFigures || touch != Touch::nothing); }
+    bool facesMeet() const { return touch != Touch::nothing || facesMeetColliders(); }
+
     // The mesh file from which it is made, or null.
     virtual const MeshSource* meshSource() const { return nullptr; }
     MeshSource* meshSource() { return const_cast<MeshSource*>(std::as_const(*this).meshSource()); }

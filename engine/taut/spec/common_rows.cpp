@@ -109,6 +109,9 @@ Section finishSection() {
             .whole("smooth", &FinishSpec::smooth, "", Range{0.0, 3.0},
                    "Of a cloth or a rope: times that each length of it is halved for the picture and put on a smooth "
                    "surface or curve; nothing else knows of it.")
+            .text("skin", &FinishSpec::skin, Role::mesh,
+                  "Of a cloth or a block: OBJ or glTF file of a mesh that is drawn in its place and goes with it. It "
+                  "lies on the body as that starts, in metres of the scene, or as the cloth's own mesh is placed.")
             .text("texture", &FinishSpec::texture, Role::texture, "Picture file, PNG or JPEG.")
             .required()
             .only({"the pattern image"})

@@ -1,6 +1,7 @@
 // How a thing looks.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -8,6 +9,8 @@
 #include "taut/view/frame_view.h"
 
 namespace taut::world {
+
+struct MeshData;
 
 // How a thing looks; see view::Finish.
 struct FinishSpec {
@@ -24,6 +27,8 @@ struct FinishSpec {
     double anisotropy = 0.0;    // 0 … 1
     double hem = 0.001;         // [m] thickness of a cloth at its free edges
     int smooth = 0;             // times that a cloth or a rope is drawn twice as fine
+    std::string skin;           // path of a mesh that is drawn in place of a cloth or a block; empty: none
+    std::shared_ptr<const MeshData> skinData;  // what the file holds; null: none
     std::string texture;        // path, resolved by the loader
 };
 

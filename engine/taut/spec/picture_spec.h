@@ -85,6 +85,7 @@ struct PictureSpec {
     std::string camera;     // name; empty: the first by name
     int samples = 4;        // samples per pixel: 1, 4, 8 or 16
     int shadowSize = 2048;  // [px] edge of the shadow map
+    std::optional<int> smooth;  // in place of that of every finish
 };
 
 }  // namespace taut::world

@@ -11,6 +11,8 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "taut/core/private/parallel.h"
+
 namespace taut::view {
 namespace {
 
@@ -225,6 +227,7 @@ void tangents(std::uint32_t v, const Fan& fan, Add&& add) {
 struct Facets {
     std::vector<Face> faces;
     std::vector<Row> rows;
+    std::vector<std::array<std::uint32_t, 2>> middles;  // as of FineMesh
 };
 
 // Splits each face into four.
@@ -237,7 +240,8 @@ struct Facets {
 Facets split(Facets mesh, RowSum& sum) {
     Facets fine;
     std::unordered_map<std::uint64_t, std::uint32_t> middles;
-    const auto meanOf = [&](std::span<const std::uint32_t> vertices) {
+    const auto meanOf = [&](std::span<const std::uint32_t> vertices, std::array<std::uint32_t, 2> ends) {
+        mesh.middles.push_back(ends);
         for (const std::uint32_t v : vertices)
             sum.add(mesh.rows[v], dvec3(1.0 / static_cast<double>(vertices.size()), 0.0, 0.0));
         mesh.rows.push_back(sum.take());
@@ -246,7 +250,7 @@ Facets split(Facets mesh, RowSum& sum) {
     const auto middleOf = [&](std::uint32_t a, std::uint32_t b) {
         const std::uint64_t key = (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
         const auto [entry, isNew] = middles.try_emplace(key, 0);
-        if (isNew) entry->second = meanOf(std::array{a, b});
+        if (isNew) entry->second = meanOf(std::array{a, b}, {a, b});
         return entry->second;
     };
     for (const Face& face : mesh.faces) {
@@ -258,11 +262,12 @@ Facets split(Facets mesh, RowSum& sum) {
             continue;
         }
         const std::uint32_t ab = middleOf(a, b), bc = middleOf(b, c), cd = middleOf(c, d), da = middleOf(d, a);
-        const std::uint32_t m = meanOf(face);
+        const std::uint32_t m = meanOf(face, {a, c});
         for (const Face& part : {Face{a, ab, m, da}, Face{ab, b, bc, m}, Face{m, bc, c, cd}, Face{da, m, cd, d}})
             fine.faces.push_back(part);
     }
     fine.rows = std::move(mesh.rows);
+    fine.middles = std::move(mesh.middles);
     return fine;
 }
 
@@ -280,7 +285,7 @@ FineMesh subdivided(std::vector<Face> faces, std::span<const dvec3> rest, bool k
     std::vector<bool> isFixed(count, false);
     RowSum sum(count);
     const auto unit = [](std::uint32_t v) { return Row{{v, dvec3(1.0, 0.0, 0.0)}}; };
-    Facets mesh{std::move(faces), {}};
+    Facets mesh{std::move(faces), {}, {}};
     FineMesh fine;
     for (std::uint32_t v = 0; v < count; ++v) {
         if (fans[v].isFixed || (keepsCorners && isCorner(v, fans[v], rest))) isFixed[v] = fans[v].isFixed = true;
@@ -310,15 +315,19 @@ FineMesh subdivided(std::vector<Face> faces, std::span<const dvec3> rest, bool k
         fine.triangles.insert(fine.triangles.end(), {face[0], face[1], face[2]});
         if (face[3] != noVertex) fine.triangles.insert(fine.triangles.end(), {face[0], face[2], face[3]});
     }
+    fine.middles = std::move(mesh.middles);
     return fine;
 }
 
-Geometry FineMesh::geometry(std::span<const glm::vec3> positions) const {
+Geometry FineMesh::geometry(std::span<const glm::vec3> positions, float room) const {
+    constexpr int verticesAtOnce = 512;
     const std::vector<glm::vec3> x = product(controls, positions);
-    Geometry geometry;
-    geometry.positions.reserve(surface.count());
-    geometry.normals.reserve(surface.count());
-    for (std::size_t v = 0; v < surface.count(); ++v) {
+    std::vector<glm::vec3> flat(positions.begin(), positions.end());
+    flat.reserve(surface.count());
+    for (const auto& [a, b] : middles) flat.push_back(0.5F * (flat[a] + flat[b]));
+    Geometry geometry{std::move(flat), std::vector<glm::vec3>(surface.count())};
+    core::parallelFor(static_cast<int>(surface.count()), verticesAtOnce, [&](int vertex) {
+        const auto v = static_cast<std::size_t>(vertex);
         glm::vec3 place(0.0F), along(0.0F), across(0.0F);
         for (std::size_t i = surface.first[v]; i < surface.first[v + 1]; ++i) {
             const auto& [column, weights] = surface.terms[i];
@@ -326,11 +335,13 @@ Geometry FineMesh::geometry(std::span<const glm::vec3> positions) const {
             along += weights.y * x[column];
             across += weights.z * x[column];
         }
+        const glm::vec3 way = place - geometry.positions[v];
+        const float share = glm::dot(way, way) / (room * room);
+        geometry.positions[v] += way / std::sqrt(std::sqrt(1.0F + share * share));
         const glm::vec3 normal = glm::cross(along, across);
         const float square = glm::dot(normal, normal);
-        geometry.positions.push_back(place);
-        geometry.normals.push_back(square > 0.0F ? normal / std::sqrt(square) : glm::vec3(0.0F, 1.0F, 0.0F));
-    }
+        geometry.normals[v] = square > 0.0F ? normal / std::sqrt(square) : glm::vec3(0.0F, 1.0F, 0.0F);
+    });
     return geometry;
 }
 

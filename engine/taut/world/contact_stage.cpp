@@ -24,14 +24,6 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool touchesColliders(const BodySpec& spec) {
-    return spec.collide && (spec.meetsFaces || spec.meetsFigures || spec.touch != Touch::nothing);
-}
-
-bool mayTouch(const BodySpec& spec) {
-    return spec.touch != Touch::nothing || touchesColliders(spec);
-}
-
 }  // namespace
 
 int fewestInstants(double tickSeconds) {
@@ -42,7 +34,7 @@ int fewestInstants(double tickSeconds) {
 
 bool touches(const IslandPlan& plan) {
     return std::any_of(
-        plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return mayTouch(*body->spec); });
+        plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return body->spec->facesMeet(); });
 }
 
 contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
@@ -52,7 +44,7 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     surface.friction = body.spec->friction;
     surface.meetsItself = body.spec->touch == Touch::all;
     surface.meetsOthers = body.spec->touch != Touch::nothing;
-    surface.meetsRigid = touchesColliders(*body.spec);
+    surface.meetsRigid = body.spec->facesMeetColliders();
     surface.bond = bond;
     const auto at = [&](int i) { return offset + body.pointOf[static_cast<std::size_t>(i)]; };
     std::vector<std::array<int, 3>> triangles = model.triangles;
@@ -82,7 +74,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         const std::vector<dvec3>& start = island->plan().positions;
         rest.insert(rest.end(), start.begin(), start.end());
         for (const Body* body : island->plan().bodies) {
-            if (!mayTouch(*body->spec)) continue;
+            if (!body->spec->facesMeet()) continue;
             surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
             bodies_.push_back(body);
             for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
@@ -94,7 +86,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         parts_.push_back({island.get(), offset, static_cast<int>(rest.size())});
     }
     if (islands_.empty()) return;
-    if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return touchesColliders(*body->spec); }))
+    if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return body->spec->facesMeetColliders(); }))
         colliders_ = ColliderSurfaces(colliders(), now.start(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
     inverseMass_.resize(rest.size());

@@ -7,6 +7,7 @@
 #include "taut/spec/private/motion.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"
+#include "taut/world/private/drawn_contact.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/labels.h"
 #include "taut/world/private/tick.h"
@@ -125,6 +126,14 @@ void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view
     }
 }
 
+collision::Colliders collidersAt(const WorldImpl& w, double ahead) {
+    collision::Colliders all;
+    w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        all.add(part.model->shape, {}, poseAhead(placement, ahead * w.ticksPerSecond));
+    });
+    return all;
+}
+
 // The contents of a picture without labels and marks. Puts bodies into `drawn`, in order.
 view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vector<Body*>& drawn) {
     const double time = w.seconds() + ahead;
@@ -162,6 +171,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
     });
     // Bodies, dulled if frozen.
     std::map<const Island*, std::vector<dvec3>> places;  // of the islands so far, if extrapolated
+    std::optional<collision::Colliders> colliders;       // for what is drawn finer
     for (const WorldImpl::Member& member : w.bodies) {
         const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
         const Island& island = islandOf(*part.body);
@@ -177,7 +187,17 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
         }
         const std::size_t first = view.surfaces.size();
         part.drawing->addSurfaces(positions, view.surfaces);
-        for (std::size_t i = first; i < view.surfaces.size(); ++i) addStillness(island, debug, view.surfaces[i]);
+        const BodySpec& spec = *part.body->spec;
+        const bool isFine = spec.finish.smooth > 0 && spec.collide && !spec.facesMeet();
+        if (isFine && !colliders) colliders = collidersAt(w, ahead);
+        for (std::size_t i = first; i < view.surfaces.size(); ++i) {
+            view::Surface& surface = view.surfaces[i];
+            addStillness(island, debug, surface);
+            if (!isFine || surface.tubeRadius > 0.0F) continue;
+            auto outside = std::make_shared<view::Geometry>(*surface.geometry);
+            keepOutside(*colliders, spec.thickness, surface.topology->triangles, *outside);
+            surface.geometry = outside;
+        }
     }
     addTies(w, ahead, debug, view);
     return view;

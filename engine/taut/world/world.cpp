@@ -31,6 +31,8 @@ WorldImpl::WorldImpl(const SceneSpec& scene, const Options& options)
     }
     for (const ColliderSpec& collider : spec.colliders) addCollider(*this, collider);
     meetFigures(spec);
+    if (spec.picture.smooth)
+        for (BodySpec& body : spec.bodies) body.finish.smooth = *spec.picture.smooth;
     addBodies(*this);
     rebuildColliders(*this);
     updateHash(*this);

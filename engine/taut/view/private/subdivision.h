@@ -31,9 +31,12 @@ struct FineMesh {
     std::vector<std::uint32_t> triangles;  // (3 · triangles)
     SparseRows controls;  // of vertices of the mesh: what controls the surface so that it passes close to them
     SparseRows surface;   // of controls: vertices on the surface
+    // (vertices beyond those of the mesh) Two earlier vertices, between which each is on the mesh as that is, flat.
+    std::vector<std::array<std::uint32_t, 2>> middles;
 
-    // Expects a position, or uv, of every vertex of the mesh.
-    Geometry geometry(std::span<const glm::vec3> positions) const;
+    // Expects a position, or uv, of every vertex of the mesh. No place of the surface is `room` [m] (> 0) or more from
+    // its place on the flat mesh: it nears that without a kink.
+    Geometry geometry(std::span<const glm::vec3> positions, float room) const;
     std::vector<glm::vec2> spread(std::span<const glm::vec2> uv) const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <map>
 #include <optional>
@@ -30,6 +31,7 @@ class Source {
         : world_(world), run_(run), needsPoints_(needsPoints), stop_(stop) {}
 
     std::optional<Delivery> next() {
+        next_ = std::max(next_, world_.startTick() / world_.ticksPerFrame());
         for (; next_ <= run_.lastFrame; ++next_) {
             const std::int64_t goal = next_ * world_.ticksPerFrame();
             while (world_.tick() < goal && !stop_)

@@ -27,6 +27,7 @@
 #include "taut/pipeline/geometry_run.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/load.h"
+#include "taut/spec/ticks.h"
 #include "taut/world/world.h"
 
 namespace taut::game {

@@ -103,8 +103,8 @@ TEST(PanelMesher, KeepsTrianglesFat) {
     }
 }
 
-// Nine cells inside of the outline points have moved by less than a thousandth of a cell from their rows. One side of
-// each triangle has the direction of the warp.
+// Nine cells inside of the outline edges are those of the rows to 0.2 %, and one side of each triangle has the direction
+// of the warp.
 TEST(PanelMesher, LaysRowsAlongTheWarp) {
     const PanelShape shape{{square}, 0.04, {0.8, 0.6}};
     const PanelMesh mesh = meshPanel(shape);
@@ -115,9 +115,9 @@ TEST(PanelMesher, LaysRowsAlongTheWarp) {
             if (std::min({p.x, p.y, 1 - p.x, 1 - p.y}) < 0.36) return;
         }
         const dvec2 ab = mesh.points[static_cast<std::size_t>(b)] - mesh.points[static_cast<std::size_t>(a)];
-        EXPECT_NEAR(glm::length(ab), shape.cell, 1e-3 * shape.cell);
+        EXPECT_NEAR(glm::length(ab), shape.cell, 4e-3 * shape.cell);
         ++inner;
-        if (std::abs(cross(ab, shape.along)) < 1e-3 * shape.cell) ++rows;
+        if (std::abs(cross(ab, shape.along)) < 4e-3 * shape.cell) ++rows;
     });
     EXPECT_GT(inner, 100);
     EXPECT_EQ(3 * rows, inner);

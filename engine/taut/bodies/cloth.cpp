@@ -130,7 +130,8 @@ Section ClothSpec::section() {
             .number("cell_m", &ClothSpec::cell, "m", lengthRange, "Length of the edges of its triangles, nearly.")
             .only(panel)
             .text("mesh", &ClothSpec::mesh, Role::mesh,
-                  "OBJ or glTF file; groups and objects of an OBJ (g, o) are names of points.")
+                  "OBJ or glTF file; groups and objects of an OBJ (g, o) are names of points, those of lines (l) in "
+                  "order.")
             .only(mesh)
             .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
             .only(mesh)

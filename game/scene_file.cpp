@@ -8,7 +8,6 @@
 #include "game/messages.h"
 #include "game/suggestion.h"
 #include "game/usage.h"
-#include "taut/pipeline/saved_state.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/light_image.h"

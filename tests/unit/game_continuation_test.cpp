@@ -237,7 +237,9 @@ TEST_F(Continuation, StartsWhereAnotherRunHasKeptItsState) {
     EXPECT_EQ(test::run({"replay", tape, "--quiet"}).code, 0);
     // Another state of the same name is another start.
     EXPECT_EQ(test::run({"render", (folder_ / "scene.toml").string(), "--no-pictures", "--quiet", "--seconds", "0.2",
-                         "--keep-state", kept, "-y"}).code, 0);
+                         "--keep-state", kept, "-y"})
+                  .code,
+              0);
     EXPECT_TRUE(has(run({"--from", "29", "--checkpoints", states}).err, "kept.state has changed"));
     const Outcome other = test::run({"replay", tape, "--quiet"});
     EXPECT_NE(other.code, 0);

@@ -98,13 +98,14 @@ TEST(PanelMesher, KeepsTrianglesFat) {
             EXPECT_GT(std::atan2(cross(ab, ac), glm::dot(ab, ac)), 25 * M_PI / 180);
             EXPECT_GT(glm::length(ab), 0.5 * shape.cell);
             EXPECT_LT(glm::length(ab), 1.75 * shape.cell);
-            if (std::max(a, b) < mesh.outlinePoints && std::abs(a - b) == 1) EXPECT_LT(glm::length(ab), 1.5 * shape.cell);
+            if (std::max(a, b) < mesh.outlinePoints && std::abs(a - b) == 1)
+                EXPECT_LT(glm::length(ab), 1.5 * shape.cell);
         });
     }
 }
 
-// Nine cells inside of the outline edges are those of the rows to 0.2 %, and one side of each triangle has the direction
-// of the warp.
+// Nine cells inside of the outline edges are those of the rows to 0.2 %, and one side of each triangle has the
+// direction of the warp.
 TEST(PanelMesher, LaysRowsAlongTheWarp) {
     const PanelShape shape{{square}, 0.04, {0.8, 0.6}};
     const PanelMesh mesh = meshPanel(shape);
@@ -145,18 +146,28 @@ TEST(PanelMesher, RefusesWhatIsNoOutline) {
     const std::vector<Case> cases{
         {{{{0, 0}, {1, 0}}}, 0, -1, "an outline has at least 3 corners"},
         {{{{0, 0}, {1, 0}, {1, 0}, {0, 1}}}, 0, 1, "this corner and the next are the same point: leave one out"},
-        {{{{0, 0}, {1, 0}, {1, 0.01}, {0, 1}}}, 0, 1,
+        {{{{0, 0}, {1, 0}, {1, 0.01}, {0, 1}}},
+         0,
+         1,
          "side 1 is shorter than half a cell: leave corners out, or make cells smaller"},
-        {{{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.02}, {0.45, 1}, {0.4, 0.02}}}, 0, 0,
+        {{{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.02}, {0.45, 1}, {0.4, 0.02}}},
+         0,
+         0,
          "the outline turns back here in a spike below 6°: leave this corner out"},
-        {{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}}, 0, 2,
+        {{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}},
+         0,
+         2,
          "side 0 and side 2 cross or come nearer than a tenth of a cell: an outline goes round once and does not meet "
          "itself or a hole"},
-        {{square, {{0.5, 0.5}, {0.7, 0.5}, {0.6, 1.2}}}, 1, 1,
+        {{square, {{0.5, 0.5}, {0.7, 0.5}, {0.6, 1.2}}},
+         1,
+         1,
          "side 2 and side 1 of hole 0 cross or come nearer than a tenth of a cell: an outline goes round once and does "
          "not meet itself or a hole"},
         {{square, {{2, 2}, {3, 2}, {2, 3}}}, 1, 0, "this hole lies outside of the outline"},
-        {{square, {{0.1, 0.1}, {0.9, 0.1}, {0.5, 0.9}}, {{0.4, 0.3}, {0.6, 0.3}, {0.5, 0.5}}}, 2, 0,
+        {{square, {{0.1, 0.1}, {0.9, 0.1}, {0.5, 0.9}}, {{0.4, 0.3}, {0.6, 0.3}, {0.5, 0.5}}},
+         2,
+         0,
          "this hole lies inside of hole 0"},
         {{{{0, 0}, {900, 0}, {900, 900}}}, 0, -1, "so small cells make more than a million points: make them larger"}};
     for (const Case& each : cases) {

@@ -40,7 +40,8 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "[cloth.c]\n"
          "material = \"m\"\n"
          "outline = [[0, 0], [1, 1], [1, 0], [0, 1]]\n",
-         "s.toml:5:28: error: side 0 and side 2 cross or come nearer than a tenth of a cell: an outline goes round once "
+         "s.toml:5:28: error: side 0 and side 2 cross or come nearer than a tenth of a cell: an outline goes round "
+         "once "
          "and does not meet itself or a hole\n"
          "  outline = [[0, 0], [1, 1], [1, 0], [0, 1]]\n"
          "                             ^"},

@@ -70,7 +70,7 @@ TEST(SceneObj, ReadsWindowsLineEndsCommentsJoinedLinesAndNoLastLineEnd) {
 }
 
 TEST(SceneObj, GroupsOfLinesNameTheirVerticesInOrder) {
-    // The seam's pieces lie criss-cross, as modellers write them; of a ring, and of what is no chain; of what is at no face.
+    // Pieces that lie criss-cross, as modellers write them; a ring, no chain, what is at no face, what has faces.
     const world::MeshData mesh = objMeshText(
         corners + "v 9 9 9\ng seam\nl 3 2\nl 1 4\nl 3 4\ng ring\nl 4 1 2 3 4\ng star\nl 4 1\nl 3 1\nl 2 1\n"
                   "g loose\nl 1 5\ng sheet\nl 2 1\nf 1 2 3\nf 1 3 4\n",

@@ -32,8 +32,8 @@ TEST(Panels, HaveEdgesInTheOrderOfTheirCorners) {
     EXPECT_EQ(placesOf(model, "left"), placesOf(model, "side2"));
     // Over the first corner, and all the way round but for a side.
     const std::vector<dvec3> round = placesOf(model, "round");
-    EXPECT_EQ(round.size(), placesOf(model, "side2").size() + placesOf(model, "side3").size() +
-                                placesOf(model, "side0").size() - 2);
+    EXPECT_EQ(round.size(),
+              placesOf(model, "side2").size() + placesOf(model, "side3").size() + placesOf(model, "side0").size() - 2);
     EXPECT_EQ(round.front(), dvec3(0.4, 0, 0));
     EXPECT_EQ(round.back(), dvec3(-0.4, 0, 0));
     // What no edge names are the points furthest out, as of all meshes.

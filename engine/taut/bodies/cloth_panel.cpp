@@ -55,9 +55,9 @@ void checkEdges(const fields::CheckInput& input, const ClothSpec& cloth) {
         };
         const bool isOwn = edge.name == "all" || edge.name.starts_with("side") || edge.name.starts_with("hole");
         if (!fields::isName(edge.name) || isOwn)
-            report("name", fmt::format("\"{}\" cannot be the name of an edge", edge.name),
-                   isOwn ? "all, side0, side1, hole0 and so on are there already"
-                         : "a name has letters, digits, - and _");
+            report(
+                "name", fmt::format("\"{}\" cannot be the name of an edge", edge.name),
+                isOwn ? "all, side0, side1, hole0 and so on are there already" : "a name has letters, digits, - and _");
         else if (!names.insert(edge.name).second)
             report("name", fmt::format("there is an edge \"{}\" already", edge.name), "");
         const int last = static_cast<int>(cloth.corners.size()) - 1;
@@ -117,8 +117,7 @@ void ClothSpec::meshPanel() {
     for (const auto& [i, j, k] : made.triangles) data->cornerUv.push_back({uvOf(i), uvOf(j), uvOf(k)});
     const int count = static_cast<int>(corners.size());
     for (int i = 0; i < count; ++i) data->groups[fmt::format("side{}", i)] = wayAlong(made, 0, i, (i + 1) % count);
-    for (std::size_t i = 0; i < holes.size(); ++i)
-        data->groups[fmt::format("hole{}", i)] = wayAlong(made, i + 1, 0, 0);
+    for (std::size_t i = 0; i < holes.size(); ++i) data->groups[fmt::format("hole{}", i)] = wayAlong(made, i + 1, 0, 0);
     for (const ClothEdgeSpec& edge : edges)
         if (std::max(edge.corners.x, edge.corners.y) < count)
             data->groups[edge.name] = wayAlong(made, 0, edge.corners.x, edge.corners.y);

@@ -13,11 +13,11 @@ using glm::dvec2;
 
 constexpr double mostPoints = 1e6;
 constexpr std::size_t mostCorners = 4000;
-constexpr double leastSide = 0.5;   // cells
-constexpr double leastGap = 0.1;    // [cells] between sides that do not follow each other
-constexpr double leastTurn = 0.1;   // sine of the angle between two sides: 6°
-constexpr double nearest = 0.6;     // [cells] that points inside keep from the outline
-constexpr int rounds = 6;           // of relaxation; further ones change little
+constexpr double leastSide = 0.5;  // cells
+constexpr double leastGap = 0.1;   // [cells] between sides that do not follow each other
+constexpr double leastTurn = 0.1;  // sine of the angle between two sides: 6°
+constexpr double nearest = 0.6;    // [cells] that points inside keep from the outline
+constexpr int rounds = 6;          // of relaxation; further ones change little
 
 double turned(const dvec2& a, const dvec2& b) {
     return a.x * b.y - a.y * b.x;
@@ -44,7 +44,7 @@ bool doCross(const Side& one, const Side& other) {
 
 bool areNear(const Side& one, const Side& other, double gap) {
     return doCross(one, other) || std::min({squaredDistance(one.a, other), squaredDistance(one.b, other),
-                                          squaredDistance(other.a, one), squaredDistance(other.b, one)}) < gap * gap;
+                                            squaredDistance(other.a, one), squaredDistance(other.b, one)}) < gap * gap;
 }
 
 std::vector<Side> sidesOf(const PanelShape& shape) {
@@ -103,8 +103,7 @@ void check(const PanelShape& shape, const std::vector<Side>& sides) {
                                  sides[j].ring, sides[j].corner);
     for (std::size_t hole = 1; hole < shape.rings.size(); ++hole)
         for (std::size_t other = 0; other < shape.rings.size(); ++other)
-            if (other != hole &&
-                isInside(shape.rings[hole].front(), sides, static_cast<int>(other)) != (other == 0))
+            if (other != hole && isInside(shape.rings[hole].front(), sides, static_cast<int>(other)) != (other == 0))
                 throw PanelFault(other == 0 ? "this hole lies outside of the outline"
                                             : "this hole lies inside of hole " + std::to_string(other - 1),
                                  static_cast<int>(hole), 0);
@@ -144,9 +143,8 @@ void addInside(const PanelShape& shape, const std::vector<Side>& sides, PanelMes
                 near.push_back(side);
         for (int column = -columns; column <= columns; ++column) {
             const dvec2 p(middle.x + (column + (row % 2 != 0 ? 0.5 : 0.0)) * shape.cell, v);
-            const bool isClear = std::all_of(near.begin(), near.end(), [&](const Side& side) {
-                return squaredDistance(p, side) >= reach * reach;
-            });
+            const bool isClear = std::all_of(
+                near.begin(), near.end(), [&](const Side& side) { return squaredDistance(p, side) >= reach * reach; });
             if (isClear && isInside(p, near, 0)) mesh.points.push_back(p.x * along + p.y * up);
         }
     }

@@ -14,7 +14,7 @@ namespace taut::mechanics {
 struct PanelShape {
     // The outline, then the outlines of holes; each may run either way [m].
     std::vector<std::vector<glm::dvec2>> rings;
-    double cell = 0.02;         // length that edges shall have [m]
+    double cell = 0.02;          // length that edges shall have [m]
     glm::dvec2 along{1.0, 0.0};  // unit; rows of points inside run along it
 };
 

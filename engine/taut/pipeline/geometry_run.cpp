@@ -112,7 +112,8 @@ void write(const Delivery& delivery, geometry::GeometrySink* sink, geometry::Poi
 
 bool exportGeometry(world::World& world, const GeometryRun& run, geometry::GeometrySink* sink,
                     geometry::PointsWriter* points, const std::atomic<bool>& stop) {
-    TAUT_EXPECTS(world.tick() == world.startTick() && run.firstFrame >= 0 && run.firstFrame <= run.lastFrame && run.every >= 1);
+    TAUT_EXPECTS(world.tick() == world.startTick());
+    TAUT_EXPECTS(run.firstFrame >= 0 && run.firstFrame <= run.lastFrame && run.every >= 1);
     BoundedQueue<Delivery> queue(framesWaiting);
     Source source(world, run, points != nullptr, stop);
     std::exception_ptr failure;

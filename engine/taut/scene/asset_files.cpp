@@ -148,8 +148,8 @@ void useState(const Asset& asset, Place place, world::RunSpec& run, Problems& pr
                           "keep it at a frame");
     else if (asset.state->tick > ticks.last())
         problems.addError(place,
-                          fmt::format("this state was kept at {:.6g} s, when the run is over: seconds is {:.6g}", seconds,
-                                      run.seconds),
+                          fmt::format("this state was kept at {:.6g} s, when the run is over: seconds is {:.6g}",
+                                      seconds, run.seconds),
                           "the run goes on from the time of the state: make seconds larger");
 }
 

@@ -47,9 +47,9 @@ World::World(const SceneSpec& spec, const Options& options) : impl_(std::make_un
     try {
         restore(kept->bytes);
     } catch (const core::Error& error) {
-        throw core::Error(error.kind(),
-                          at(spec.run.startSource) + "cannot start from " + spec.run.start + ": " + error.what() +
-                              "; keep a state of this scene's bodies, joints and colliders");
+        throw core::Error(error.kind(), at(spec.run.startSource) + "cannot start from " + spec.run.start + ": " +
+                                            error.what() +
+                                            "; keep a state of this scene's bodies, joints and colliders");
     }
     impl_->startTick = impl_->tick;
 }

@@ -62,11 +62,11 @@ class Triangulation {
 
     glm::dvec2 low_;
     double scale_;
-    std::vector<Place> places_;     // (points), then those of the corners of a square around all
-    std::vector<int> triangleOf_;   // (points) one of those around it
+    std::vector<Place> places_;    // (points), then those of the corners of a square around all
+    std::vector<int> triangleOf_;  // (points) one of those around it
     std::vector<Triangle> triangles_;
-    std::vector<int> next_;         // (points on rings)
-    int last_ = 0;                  // near which the next point will be
+    std::vector<int> next_;  // (points on rings)
+    int last_ = 0;           // near which the next point will be
 };
 
 }  // namespace taut::mechanics

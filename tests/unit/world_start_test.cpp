@@ -7,7 +7,7 @@
 #include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
-namespace taut::world {
+namespace taut::world::starting {
 namespace {
 
 constexpr int kept = 10;
@@ -34,9 +34,9 @@ SceneSpec dressing() {
     return scene;
 }
 
-World after(const SceneSpec& scene, int ticks) {
+World after(const SceneSpec& scene, int number) {
     World world(scene);
-    while (world.tick() < ticks) EXPECT_FALSE(world.advance());
+    while (world.tick() < number) EXPECT_FALSE(world.advance());
     return world;
 }
 
@@ -84,4 +84,4 @@ TEST(StartStates, AreRefusedByOtherBodies) {
 }
 
 }  // namespace
-}  // namespace taut::world
+}  // namespace taut::world::starting

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -95,9 +96,14 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
         throw core::Error(core::ErrorKind::inputOutput,
                           fmt::format("{} holds states of an earlier run; --resume goes on from them, -y begins anew",
                                       folder.string()));
+    // Frames before a kept state are blank.
     const auto fromStart = [&] {
-        return flags.every > 0 ? pipeline::RecordLog(checkpoints.records(), options.figureColumns)
-                               : pipeline::RecordLog(options.figureColumns);
+        pipeline::RecordLog log = flags.every > 0 ? pipeline::RecordLog(checkpoints.records(), options.figureColumns)
+                                                  : pipeline::RecordLog(options.figureColumns);
+        options.startFrame = world.startTick() / world.ticksPerFrame();
+        for (std::int64_t frame = 0; frame < options.startFrame; ++frame)
+            log.add({.frame = frame, .figures = std::vector<double>(options.figureColumns.count, NAN)});
+        return log;
     };
     const bool startsLate = flags.startsLate && !flags.folder.empty() && flags.every == 0;
     if (flags.resume && pictures.areOurs)
@@ -123,7 +129,8 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
                               fmt::format("{} has no state of this run to go on from, and there are frames already; -y "
                                           "draws all of them again",
                                           folder.string()));
-        printNote("note: {} has no state to go on from; starting with frame 0\n", folder.string());
+        printNote("note: {} has no state to go on from; starting with frame {}\n", folder.string(),
+                  world.startTick() / world.ticksPerFrame());
         return fromStart();
     }
     const bool keepsPictures = checkpoint->frame > options.firstFrame || !flags.mayOverwrite;
@@ -144,15 +151,15 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
 }
 
 void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, const world::World& world,
-                     pipeline::RunListener& listener) {
-    const auto keep = [folder, keys](std::int64_t frame, std::vector<std::byte> state,
-                                     const pipeline::RecordLog& before) {
-        pipeline::writeCheckpoint(
-            pipeline::CheckpointFolder(folder).pathOf(frame),
-            {frame, keys.state(frame), keys.picture, std::move(state), before.digest(), keys.files});
+                     std::uint64_t records, pipeline::RunListener& listener) {
+    const auto keep = [folder, keys](std::int64_t frame, std::vector<std::byte> state, std::uint64_t before) {
+        pipeline::writeCheckpoint(pipeline::CheckpointFolder(folder).pathOf(frame),
+                                  {frame, keys.state(frame), keys.picture, std::move(state), before, keys.files});
     };
-    if (world.tick() == 0) keep(0, world.save(), pipeline::RecordLog());
-    listener.checkpoint = keep;
+    if (world.tick() == world.startTick()) keep(world.tick() / world.ticksPerFrame(), world.save(), records);
+    listener.checkpoint = [keep](std::int64_t frame, std::vector<std::byte> state, const pipeline::RecordLog& before) {
+        keep(frame, std::move(state), before.digest());
+    };
 }
 
 }  // namespace taut::game

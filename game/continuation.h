@@ -61,8 +61,9 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
                          const PicturesThere& pictures, pipeline::RunOptions& options, world::World& world);
 
 // Lets the listener write every checkpoint of the run into the folder. Writes one of its start at once, so that a
-// killed run can always be resumed. Expects that the folder exists. Throws core::Error(inputOutput).
+// killed run can always be resumed. `records`: digest of those of the frames before. Expects that the folder exists.
+// Throws core::Error(inputOutput).
 void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, const world::World& world,
-                     pipeline::RunListener& listener);
+                     std::uint64_t records, pipeline::RunListener& listener);
 
 }  // namespace taut::game

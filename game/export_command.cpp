@@ -27,6 +27,7 @@
 #include "taut/pipeline/geometry_run.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/load.h"
+#include "taut/spec/ticks.h"
 #include "taut/world/world.h"
 
 namespace taut::game {
@@ -193,13 +194,16 @@ std::string onlyFault(const world::SceneSpec& spec, const std::string& target) {
 
 pipeline::GeometryRun runOf(const ExportFlags& flags, const world::SceneSpec& spec) {
     const std::int64_t count = pipeline::frameCount(spec.run);
-    const FrameRange range = flags.frames.empty() ? FrameRange{} : frameRange(flags.frames);
+    const std::int64_t first = world::Ticks(spec.run).firstFrame;
+    const FrameRange range = flags.frames.empty() ? FrameRange{first, {}} : frameRange(flags.frames);
     pipeline::GeometryRun run;
     run.firstFrame = range.first;
     run.lastFrame = range.last.value_or(count - 1);
     run.every = flags.every;
     if (run.firstFrame >= count || run.lastFrame >= count)
         failUsage("--frames {}: the scene has frames 0-{}; --seconds makes it longer", flags.frames, count - 1);
+    if (run.firstFrame < first)
+        failUsage("--frames {}: the scene starts with frame {}, from {}", flags.frames, first, spec.run.start);
     if (flags.points.empty()) return run;
     run.targets = targetsIn(flags.of);
     if (run.targets.empty())

@@ -34,6 +34,7 @@
 #include "taut/core/error.h"
 #include "taut/core/private/hash.h"
 #include "taut/core/private/parallel.h"
+#include "taut/core/whole_file.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/image/private/video_writer.h"
 #include "taut/pipeline/overlay.h"
@@ -41,6 +42,7 @@
 #include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/run_parts.h"
 #include "taut/pipeline/run_record.h"
+#include "taut/pipeline/saved_state.h"
 #include "taut/scene/load.h"
 #include "taut/world/world.h"
 
@@ -220,6 +222,20 @@ void warnOfNew(const std::vector<std::string>& foreseen, std::vector<std::string
     printWarnings(met);
 }
 
+// From which scenes start by `run.start`.
+void keepLastState(const RenderFlags& flags, const scene::Loaded& scene, const world::World& world) {
+    std::error_code ignored;
+    pipeline::SavedState state;
+    state.source.file = std::filesystem::weakly_canonical(scene.spec.file, ignored).string();
+    state.source.overrides = allOverrides(flags);
+    state.source.isConfined = flags.isConfined;
+    state.key = scene.keys.stateAt(world.tick());
+    state.tick = world.tick();
+    state.files = scene::usedFiles(scene.spec);
+    state.world = world.save();
+    core::writeWholeFile(flags.state, pipeline::toBytes(state));
+}
+
 // Over 60 lines: what a run does, from its flags to its files, stands in one list.
 int render(const RenderFlags& flags) {
     checkFlags(flags);
@@ -230,6 +246,10 @@ int render(const RenderFlags& flags) {
     pipeline::RunOptions options = runOptions(flags, part);
     const std::vector<std::string> figures = addFigures(flags.metricsOf, spec, options);
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, part, spec.run.fps);
+    if (!flags.state.empty()) {
+        permitOverwritingFile(flags.state, flags.overwrite.answer());
+        core::prepareFolderOf(flags.state);
+    }
     const Interruption interruption;  // from here on: a question is ended by Ctrl-C as ever
     noteWhatIsAhead(flags, part, spec);
     const core::ThreadLimit threads(flags.threads);
@@ -265,8 +285,8 @@ int render(const RenderFlags& flags) {
     continuation.startsLate = !part.title.empty();
     pipeline::RecordLog records = goOn(continuation, states, keys, pictures, options, world);
     const std::size_t before = records.size();
-    const auto keepingStates = [&](pipeline::RunListener& listener) {
-        if (options.checkpointEvery > 0) keepCheckpoints(states, keys, world, listener);
+    const auto keepingStates = [&, digest = records.digest()](pipeline::RunListener& listener) {
+        if (options.checkpointEvery > 0) keepCheckpoints(states, keys, world, digest, listener);
     };
     if (flags.overlay && drawing.draw) addOverlay(world, records, options, drawing);
 
@@ -279,6 +299,7 @@ int render(const RenderFlags& flags) {
         if (place) request.pictures = place->checksums({part.frames.first, std::min(part.frames.last, known - 1)});
         writeRecords(flags, part, writeJson(result), spec, result, figures);
     }
+    if (!flags.state.empty() && !result.divergence && !result.interrupted) keepLastState(flags, scene, world);
     warnOfNew(foreseen, world.warnings());
     if (!flags.quiet) printSummary(flags, result, before);
     if (result.divergence) throw core::Error(core::ErrorKind::diverged, result.divergence->message);

@@ -59,6 +59,7 @@ void checkStills(const RenderFlags& flags) {
         {flags.noPictures, "--no-pictures"},
         {flags.writesMetrics(), "--metrics"},
         {flags.hash, "--hash"},
+        {!flags.state.empty(), "--keep-state"},
         {flags.continuation.isWanted() || !flags.continuation.folder.empty(), "checkpoints"},
     };
     for (const auto& [isGiven, name] : ofRuns)
@@ -110,6 +111,10 @@ void addOutputFlags(Options& options, RenderFlags& flags) {
     options.value("-o,--output", flags.output,
                   "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif)");
     options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
+    options
+        .value("--keep-state", flags.state,
+               "Keep the state of the last frame, for scenes that go on from it: run.start = \"dressed.state\"")
+        .typeName("FILE");
     addOverwriteFlags(options, flags.overwrite);
     options.flag("--metrics", flags.metrics,
                  "Write metrics.csv, or metrics_A-B.csv of a part: energy, momentum, strain, contacts of each frame");

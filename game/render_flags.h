@@ -15,6 +15,7 @@ namespace taut::game {
 struct RenderFlags {
     std::string scene;
     std::string output, video;
+    std::string state;  // file for the state of the last frame; empty: it is not kept
     std::string frames, shard, size, camera, gl, isa, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
     int threads = 0, samples = 0, smooth = -1, drawThreads = 0;  // smooth: -1: not given

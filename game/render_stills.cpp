@@ -33,6 +33,9 @@ std::vector<std::int64_t> ticksOf(const std::vector<std::string>& moments, const
         if (t > run.seconds)
             failUsage("--at {}: the scene lasts {} s; --seconds {} makes it longer", text, run.seconds, text);
         ticks.push_back(world::Ticks(run).at(t));
+        if (run.startState != nullptr && ticks.back() < run.startState->tick)
+            failUsage("--at {}: the scene starts at {:.6g} s, from {}", text,
+                      world::Ticks(run).secondsOf(run.startState->tick), run.start);
         if (ticks.size() > 1 && ticks.back() <= ticks[ticks.size() - 2])
             failUsage("--at {}: not a tick after the moment before", text);
     }

@@ -13,7 +13,7 @@
 #include "taut/image/private/video_writer.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/run.h"
-#include "taut/spec/run_spec.h"
+#include "taut/spec/ticks.h"
 
 namespace taut::game {
 namespace {
@@ -111,21 +111,26 @@ std::string RunPart::companion(const std::string& stem, const std::string& exten
 RunPart partOf(const RenderFlags& flags, const world::RunSpec& run) {
     RunPart part;
     part.count = pipeline::frameCount(run);
-    FrameRange range = flags.frames.empty() ? FrameRange{} : frameRange(flags.frames);
+    const std::int64_t first = world::Ticks(run).firstFrame;
+    FrameRange range = flags.frames.empty() ? FrameRange{first, {}} : frameRange(flags.frames);
     if (flags.continuation.from) range.first = *flags.continuation.from;
     part.frames = {range.first, range.last.value_or(part.count - 1)};
     if (part.frames.first >= part.count || part.frames.last >= part.count)
         failUsage("{}: the scene has frames 0-{}; --seconds makes it longer",
                   flags.frames.empty() ? fmt::format("--from {}", range.first) : "--frames " + flags.frames,
                   part.count - 1);
+    if (part.frames.first < first)
+        failUsage("{}: the scene starts with frame {}, from {}",
+                  flags.frames.empty() ? fmt::format("--from {}", range.first) : "--frames " + flags.frames, first,
+                  run.start);
     if (!flags.frames.empty()) part.title = "--frames " + flags.frames;
     if (!flags.shard.empty()) {
         const Shard piece = shard(flags.shard);
-        const std::int64_t first = part.frames.first, frames = part.frames.last - first + 1;
+        const std::int64_t begin = part.frames.first, frames = part.frames.last - begin + 1;
         if (piece.count > frames)
             failUsage("--shard {}: {} frame{} cannot be shared out to {}", flags.shard, frames, frames == 1 ? "" : "s",
                       piece.count);
-        part.frames = {first + piece.begin(frames), first + piece.end(frames) - 1};
+        part.frames = {begin + piece.begin(frames), begin + piece.end(frames) - 1};
         part.title = "--shard " + flags.shard;
     }
     part.isShared =

@@ -11,6 +11,7 @@
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/light_image.h"
+#include "taut/pipeline/saved_state.h"
 #include "taut/scene/load.h"
 #include "taut/scene/private/merge.h"
 
@@ -86,6 +87,7 @@ scene::LoadOptions loadOptions(const std::vector<std::string>& overrides, bool i
     options.isConfined = isConfined;
     options.overrides = overrides;
     options.pictureFault = pictureFault;
+    options.stateIn = pipeline::stateIn;
     if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
     return options;
 }

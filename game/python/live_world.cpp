@@ -21,6 +21,7 @@ scene::Loaded read(const SceneSource& source) {
     scene::LoadOptions options;
     options.overrides = source.overrides;
     options.isConfined = source.isConfined;
+    options.stateIn = pipeline::stateIn;
     if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
     if (source.isText) return scene::loadSceneText(source.text, source.file, options);
     return scene::loadScene(sceneFile(source.file), options);

@@ -23,6 +23,7 @@ scene::Loaded read(const SceneSource& source) {
     options.overrides = source.overrides;
     options.assetFolders = {".", "/taut"};
     options.memoryLimit = memoryLimit;
+    options.stateIn = pipeline::stateIn;
     return scene::loadSceneText(source.text, source.file, options);
 }
 

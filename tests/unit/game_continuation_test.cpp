@@ -204,5 +204,47 @@ TEST_F(Continuation, SaysWhatCannotBe) {
     EXPECT_EQ(unwritable.code, 6) << unwritable.err;
 }
 
+// A later scene without what led to the state, in another folder of the same tree. Frame 14 is at tick 14, where the
+// state was kept.
+TEST_F(Continuation, StartsWhereAnotherRunHasKeptItsState) {
+    const std::string kept = (folder_ / "kept.state").string(), later = (folder_ / "later.toml").string();
+    const Outcome dressing = test::run({"render", (folder_ / "scene.toml").string(), "--no-pictures", "--quiet",
+                                        "--seconds", "0.25", "--keep-state", kept});
+    ASSERT_EQ(dressing.code, 0) << dressing.err;
+    std::string text = scene;
+    const std::size_t push = text.find("{ t = 0.1"), free = text.find("{ t = 0.4");
+    text.erase(push, free - push);
+    text.replace(text.find("seconds = 0.5"), 13, "seconds = 0.5, start = \"kept.state\"");
+    std::ofstream(later) << text;
+    const auto run = [&](std::vector<std::string> more) {
+        std::vector<std::string> all{"render", later, "--no-pictures", "--hash", "--quiet"};
+        all.insert(all.end(), more.begin(), more.end());
+        return test::run(all);
+    };
+    EXPECT_EQ(run({}).out, from(whole_.out, 14));
+    EXPECT_EQ(run({"--frames", "20-"}).out, from(whole_.out, 20));
+    const Outcome early = run({"--frames", "3-"});
+    EXPECT_EQ(early.code, 2);
+    EXPECT_TRUE(has(early.err, "--frames 3-: the scene starts with frame 14, from " + kept)) << early.err;
+    // It keeps states of its own, and tapes have the ticks that they are of.
+    const std::string states = (folder_ / "later").string();
+    EXPECT_EQ(run({"--checkpoint-every", "10", "--checkpoints", states}).code, 0);
+    const Outcome rest = run({"--from", "25", "--checkpoints", states});
+    EXPECT_TRUE(has(rest.err, "going on with frame 20")) << rest.err;
+    EXPECT_EQ(rest.out, from(whole_.out, 25));
+    const std::string tape = (folder_ / "later.tape").string();
+    EXPECT_TRUE(has(test::run({"record", later, "-o", tape, "--quiet"}).out, "29 ticks"));
+    EXPECT_EQ(test::run({"replay", tape, "--quiet"}).code, 0);
+    // Another state of the same name is another start.
+    EXPECT_EQ(test::run({"render", (folder_ / "scene.toml").string(), "--no-pictures", "--quiet", "--seconds", "0.2",
+                         "--keep-state", kept, "-y"})
+                  .code,
+              0);
+    EXPECT_TRUE(has(run({"--from", "29", "--checkpoints", states}).err, "kept.state has changed"));
+    const Outcome other = test::run({"replay", tape, "--quiet"});
+    EXPECT_NE(other.code, 0);
+    EXPECT_TRUE(has(other.err, "kept.state has changed since this tape was recorded")) << other.err;
+}
+
 }  // namespace
 }  // namespace taut::game::game_continuation

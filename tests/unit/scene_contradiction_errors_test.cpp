@@ -27,6 +27,48 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "s.toml:5:1: error: position does not go with a cloth grid\n"
          "  position = [0, 0, 0]\n"
          "  ^ it belongs to a cloth from a mesh"},
+        {"holes in a grid",
+         "[material.m]\n"
+         "[cloth.c]\n"
+         "material = \"m\"\n"
+         "cell_m = 0.1\n",
+         "s.toml:5:1: error: cell_m does not go with a cloth grid\n"
+         "  cell_m = 0.1\n"
+         "  ^ it belongs to a cloth panel"},
+        {"an outline that crosses itself",
+         "[material.m]\n"
+         "[cloth.c]\n"
+         "material = \"m\"\n"
+         "outline = [[0, 0], [1, 1], [1, 0], [0, 1]]\n",
+         "s.toml:5:28: error: side 0 and side 2 cross or come nearer than a tenth of a cell: an outline goes round "
+         "once "
+         "and does not meet itself or a hole\n"
+         "  outline = [[0, 0], [1, 1], [1, 0], [0, 1]]\n"
+         "                             ^"},
+        {"a hole outside, and edges that are none",
+         "[material.m]\n"
+         "[cloth.c]\n"
+         "material = \"m\"\n"
+         "outline = [[0, 0], [1, 0], [0, 1]]\n"
+         "holes = [{ outline = [[2, 0], [3, 0], [2, 1]] }]\n"
+         "edges = [{ name = \"side1\", corners = [0, 1] },\n"
+         "         { name = \"hem\", corners = [0, 3] },\n"
+         "         { name = \"hem\", corners = [1, 1] }]\n",
+         "s.toml:6:23: error: this hole lies outside of the outline\n"
+         "  holes = [{ outline = [[2, 0], [3, 0], [2, 1]] }]\n"
+         "                        ^\n"
+         "s.toml:7:19: error: \"side1\" cannot be the name of an edge\n"
+         "  edges = [{ name = \"side1\", corners = [0, 1] },\n"
+         "                    ^ all, side0, side1, hole0 and so on are there already\n"
+         "s.toml:8:36: error: the outline has the corners 0 … 2\n"
+         "           { name = \"hem\", corners = [0, 3] },\n"
+         "                                     ^\n"
+         "s.toml:9:19: error: there is an edge \"hem\" already\n"
+         "           { name = \"hem\", corners = [1, 1] }]\n"
+         "                    ^\n"
+         "s.toml:9:36: error: an edge leads from one corner to another\n"
+         "           { name = \"hem\", corners = [1, 1] }]\n"
+         "                                     ^ from the last to the first it goes on round: [3, 0]"},
         {"a sheet that no energy has",
          "[material.m]\n"
          "bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 9e-6 }\n",

@@ -198,6 +198,15 @@ TEST(SceneFields, ClothsLandInTheirMembers) {
     EXPECT_EQ(shirt.position, dvec3(1, 2, 3));
     expectNear(shirt.rotation, {core::pi / 2, core::pi, core::pi / 4});
     EXPECT_EQ(shirt.scale, 0.01);
+    const world::ClothSpec& front = named(scene.bodies.of<world::ClothSpec>(), "front");
+    EXPECT_EQ(front.corners, (std::vector<dvec2>{{0, 0}, {0.4, 0}, {0.5, 0.6}, {0, 0.5}}));
+    ASSERT_EQ(front.holes.size(), 1U);
+    EXPECT_EQ(front.holes[0].corners, (std::vector<dvec2>{{0.1, 0.2}, {0.2, 0.2}, {0.15, 0.3}}));
+    ASSERT_EQ(front.edges.size(), 1U);
+    EXPECT_EQ(front.edges[0].name, "hem");
+    EXPECT_EQ(front.edges[0].corners, ivec2(1, 0));
+    EXPECT_EQ(front.cell, 0.05);
+    EXPECT_NE(front.meshData, nullptr);
 }
 
 TEST(SceneFields, RopeAndBlockLandInTheirMembers) {

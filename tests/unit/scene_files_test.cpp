@@ -1,5 +1,7 @@
 // Scene files on disk, and the files that they name.
 #include "taut/bodies/rope.h"
+#include "taut/scene/private/used_files.h"
+#include "taut/spec/ticks.h"
 #include "taut/world/world.h"
 #include "unit/scene_support.h"
 
@@ -139,6 +141,51 @@ TEST(SceneFiles, AssetsAreLookedForBesideTheSceneFirst) {
               "s.toml:4:8: error: there is no file \"none.obj\"\n"
               "  mesh = \"none.obj\"\n"
               "         ^ looked for none.obj, none.obj, models/none.obj, textures/none.obj");
+}
+
+// At 1 s, or 60 ticks of 60 frames and 120 of 30.
+TEST(SceneFiles, AKeptStateIsReadWhereARunStarts) {
+    const AssetFolder folder;
+    LoadOptions options;
+    options.stateIn = [&](const std::filesystem::path& file) {
+        EXPECT_EQ(file, folder / "kept.state");
+        return world::StartState{61, {std::byte{7}}};
+    };
+    const std::string text = "schema = 1\n[run]\nstart = \"kept.state\"\n";
+    const Loaded loaded = folder.load(text, options);
+    const world::RunSpec& run = loaded.spec.run;
+    EXPECT_EQ(run.start, (folder / "kept.state").string());
+    EXPECT_EQ(world::Ticks(run).firstFrame, 61);
+    std::vector<std::string> files;
+    for (const UsedFile& file : usedFiles(loaded.spec)) files.push_back(file.path);
+    EXPECT_EQ(files, (std::vector<std::string>{(folder / "s.toml").string(), run.start}));
+    // What it holds is part of all states of the scene, its name is not.
+    folder.write("other.state", "");
+    const std::string other = "schema = 1\n[run]\nstart = \"other.state\"\n";
+    options.stateIn = [](const auto&) { return world::StartState{61, {std::byte{7}}}; };
+    EXPECT_EQ(folder.load(other, options).keys.stateAt(61), loaded.keys.stateAt(61));
+    options.stateIn = [](const auto&) { return world::StartState{61, {std::byte{8}}}; };
+    EXPECT_NE(folder.load(text, options).keys.stateAt(61), loaded.keys.stateAt(61));
+
+    EXPECT_EQ(folder.messageOf(text + "fps = 30\n", options),
+              "s.toml:3:9: error: this state was kept at 1.01667 s, between two frames\n"
+              "  start = \"kept.state\"\n"
+              "          ^ keep it at a frame");
+    EXPECT_EQ(folder.messageOf(text + "seconds = 1\n", options),
+              "s.toml:3:9: error: this state was kept at 1.01667 s, when the run is over: seconds is 1\n"
+              "  start = \"kept.state\"\n"
+              "          ^ the run goes on from the time of the state: make seconds larger");
+    EXPECT_EQ(folder.messageOf(text + "[[golden]]\nframes = [3]\n", options),
+              "s.toml:5:11: error: frame 3 is before the start: the first is 61, from kept.state\n"
+              "  frames = [3]\n"
+              "            ^");
+    options.stateIn = [](const auto&) -> world::StartState {
+        throw core::Error(core::ErrorKind::badContent, "these bytes are no state");
+    };
+    EXPECT_EQ(folder.messageOf(text, options),
+              "s.toml:3:9: error: cannot start from kept.state: these bytes are no state\n"
+              "  start = \"kept.state\"\n"
+              "          ^");
 }
 
 TEST(SceneFiles, SuspiciousButLegalContentWarns) {

@@ -32,6 +32,7 @@ instants = 8
 [run]
 fps = 30
 seconds = 4.5
+start = "kept.state"
 [picture]
 size = [640, 360]
 camera = "main"
@@ -101,6 +102,12 @@ material = "silk"
 position = [1, 2, 3]
 rotation_deg = [90, 180, 45]
 scale = 0.01
+[cloth.front]
+outline = [[0, 0], [0.4, 0], [0.5, 0.6], [0, 0.5]]
+holes = [{ outline = [[0.1, 0.2], [0.2, 0.2], [0.15, 0.3]] }]
+edges = [{ name = "hem", corners = [1, 0] }]
+cell_m = 0.05
+material = "silk"
 [rope.rail]
 ends = [[-4, 2, 1], [-1, 2.5, 1.5]]
 segments = 12

@@ -69,6 +69,20 @@ TEST(SceneObj, ReadsWindowsLineEndsCommentsJoinedLinesAndNoLastLineEnd) {
     EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
 }
 
+TEST(SceneObj, GroupsOfLinesNameTheirVerticesInOrder) {
+    // Pieces that lie criss-cross, as modellers write them; a ring, no chain, what is at no face, what has faces.
+    const world::MeshData mesh = objMeshText(
+        corners + "v 9 9 9\ng seam\nl 3 2\nl 1 4\nl 3 4\ng ring\nl 4 1 2 3 4\ng star\nl 4 1\nl 3 1\nl 2 1\n"
+                  "g loose\nl 1 5\ng sheet\nl 2 1\nf 1 2 3\nf 1 3 4\n",
+        "m.obj");
+    using Groups = std::map<std::string, std::vector<int>>;
+    EXPECT_EQ(mesh.groups, (Groups{{"seam", {1, 2, 3, 0}},
+                                   {"ring", {3, 0, 1, 2}},
+                                   {"star", {0, 1, 2, 3}},
+                                   {"sheet", {0, 1, 2, 3}}}));
+    EXPECT_EQ(messageOf(corners + "g a\nl 1\nf 1 2 3\n"), "m.obj:6: error: a line needs at least two vertices");
+}
+
 TEST(SceneObj, GroupsAndObjectsNameTheVerticesOfTheirFaces) {
     const world::MeshData mesh =
         objMeshText("o the shirt\nv 9 9 9\n" + corners + "g collar seam\nf 2 3 4\ng\nf 2 4 5\no\nf 2 3 5\n", "m.obj");

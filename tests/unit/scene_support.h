@@ -25,6 +25,7 @@ class AssetFolder {
         write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
         write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
         write("square.png", "");
+        write("kept.state", "state");
         write("curve.csv", "time,value,sigma\n0,1,0.5\n1.5,2,0.25\n");
         std::filesystem::copy(TAUT_SOURCE_DIR "/tests/support/arm.gltf", path_ / "arm.gltf");
         std::filesystem::create_directory(path_ / "models");
@@ -41,7 +42,8 @@ class AssetFolder {
         std::ofstream(path_ / name, std::ios::binary) << text;
     }
 
-    Loaded load(const std::string& text, const LoadOptions& options = {}) const {
+    Loaded load(const std::string& text, LoadOptions options = {}) const {
+        if (!options.stateIn) options.stateIn = [](const auto&) { return world::StartState{}; };
         return loadSceneText(text, (path_ / "s.toml").string(), options);
     }
 

@@ -25,6 +25,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_own_kinds_test.cpp
   world_own_method_test.cpp
   world_own_shape_test.cpp
+  world_panel_test.cpp
   world_publish_test.cpp
   world_ramps_test.cpp
   world_rehearsal_test.cpp
@@ -34,6 +35,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_seam_test.cpp
   world_sleep_test.cpp
   world_start_doubts_test.cpp
+  world_start_test.cpp
   world_step_choice_test.cpp
   world_step_following_test.cpp
   world_targets_test.cpp

@@ -47,6 +47,7 @@ std::vector<Refusal> refusals(World& world, Pins& pins) {
     const Ticks ticks(w.start->run);
     std::vector<Refusal> all;
     for (const ActionSpec& action : w.start->actions) {
+        if (ticks.at(action.t) < w.startTick) continue;
         w.tick = ticks.at(action.t);
         if (w.tick >= ticks.last()) break;
         try {
@@ -54,11 +55,11 @@ std::vector<Refusal> refusals(World& world, Pins& pins) {
             action.perform(world);
             pins.look(world);
             if (w.actionWarnings.size() > warned)
-                all.push_back({w.tick, w.actionWarnings.back(), w.tick == 0 || isPlaceless(action), true});
+                all.push_back({w.tick, w.actionWarnings.back(), w.tick == w.startTick || isPlaceless(action), true});
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
             if (!followsFromAnother(action, all))
-                all.push_back({w.tick, error.what(), w.tick == 0 || isPlaceless(action), false});
+                all.push_back({w.tick, error.what(), w.tick == w.startTick || isPlaceless(action), false});
         }
     }
     return all;

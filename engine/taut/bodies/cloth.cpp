@@ -1,10 +1,13 @@
 #include "taut/bodies/cloth.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "taut/bodies/private/cloth_panel.h"
 #include "taut/core/error.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
+#include "taut/mechanics/panel_mesher.h"
 #include "taut/spec/common_rows.h"
 #include "taut/spec/private/rotation.h"
 #include "taut/spec/spec.h"
@@ -50,8 +53,10 @@ mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scen
 mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {
     mechanics::MeshClothShape shape;
     const glm::dquat turn = rotationOf(spec.rotation);
+    const dvec3 u = unit(spec.across), v = unit(spec.down - glm::dot(spec.down, u) * u);
     for (const dvec3& x : spec.meshData->positions)
-        shape.positions.push_back(spec.position + rotated(turn, spec.scale * x));
+        shape.positions.push_back(spec.isPanel() ? spec.origin + x.x * u - x.y * v
+                                                 : spec.position + rotated(turn, spec.scale * x));
     shape.uv = spec.meshData->uv;
     shape.triangles = spec.meshData->triangles;
     shape.cornerUv = spec.meshData->cornerUv;
@@ -60,16 +65,34 @@ mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {
     return shape;
 }
 
+// Makes both directions unit vectors, and exactly perpendicular if they are nearly so.
+void checkDirections(const fields::CheckInput& input, ClothSpec& cloth) {
+    if (input.table.find("across") == nullptr && input.table.find("down") == nullptr) return;
+    cloth.across /= std::sqrt(glm::dot(cloth.across, cloth.across));
+    cloth.down /= std::sqrt(glm::dot(cloth.down, cloth.down));
+    const double slant = glm::dot(cloth.across, cloth.down);
+    if (std::abs(slant) <= 1e-3) {
+        cloth.down -= slant * cloth.across;
+        cloth.down /= std::sqrt(glm::dot(cloth.down, cloth.down));
+        return;
+    }
+    const bool namesDown = input.table.find("down") != nullptr;
+    input.problems.addError(input.at(namesDown ? "down" : "across"), "across and down must be at right angles",
+                            namesDown ? "" : "give down too; it is [0, -1, 0] now");
+}
+
 }  // namespace
 
 Section ClothSpec::section() {
-    // Two variants: each field says to which it belongs.
+    // Three variants: each field says to which it belongs.
     Section section;
-    section.help = "A cloth: a grid, or a mesh from an OBJ or glTF file.";
+    section.help = "A cloth: a grid, a panel with an outline, or a mesh from an OBJ or glTF file.";
     section.variant = [](const fields::Node& table) -> std::string {
-        return table.find("mesh") != nullptr ? "a cloth from a mesh" : "a cloth grid";
+        if (table.find("mesh") != nullptr) return "a cloth from a mesh";
+        return table.find("outline") != nullptr ? "a cloth panel" : "a cloth grid";
     };
-    const std::vector<std::string> grid{"a cloth grid"}, mesh{"a cloth from a mesh"};
+    const std::vector<std::string> grid{"a cloth grid"}, panel{"a cloth panel"}, mesh{"a cloth from a mesh"};
+    const std::vector<std::string> both{"a cloth grid", "a cloth panel"};
     section.fields =
         FieldList<ClothSpec>()
             .text("material", &ClothSpec::material, Role::material, "Name of its material.")
@@ -78,23 +101,37 @@ Section ClothSpec::section() {
             .only(grid)
             .vector("cells", &ClothSpec::cells, "", countRange, "Number of cells across and down.")
             .only(grid)
-            .vector("origin", &ClothSpec::origin, "m", placeRange, "Top left corner.")
-            .only(grid)
+            .vector("origin", &ClothSpec::origin, "m", placeRange,
+                    "Top left corner; of a panel the place of [0, 0] of its outline.")
+            .only(both)
             .direction("across", &ClothSpec::across, "Direction from left to right; any length.")
-            .only(grid)
+            .only(both)
             .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
-            .only(grid)
+            .only(both)
             .degrees(
                 "grain_deg", &ClothSpec::grain, fields::Range{-360.0, 360.0},
                 "Turns the warp of its material from across towards down. Bending is turned at any angle; stretch "
                 "at multiples of 90° and, in square cells, 45°, in between as nearly as springs along the grid can. "
-                "Hysteresis needs multiples of 90°.")
-            .only(grid)
+                "Hysteresis needs multiples of 90°. The rows of a panel's triangles run along its warp, at any angle.")
+            .only(both)
             .flag("round", &ClothSpec::isRound,
                   "Only the cells of which the middle lies in the ellipse that fits into its size: a round tablecloth.")
             .only(grid)
+            .places("outline", &ClothSpec::corners, "m", placeRange,
+                    "Corners of a panel, one after the other, [x, y] with x along across and y against down. Its sides "
+                    "are points by the names of side0, from corner 0 to corner 1, and so on.")
+            .required()
+            .only(panel)
+            .tables("holes", &ClothSpec::holes, panelHoleSection(), "In a panel; their points have the names hole0, …")
+            .only(panel)
+            .tables("edges", &ClothSpec::edges, panelEdgeSection(),
+                    "Names for runs of its sides: points in the order of the outline.")
+            .only(panel)
+            .number("cell_m", &ClothSpec::cell, "m", lengthRange, "Length of the edges of its triangles, nearly.")
+            .only(panel)
             .text("mesh", &ClothSpec::mesh, Role::mesh,
-                  "OBJ or glTF file; groups and objects of an OBJ (g, o) are names of points.")
+                  "OBJ or glTF file; groups and objects of an OBJ (g, o) are names of points, those of lines (l) in "
+                  "order.")
             .only(mesh)
             .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
             .only(mesh)
@@ -103,21 +140,11 @@ Section ClothSpec::section() {
             .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
             .only(mesh)
             .take();
-    // Makes both directions unit vectors, and exactly perpendicular if they are nearly so.
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& cloth = *static_cast<ClothSpec*>(target);
-        if (input.table.find("across") == nullptr && input.table.find("down") == nullptr) return;
-        cloth.across /= std::sqrt(glm::dot(cloth.across, cloth.across));
-        cloth.down /= std::sqrt(glm::dot(cloth.down, cloth.down));
-        const double slant = glm::dot(cloth.across, cloth.down);
-        if (std::abs(slant) <= 1e-3) {
-            cloth.down -= slant * cloth.across;
-            cloth.down /= std::sqrt(glm::dot(cloth.down, cloth.down));
-            return;
-        }
-        const bool namesDown = input.table.find("down") != nullptr;
-        input.problems.addError(input.at(namesDown ? "down" : "across"), "across and down must be at right angles",
-                                namesDown ? "" : "give down too; it is [0, -1, 0] now");
+        checkDirections(input, cloth);
+        if (!input.isClean || input.variant != "a cloth panel") return;
+        checkPanel(input, cloth);
     };
     return section;
 }
@@ -133,6 +160,15 @@ mechanics::Model ClothSpec::build(const SceneSpec& scene) const {
 
 mechanics::Model ClothSpec::buildSheet(const SceneSpec& scene) const {
     const mechanics::ClothMaterial made = materialOf(*this, scene);
+    if (!meshData && isPanel()) {
+        ClothSpec meshed = *this;
+        try {
+            meshed.meshPanel();
+        } catch (const mechanics::PanelFault& fault) {
+            throw core::Error(fault.kind(), at(source) + fault.what());
+        }
+        return meshed.buildSheet(scene);
+    }
     if (!meshData) {
         const dvec3 u = unit(across);
         const dvec3 v = unit(down - glm::dot(down, u) * u);
@@ -141,7 +177,10 @@ mechanics::Model ClothSpec::buildSheet(const SceneSpec& scene) const {
     mechanics::MeshClothShape shape = shapeOf(*this);
     shape.material = made;
     try {
-        return mechanics::buildMeshCloth(shape);
+        mechanics::Model model = mechanics::buildMeshCloth(shape);
+        if (isPanel())  // an edge "left" is not the points furthest to the left
+            for (const auto& group : meshData->groups) model.groups[group.first] = group.second;
+        return model;
     } catch (const mechanics::MeshFault& fault) {
         const auto triangle = static_cast<std::size_t>(fault.triangle);  // a fault of no triangle is larger than any
         const std::string line =
@@ -159,7 +198,7 @@ PlasticitySpec ClothSpec::plasticityIn(const SceneSpec& scene) const {
 BodyOutline ClothSpec::outline(const SceneSpec&) const {
     BodyOutline outline;
     outline.hasSurface = true;
-    outline.isGrid = mesh.empty();
+    outline.isGrid = mesh.empty() && !isPanel();
     outline.isRound = isRound;
     if (meshData) {
         outline.points = static_cast<double>(meshData->positions.size());
@@ -170,8 +209,10 @@ BodyOutline ClothSpec::outline(const SceneSpec&) const {
         outline.springs = 6.0 * x * y + x + y;
     }
     outline.groups = outline.isGrid ? mechanics::clothGroups(isRound) : mechanics::meshClothGroups();
-    if (meshData)
-        for (const auto& group : meshData->groups) outline.groups.push_back(group.first);
+    if (!meshData) return outline;
+    for (const auto& group : meshData->groups)
+        if (std::find(outline.groups.begin(), outline.groups.end(), group.first) == outline.groups.end())
+            outline.groups.push_back(group.first);
     return outline;
 }
 

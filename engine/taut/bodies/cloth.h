@@ -1,10 +1,23 @@
-// A cloth: a grid, or a mesh from a file.
+// A cloth: a grid, a panel with an outline, or a mesh from a file.
 #pragma once
+
+#include <string>
+#include <vector>
 
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
 
 namespace taut::world {
+
+struct ClothHoleSpec {
+    std::vector<dvec2> corners;  // [m]
+};
+
+// A run of sides of a panel's outline, from one corner on to another.
+struct ClothEdgeSpec {
+    std::string name;
+    ivec2 corners{0, 1};
+};
 
 struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     static constexpr const char* kindName = "cloth";
@@ -16,7 +29,13 @@ struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     dvec3 down{0.0, -1.0, 0.0};   // direction from top to bottom
     double grain = 0.0;           // [rad] from across to the warp, towards down
     bool isRound = false;
-    // … or a mesh, which excludes the six fields above.
+    // … or a panel, which has origin, across, down and grain of these: the outline lies at
+    // origin + x across - y down …
+    std::vector<dvec2> corners;  // [m]; empty: it is none
+    std::vector<ClothHoleSpec> holes;
+    std::vector<ClothEdgeSpec> edges;
+    double cell = 0.02;  // [m] length of its edges, nearly
+    // … or a mesh, which has nothing of this.
     dvec3 position{0.0};  // [m]
     dvec3 rotation{0.0};  // [rad] about x, then y, then z
     double scale = 1.0;
@@ -29,6 +48,11 @@ struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     BodyOutline outline(const SceneSpec& scene) const override;
     using BodySpec::meshSource;
     const MeshSource* meshSource() const override { return this; }
+    bool isPanel() const { return !corners.empty(); }
+    // Sets meshData to that of a panel, in the coordinates of its outline. Its groups are the sides of the outline
+    // (side0, from corner 0 to corner 1, …), the holes (hole0, …) and the edges with names, each in the order of its
+    // corners. The loader calls it; building does it where it was not called. Throws mechanics::PanelFault.
+    void meshPanel();
 
   private:
     mechanics::Model buildSheet(const SceneSpec& scene) const;  // without air

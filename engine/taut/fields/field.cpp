@@ -64,6 +64,8 @@ std::string description(const Field& field) {
         case FieldKind::colour: return "a list of 3 numbers from 0 to 1, or \"#rrggbb\"";
         case FieldKind::segment:
             return fmt::format("a list of two points, each a list of {} numbers{}", field.components, unit);
+        case FieldKind::places:
+            return fmt::format("a list of points, each a list of {} numbers{}", field.components, unit);
         case FieldKind::texts: return "a list of texts";
         case FieldKind::oneOrMoreTexts: return "a text or a list of texts";
         case FieldKind::wholes: return "a list of whole numbers";

@@ -29,6 +29,7 @@ enum class FieldKind {
     direction,    // three numbers that are not all zero
     colour,       // three numbers 0 … 1 or "#rrggbb"
     segment,      // two points of `components` numbers
+    places,       // a list of points of `components` numbers
     texts,        // a list of texts
     oneOrMoreTexts,  // a text, or a list of texts
     wholes,       // a list of whole numbers
@@ -57,6 +58,7 @@ enum class Role {
     mesh,         // a path of a mesh file
     texture,      // a path of a picture
     environment,  // a path of a picture of all that is around
+    state,        // a path of a kept state
     points,       // KIND.NAME@SELECTOR
     bodies,       // KIND.NAME of bodies that have a surface
     anyBodies,    // KIND.NAME

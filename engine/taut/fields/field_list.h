@@ -266,6 +266,28 @@ class FieldList {
         last().components = N;
         return *this;
     }
+    template <int N, class Base>
+    FieldList& places(const char* key, std::vector<glm::vec<N, double, glm::defaultp>> Base::*member, const char* unit,
+                      Range range, const char* help) {
+        using Vector = glm::vec<N, double, glm::defaultp>;
+        add(
+            key, FieldKind::places, unit, range, help,
+            [=](Spec& s, const Value& value) {
+                const auto& numbers = std::get<std::vector<double>>(value);
+                (s.*member).clear();
+                for (std::size_t i = 0; i < numbers.size(); i += N)
+                    (s.*member).push_back(vectorOf<Vector>(numbers, i));
+            },
+            [=](const Spec& s) -> Value {
+                if ((s.*member).empty()) return {};
+                std::vector<double> numbers;
+                for (const Vector& place : s.*member)
+                    for (const double number : numbersOf(place)) numbers.push_back(number);
+                return numbers;
+            });
+        last().components = N;
+        return *this;
+    }
     FieldList& wholes(const char* key, std::vector<int> Spec::*member, Range range, const char* help) {
         return add(
             key, FieldKind::wholes, "", range, help,

@@ -28,6 +28,7 @@ class ValueReader {
             case FieldKind::direction: return direction(node);
             case FieldKind::colour: return wrapped(colour(node));
             case FieldKind::segment: return segment(node);
+            case FieldKind::places: return places(node);
             case FieldKind::texts: return texts(node);
             case FieldKind::oneOrMoreTexts:
                 if (node.kind == NodeKind::text) return Value(std::vector<std::string>{node.text});
@@ -173,11 +174,17 @@ class ValueReader {
     std::optional<Value> segment(const Node& node) const {
         if (node.kind != NodeKind::list) return failKind(node);
         if (node.items.size() != 2) return fail(node, field_.key, description(field_), description(node));
-        auto start = numbers(node.items[0], field_.key + "[0]");
-        const auto end = numbers(node.items[1], field_.key + "[1]");
-        if (!start || !end) return std::nullopt;
-        start->insert(start->end(), end->begin(), end->end());
-        return Value(*start);
+        return places(node);
+    }
+
+    std::optional<Value> places(const Node& node) const {
+        if (node.kind != NodeKind::list) return failKind(node);
+        std::vector<double> values;
+        for (std::size_t i = 0; i < node.items.size(); ++i)
+            if (const auto place = numbers(node.items[i], fmt::format("{}[{}]", field_.key, i)))
+                values.insert(values.end(), place->begin(), place->end());
+        if (values.size() != node.items.size() * static_cast<std::size_t>(field_.components)) return std::nullopt;
+        return Value(values);
     }
 
     std::optional<Value> wholes(const Node& node) const {

@@ -129,7 +129,7 @@ void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
     if (number < 0) return;
     const Body& body = *plan.bodies[static_cast<std::size_t>(number)];
     const MeshSource* source = std::as_const(*body.spec).meshSource();
-    if (source == nullptr || source->meshData == nullptr) return;
+    if (source == nullptr || source->meshData == nullptr || source->mesh.empty()) return;
 
     const mechanics::Spring* shortest = nullptr;
     std::vector<double> lengths;

@@ -131,7 +131,8 @@ struct Model {
     BendingFriction friction;
     FreeformBending freeform;
 
-    // Points by name: "left", "top-left", "all", … as each builder documents. Indices ascend.
+    // Points by name: "left", "top-left", "all", … as each builder documents. Indices ascend, but for edges of panels
+    // and lines of mesh files, which have the order of their way.
     std::map<std::string, std::vector<int>> groups;
 
     // Cells along u and v of a rectangular grid with points row by row, or {0, 0}.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <map>
 #include <optional>
@@ -30,6 +31,7 @@ class Source {
         : world_(world), run_(run), needsPoints_(needsPoints), stop_(stop) {}
 
     std::optional<Delivery> next() {
+        next_ = std::max(next_, world_.startTick() / world_.ticksPerFrame());
         for (; next_ <= run_.lastFrame; ++next_) {
             const std::int64_t goal = next_ * world_.ticksPerFrame();
             while (world_.tick() < goal && !stop_)
@@ -110,7 +112,8 @@ void write(const Delivery& delivery, geometry::GeometrySink* sink, geometry::Poi
 
 bool exportGeometry(world::World& world, const GeometryRun& run, geometry::GeometrySink* sink,
                     geometry::PointsWriter* points, const std::atomic<bool>& stop) {
-    TAUT_EXPECTS(world.tick() == 0 && run.firstFrame >= 0 && run.firstFrame <= run.lastFrame && run.every >= 1);
+    TAUT_EXPECTS(world.tick() == world.startTick());
+    TAUT_EXPECTS(run.firstFrame >= 0 && run.firstFrame <= run.lastFrame && run.every >= 1);
     BoundedQueue<Delivery> queue(framesWaiting);
     Source source(world, run, points != nullptr, stop);
     std::exception_ptr failure;

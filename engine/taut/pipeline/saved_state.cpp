@@ -2,6 +2,7 @@
 
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/scene/private/body_size.h"
 
@@ -64,6 +65,11 @@ SavedState fromBytes(std::string_view text) {
     state.world = reader.list<std::byte>();
     if (!reader.isAtEnd() || state.tick < 0) core::ByteReader::fail();
     return state;
+}
+
+world::StartState stateIn(const std::filesystem::path& file) {
+    SavedState state = fromBytes(core::fileContent(file, static_cast<std::uint64_t>(scene::memoryLimit())));
+    return {state.tick, std::move(state.world)};
 }
 
 }  // namespace taut::pipeline

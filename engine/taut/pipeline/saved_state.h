@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "taut/scene/private/used_files.h"
+#include "taut/spec/run_spec.h"
 #include "taut/world/result_bits.h"
 
 namespace taut::pipeline {
@@ -35,5 +37,8 @@ struct SavedState {
 std::string toBytes(const SavedState& state);
 // Throws core::Error(badContent) for what is something else, damaged or of results that are not these.
 SavedState fromBytes(std::string_view bytes);
+
+// What scene::LoadOptions::stateIn asks for: of a file with such bytes.
+world::StartState stateIn(const std::filesystem::path& file);
 
 }  // namespace taut::pipeline

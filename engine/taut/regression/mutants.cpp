@@ -50,7 +50,7 @@ std::optional<world::SceneSpec> withoutOneSpring(world::SceneSpec spec, const Is
             return spec;
         }
     for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
-        if (!cloth.mesh.empty()) continue;
+        if (cloth.meshData || !cloth.mesh.empty()) continue;
         const glm::dvec2 cell = 1.0 / glm::dvec2(cloth.cells);
         const glm::dvec2 corner = glm::floor(glm::dvec2(cloth.cells) * 0.5) * cell;
         world::CutAction cut;

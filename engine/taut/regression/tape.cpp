@@ -105,6 +105,14 @@ Tape blankTape() {
 }
 
 void addTick(Tape& tape, world::World& world, bool withPoints) {
+    // Ticks before a kept state are blank.
+    while (static_cast<std::int64_t>(tape.chain.size()) < world.startTick()) {
+        if (tape.casts.empty()) tape.casts.emplace_back();
+        tape.castOf.push_back(0);
+        tape.bodyAt.push_back(0);
+        tape.pointAt.push_back(0);
+        tape.chain.push_back(0);
+    }
     TAUT_EXPECTS(world.tick() == static_cast<std::int64_t>(tape.chain.size()));
     tape.tickSeconds = world.tickSeconds();
     tape.ticksPerFrame = world.ticksPerFrame();

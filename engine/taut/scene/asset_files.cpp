@@ -13,6 +13,7 @@
 #include "taut/core/error.h"
 #include "taut/scene/private/gltf_file.h"
 #include "taut/scene/private/obj_file.h"
+#include "taut/spec/ticks.h"
 
 namespace taut::scene {
 
@@ -20,10 +21,11 @@ namespace {
 
 using std::filesystem::path;
 
-// A file that a scene names: its path, and its contents if it is a mesh.
+// A file that a scene names: its path, and its contents if it is a mesh or a state.
 struct Asset {
     std::string found;
     std::shared_ptr<const world::MeshData> mesh;
+    std::shared_ptr<const world::StartState> state;
 };
 using Assets = std::map<std::string, Asset>;
 
@@ -62,6 +64,15 @@ world::MeshData meshIn(const path& file, const Confinement& confinement) {
 // Why a found file cannot be used; empty if it can. Stores the contents of a mesh in the asset.
 std::string faultOf(const NameReference& reference, const LoadOptions& options, const Confinement& confinement,
                     Asset& asset) {
+    if (reference.role == Role::state) {
+        if (!options.stateIn) return "this program does not read kept states";
+        try {
+            asset.state = std::make_shared<const world::StartState>(options.stateIn(asset.found));
+        } catch (const core::Error& error) {
+            return fmt::format("cannot start from {}: {}", asset.found, error.what());
+        }
+        return "";
+    }
     if (reference.role != Role::mesh) {
         const std::string fault =
             options.pictureFault ? options.pictureFault(asset.found, reference.role == Role::environment) : "";
@@ -137,6 +148,23 @@ void setSkin(Place place, world::BodySpec& body, const Assets& meshes, Problems&
     body.finish.skinData = found->second.mesh;
 }
 
+// The pictures of a run are of whole frames, from its start to its end.
+void useState(const Asset& asset, Place place, world::RunSpec& run, Problems& problems) {
+    const world::Ticks ticks(run);
+    const double seconds = ticks.secondsOf(asset.state->tick);
+    run.start = asset.found;
+    run.startState = asset.state;
+    run.startSource = {problems.fileOf(place), place.line, place.column};
+    if (asset.state->tick % ticks.perFrame != 0)
+        problems.addError(place, fmt::format("this state was kept at {:.6g} s, between two frames", seconds),
+                          "keep it at a frame");
+    else if (asset.state->tick > ticks.last())
+        problems.addError(place,
+                          fmt::format("this state was kept at {:.6g} s, when the run is over: seconds is {:.6g}",
+                                      seconds, run.seconds),
+                          "the run goes on from the time of the state: make seconds larger");
+}
+
 // Replaces names by what was found.
 void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
     for (world::BodySpec& body : scene.spec.bodies) {
@@ -169,12 +197,13 @@ void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, P
 
 void loadAssets(const LoadOptions& options, const Confinement& confinement, ReadScene& scene, Problems& problems) {
     // Each file is looked for once; a second reference takes the same.
-    Assets meshes, textures, environments;
+    Assets meshes, textures, environments, states;
     for (const NameReference& reference : scene.references) {
         Assets* of = nullptr;
         if (reference.role == Role::mesh) of = &meshes;
         if (reference.role == Role::texture) of = &textures;
         if (reference.role == Role::environment) of = &environments;
+        if (reference.role == Role::state) of = &states;
         if (of == nullptr) continue;
         Assets& assets = *of;
         if (assets.contains(reference.text)) continue;
@@ -207,6 +236,7 @@ void loadAssets(const LoadOptions& options, const Confinement& confinement, Read
             scene.faulty.insert(reference.owner);
             continue;
         }
+        if (asset.state != nullptr) useState(asset, reference.place, scene.spec.run, problems);
         assets.emplace(reference.text, asset);
     }
     problems.about("");

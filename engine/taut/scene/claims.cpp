@@ -154,10 +154,14 @@ class Claims {
 
 void checkGoldens(const Node& root, const ReadScene& scene, Problems& problems) {
     const std::int64_t last = world::Ticks(scene.spec.run).lastFrame;
+    const std::int64_t first = world::Ticks(scene.spec.run).firstFrame;
     for (std::size_t i = 0; i < scene.spec.goldens.size(); ++i) {
         if (scene.faulty.contains(fmt::format("golden[{}]", i))) continue;
         const Node& frames = *root.at("golden")->items[i].at("frames");
         for (const Node& frame : frames.items) {
+            if (frame.whole < first)
+                problems.addError(frame.place, fmt::format("frame {} is before the start: the first is {}, from {}",
+                                                           frame.whole, first, scene.spec.run.start));
             if (frame.whole <= last || isLengthOverridden(root)) continue;
             problems.addError(frame.place, fmt::format("frame {} is past the end: the last is {}", frame.whole, last));
         }

@@ -160,6 +160,9 @@ SceneSection runSection() {
                          .number("fps", &RunSpec::fps, "1/s", Range{0.1, 1000.0}, "Pictures a second of scene time.")
                          .number("seconds", &RunSpec::seconds, "s", seconds, "Length of the run.")
                          .role(Role::time)
+                         .text("start", &RunSpec::start, Role::state,
+                               "File of a state that an earlier run of the same bodies kept (taut render "
+                               "--keep-state): the run goes on from it, at its time.")
                          .take();
     return section;
 }

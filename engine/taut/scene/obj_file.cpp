@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "taut/core/error.h"
 #include "taut/scene/private/polygon.h"
@@ -23,6 +25,9 @@ using world::dvec3;
 
 constexpr std::uint64_t maxObjSize = 256U << 20U;  // [bytes]
 constexpr std::size_t maxCorners = 1000;           // of one face; the cost of cutting grows with the cube
+
+// A piece of a line (l) by its positions, from 0.
+using Segment = std::array<int, 2>;
 
 struct Corner {
     int position = 0, uv = -1;  // from 0; -1: none
@@ -44,6 +49,9 @@ class ObjReader {
             std::sort(vertices.begin(), vertices.end());
             vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
         }
+        for (const auto& [name, segments] : lines_)
+            if (std::vector<int> chain = chainOf(segments); !chain.empty())
+                mesh_.groups.emplace(name, std::move(chain));  // unless it has faces
         return std::move(mesh_);
     }
 
@@ -91,6 +99,8 @@ class ObjReader {
             uvs_.emplace_back(number(words[1]), words.size() > 2 ? number(words[2]) : 0.0);
         } else if (words[0] == "f") {
             readFace(words);
+        } else if (words[0] == "l") {
+            readLineElement(words);
         } else if (words[0] == "g") {
             groups_.assign(words.begin() + 1, words.end());
         } else if (words[0] == "o") {  // a name may contain blanks
@@ -169,6 +179,47 @@ class ObjReader {
         }
     }
 
+    void readLineElement(const std::vector<std::string_view>& words) {
+        if (words.size() < 3) fail("a line needs at least two vertices");
+        for (std::size_t i = 2; i < words.size(); ++i) {
+            const Segment segment{corner(words[i - 1]).position, corner(words[i]).position};
+            for (const std::string& name : groups_) lines_[name].push_back(segment);
+            if (!object_.empty()) lines_[object_].push_back(segment);
+        }
+    }
+
+    // The vertices along lines, from the end that the file has first; of a closed way from its first vertex round, each
+    // once. Ascending where they are not one chain; none where one of them belongs to no face.
+    std::vector<int> chainOf(const std::vector<Segment>& segments) const {
+        std::map<int, std::vector<int>> next;
+        std::vector<int> order;  // as the file has them
+        for (const auto& [from, to] : segments) {
+            const std::optional<int> a = usedVertex(from), b = usedVertex(to);
+            if (!a || !b) return {};
+            order.insert(order.end(), {*a, *b});
+            next[*a].push_back(*b);
+            next[*b].push_back(*a);
+        }
+        const auto end = std::find_if(order.begin(), order.end(), [&](int i) { return next[i].size() == 1; });
+        std::vector<int> chain{end != order.end() ? *end : order.front()};
+        for (int last = -1, at = chain.front(); next[at].size() <= 2;) {
+            const int to = next[at].front() != last ? next[at].front() : next[at].back();
+            if (to == last || to == chain.front()) break;
+            chain.push_back(to);
+            last = std::exchange(at, to);
+        }
+        if (chain.size() == next.size()) return chain;
+        chain.clear();
+        for (const auto& [vertex, neighbours] : next) chain.push_back(vertex);
+        return chain;
+    }
+
+    std::optional<int> usedVertex(int position) const {
+        const dvec3 p = positions_[static_cast<std::size_t>(position)] + dvec3(0.0);
+        const auto found = vertices_.find({p.x, p.y, p.z});
+        return found == vertices_.end() ? std::nullopt : std::optional(found->second);
+    }
+
     void addTo(const std::string& name, const std::array<int, 3>& vertices) {
         std::vector<int>& group = mesh_.groups[name];
         group.insert(group.end(), vertices.begin(), vertices.end());
@@ -199,6 +250,7 @@ class ObjReader {
     std::vector<dvec2> uvs_;
     std::vector<std::string> groups_;  // of the following faces
     std::string object_;
+    std::map<std::string, std::vector<Segment>> lines_;  // by group
     std::map<std::tuple<double, double, double>, int> vertices_;
     world::MeshData mesh_;
 };

@@ -57,6 +57,8 @@ Json valueSchema(const Field& field) {
                 {"anyOf",
                  {listSchema(numberSchema(field, false), 3), {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}}}};
         case FieldKind::segment: return listSchema(listSchema(numberSchema(field, false), field.components), 2);
+        case FieldKind::places:
+            return {{"type", "array"}, {"items", listSchema(numberSchema(field, false), field.components)}};
         case FieldKind::texts: return {{"type", "array"}, {"items", {{"type", "string"}}}};
         case FieldKind::oneOrMoreTexts:
             return {{"anyOf",

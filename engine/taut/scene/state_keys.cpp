@@ -79,7 +79,7 @@ void addSection(const Member& section, core::Hash& state, core::Hash& picture) {
     if (isOneOf(section.key, picturesOnly)) return add(section, picture);
     state.add(section.key);
     for (const Member* member : sorted(section.value)) {
-        if (section.key == "run" && member->key == "seconds") continue;
+        if (section.key == "run" && (member->key == "seconds" || member->key == "start")) continue;
         if (member->value.kind == NodeKind::table)
             addThing(*member, state, picture);
         else
@@ -98,6 +98,11 @@ double timeOf(const Node& action) {
 StateKeys::StateKeys(const Node& root, const world::SceneSpec& spec) {
     core::Hash state, picture;
     for (const Member* section : sorted(root)) addSection(*section, state, picture);
+    if (spec.run.startState != nullptr) {
+        state.add(static_cast<std::uint64_t>(spec.run.startState->tick));
+        state.add(std::string_view(reinterpret_cast<const char*>(spec.run.startState->bytes.data()),
+                                   spec.run.startState->bytes.size()));
+    }
     for (const world::BodySpec& body : spec.bodies)
         if (const world::MeshSource* source = body.meshSource()) add(source->meshData.get(), state);
     for (const world::ColliderSpec& collider : spec.colliders) {

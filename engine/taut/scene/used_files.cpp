@@ -43,6 +43,7 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
     files.add(scene.file);
     for (const std::string& base : scene.bases) files.add(base);
     for (const std::string& fabric : scene.fabrics) files.add(fabric);
+    files.add(scene.run.start);
     files.add(scene.environment.image);
     for (const world::BodySpec& body : scene.bodies) {
         if (const world::MeshSource* mesh = body.meshSource()) files.add(mesh->mesh);

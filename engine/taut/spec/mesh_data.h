@@ -19,7 +19,7 @@ struct MeshData {
     std::vector<dvec2> uv;                           // (vertices) as in the file, or empty if a corner has none
     std::vector<std::array<int, 3>> triangles;       // (triangles) indices of vertices, oriented as in the file
     std::vector<std::array<dvec2, 3>> cornerUv;      // (triangles) uv of their corners, also at seams; or empty as uv
-    std::map<std::string, std::vector<int>> groups;  // vertices by the file's g and o, ascending
+    std::map<std::string, std::vector<int>> groups;  // vertices by name
     // Numbers in the file: vertices count from 1, triangles have the line of their face.
     std::vector<int> numbers, lines;
 
@@ -33,7 +33,7 @@ struct MeshData {
 // The mesh file of a body or a collider.
 struct MeshSource {
     std::string mesh;                          // path, resolved by the loader; empty: none
-    std::shared_ptr<const MeshData> meshData;  // what the file holds; null: none
+    std::shared_ptr<const MeshData> meshData;  // what the file holds, or what was made of an outline; null: none
 };
 
 }  // namespace taut::world

@@ -126,7 +126,7 @@ Resolution resolutionOf(const SceneSpec& spec) {
         resolution.count = std::max(resolution.count, count);
     };
     for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
-        if (cloth.meshData) resolution.fixed.emplace(cloth.fullName(), "its cells are those of a mesh file");
+        if (cloth.meshData) resolution.fixed.emplace(cloth.fullName(), "its cells are those of a mesh");
         if (cloth.isRound) resolution.fixed.emplace(cloth.fullName(), "it is round, and other cells have another hem");
         add(cloth, std::max(cloth.cells.x, cloth.cells.y));
     }

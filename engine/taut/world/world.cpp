@@ -18,6 +18,7 @@ namespace taut::world {
 WorldImpl::WorldImpl(const SceneSpec& scene, const Options& options)
     : spec(scene),
       start(std::make_unique<const SceneSpec>(scene)),
+      threadCount(options.threads),
       threads(options.threads),
       keepsSteps(options.keepsSteps),
       added(options.forces) {
@@ -42,7 +43,18 @@ WorldImpl& WorldAccess::of(World& world) {
     return *world.impl_;
 }
 
-World::World(const SceneSpec& spec, const Options& options) : impl_(std::make_unique<WorldImpl>(spec, options)) {}
+World::World(const SceneSpec& spec, const Options& options) : impl_(std::make_unique<WorldImpl>(spec, options)) {
+    const StartState* kept = spec.run.startState.get();
+    if (kept == nullptr) return;
+    try {
+        restore(kept->bytes);
+    } catch (const core::Error& error) {
+        throw core::Error(error.kind(), at(spec.run.startSource) + "cannot start from " + spec.run.start + ": " +
+                                            error.what() +
+                                            "; keep a state of this scene's bodies, joints and colliders");
+    }
+    impl_->startTick = impl_->tick;
+}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -55,6 +67,9 @@ int World::ticksPerFrame() const {
 }
 std::int64_t World::tick() const {
     return impl_->tick;
+}
+std::int64_t World::startTick() const {
+    return impl_->startTick;
 }
 double World::time() const {
     return impl_->seconds();
@@ -144,7 +159,16 @@ std::vector<std::byte> World::save() const {
 }
 
 void World::restore(std::span<const std::byte> content, std::span<const RampAction> applied) {
-    TAUT_EXPECTS(impl_->tick == 0);
+    TAUT_EXPECTS(impl_->tick == impl_->startTick);
+    if (impl_->tick > 0) {  // bytes are read into what has not begun at all
+        WorldImpl& old = *impl_;
+        auto fresh = std::make_unique<WorldImpl>(
+            *old.start, Options{.threads = old.threadCount, .forces = old.added, .keepsSteps = old.keepsSteps});
+        fresh->systems = std::move(old.systems);
+        fresh->callbackSystems = std::move(old.callbackSystems);
+        fresh->startTick = old.startTick;
+        impl_ = std::move(fresh);
+    }
     core::ByteReader reader(content);
     StateBytes bytes(reader);
     visit(*impl_, bytes, applied);

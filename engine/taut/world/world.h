@@ -46,7 +46,7 @@ struct Options {
 class World {
   public:
     // Builds everything; throws core::Error(badContent) with file:line:column where the scene is at fault. A scene made
-    // in code must keep what spec.h asks for.
+    // in code must keep what spec.h asks for. With a kept state in the scene the world goes on from it, at its tick.
     explicit World(const SceneSpec& spec, const Options& options = {});
     ~World();
     World(World&&) noexcept;
@@ -55,6 +55,7 @@ class World {
     double tickSeconds() const;  // [s]
     int ticksPerFrame() const;
     std::int64_t tick() const;  // how many there have been
+    std::int64_t startTick() const;  // 0, or that of the kept state
     double time() const;        // [s] = tick / ticks per second, computed from whole numbers
 
     // Plays one tick: every island does its substeps of forces, integration and collision, side by side. If an island
@@ -97,9 +98,9 @@ class World {
     std::vector<std::array<glm::dvec3, 3>> triangles(const Selection& bodies) const;
 
     // save() returns everything that the ticks so far have changed, as bytes. restore() reads them into a world that
-    // has not ticked yet. That world needs the same forces and a scene that is the same up to that tick; later ticks of
-    // the scene may differ if they lead to the same steps. restore() throws core::Error(badContent) for bytes that do
-    // not fit this world or were saved by other bits (result_bits.h); the world is unusable then.
+    // has not ticked since it was made. That world needs the same forces and a scene that is the same up to that tick;
+    // later ticks of the scene may differ if they lead to the same steps. restore() throws core::Error(badContent) for
+    // bytes that do not fit this world or were saved by other bits (result_bits.h); the world is unusable then.
     std::vector<std::byte> save() const;
     // `applied`: the ramps that apply() began, which no action of the scene would begin.
     void restore(std::span<const std::byte> bytes, std::span<const RampAction> applied = {});

@@ -38,6 +38,7 @@ struct Options;
 struct WorldImpl {
     SceneSpec spec;                          // as ramps have changed it
     std::unique_ptr<const SceneSpec> start;  // the scene at the start: envelopes are made from it
+    int threadCount = 0;
     core::ThreadLimit threads;
     bool keepsSteps = false;
     ForceList added;  // by addForce()
@@ -46,7 +47,7 @@ struct WorldImpl {
 
     double ticksPerSecond = 60;
     int ticksPerFrame = 1;
-    std::int64_t tick = 0;
+    std::int64_t tick = 0, startTick = 0;
     std::uint64_t hash = 0;
 
     // Entities own bodies and islands.

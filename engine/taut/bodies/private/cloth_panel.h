@@ -1,0 +1,16 @@
+// The rows of a cloth that is a panel, and what is checked of one.
+#pragma once
+
+#include "taut/fields/field.h"
+
+namespace taut::world {
+
+struct ClothSpec;
+
+fields::Section panelHoleSection();
+fields::Section panelEdgeSection();
+
+// Meshes the panel. Reports what is wrong with its outline and its edges, at the corner and the key concerned.
+void checkPanel(const fields::CheckInput& input, ClothSpec& cloth);
+
+}  // namespace taut::world

@@ -25,6 +25,7 @@ std::span<const Row> rows() {
         {"R13", "strips of measured fabrics keep a crease", false, holdCreases},
         {"R14", "measured fabrics drape over a disc", true, holdDrape},
         {"R15", "strips of measured fabrics droop", false, holdFabrics},
+        {"R16", "a clamped disc is blown up", false, holdDisc},
     };
     return all;
 }

@@ -19,6 +19,8 @@ void holdStanding(Bench& bench);
 void holdLateral(Bench& bench);
 void holdStickSlip(Bench& bench);
 void holdFriction(Bench& bench);
+// A sheet that a pressure blows up.
+void holdDisc(Bench& bench);
 // In motion.
 void holdStripModes(Bench& bench);
 void holdChainModes(Bench& bench);

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/core/trig.h"
+#include "taut/reality/bench.h"
+#include "taut/reality/rows.h"
+
+namespace taut::reality {
+namespace {
+
+constexpr double radius = 0.5, stretch = 1000.0;                    // [m], [N/m] of an isotropic sheet
+constexpr double modulus = 4.0 / 3.0 * stretch, poisson = 1.0 / 3;  // E h [N/m], ν
+
+// A disc as a polygon of its area, clamped on its rim; a lid that is held everywhere closes it. Both lie flat.
+std::string discScene(int cells, double pressure) {
+    const int corners = static_cast<int>(std::lround(2 * core::pi * cells));
+    const double angle = 2 * core::pi / corners;
+    const double around = radius * std::sqrt(angle / std::sin(angle));
+    std::string outline;
+    for (int i = 0; i < corners; ++i)
+        outline += fmt::format("[{}, {}], ", around * std::cos(angle * i), around * std::sin(angle * i));
+    return fmt::format(R"(schema = 1
+
+[run]
+fps = 60
+seconds = 6
+
+[world]
+gravity = [0, 0, 0]
+
+[solver]
+precision = "double"
+
+[material.sheet]
+density_kg_per_m2 = 0.2
+stretch_N_per_m = {}
+bend_N_per_m = 0
+drag_per_s = 15
+
+[cloth.disc]
+material = "sheet"
+outline = [{}]
+cell_m = {}
+hold = ["boundary"]
+
+[cloth.lid]
+like = "cloth.disc"
+hold = ["all"]
+
+[[joint]]
+a = "cloth.disc@boundary"
+b = "cloth.lid@boundary"
+
+[filling.air]
+in = ["cloth.disc", "cloth.lid"]
+pressure_Pa = {}
+
+[camera.main]
+eye = [1, 0.5, 1.5]
+target = [0, 0, 0]
+)",
+                       stretch, outline, radius / cells, pressure);
+}
+
+}  // namespace
+
+// Hencky (1915): the middle rises by w₀ = 0.64478 a (q a / E h)^⅓ for ν = ⅓, as long as that is much less than a.
+void holdDisc(Bench& bench) {
+    static_assert(poisson == 1.0 / 3);
+    const int cells = bench.cells(16);
+    for (const double load : {1e-4, 8e-4}) {  // q a / E h
+        world::World world = bench.load("disc", discScene(cells, load * modulus / radius));
+        const double expected = 0.64478 * std::cbrt(load);
+        const std::string quantity = fmt::format("rise of the middle over a at qa/Eh = {}", load);
+        if (!bench.settle(world, "cloth.disc", radius)) {
+            bench.missing(quantity, "Hencky 1915", expected, 0.01, cells, "does not come to rest");
+            continue;
+        }
+        double highest = 0;
+        for (const glm::dvec3& x : world.positions(world.select("cloth.disc")))
+            highest = std::max(highest, std::abs(x.z));
+        bench.line(quantity, "Hencky 1915", expected, highest / radius, 0.01, cells);
+    }
+}
+
+}  // namespace taut::reality

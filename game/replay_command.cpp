@@ -39,8 +39,9 @@ bool hasPoints(const regression::Tape& tape) {
 
 void printFacts(const std::string& name, const regression::Tape& tape) {
     const regression::TapeOrigin& origin = tape.origin;
+    const bool isBlankFirst = tape.casts.front().names.empty() && tape.casts.size() > 1;  // before a kept state
     printResult("{}\n  {} ticks of {:.6g} s, {} a picture, hashes of {} bodies{}\n", name, tape.ticks(),
-                tape.tickSeconds, tape.ticksPerFrame, tape.casts.front().names.size(),
+                tape.tickSeconds, tape.ticksPerFrame, tape.casts[isBlankFirst ? 1 : 0].names.size(),
                 hasPoints(tape) ? " and of their points" : "");
     if (!origin.scene.empty()) printResult("  scene {}\n", origin.scene);
     for (const scene::UsedFile& file : origin.files)

@@ -9,7 +9,7 @@
 
 #include "taut/core/private/hash.h"
 
-namespace taut::mechanics {
+namespace taut::mechanics::panels {
 namespace {
 
 using glm::dvec2;
@@ -183,4 +183,4 @@ TEST(PanelMesher, RefusesWhatIsNoOutline) {
 }
 
 }  // namespace
-}  // namespace taut::mechanics
+}  // namespace taut::mechanics::panels

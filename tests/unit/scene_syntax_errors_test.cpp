@@ -133,7 +133,7 @@ TEST(SceneErrors, KeysAndTablesOutOfPlaceAreReportedWithARemedy) {
          "whatever = 1\n",
          "s.toml:3:1: error: [run] has no key \"whatever\"\n"
          "  whatever = 1\n"
-         "  ^ it has fps, seconds"},
+         "  ^ it has fps, seconds, start"},
         {"an unknown key of a table with many",
          "[material.m]\n"
          "[cloth.c]\n"

@@ -27,8 +27,10 @@ std::vector<dvec3> placesOf(const mechanics::Model& model, const char* selector)
 
 TEST(Panels, HaveEdgesInTheOrderOfTheirCorners) {
     const mechanics::Model model = panel().build({});
-    EXPECT_EQ(placesOf(model, "side3"),
-              (std::vector<dvec3>{{0.2, 0.5, 0}, {0.1, 0.5, 0}, {0, 0.5, 0}, {-0.1, 0.5, 0}, {-0.2, 0.5, 0}}));
+    const std::vector<dvec3> top = placesOf(model, "side3");
+    ASSERT_EQ(top.size(), 5U);
+    for (int i = 0; i < 5; ++i)
+        EXPECT_NEAR(glm::distance(top[static_cast<std::size_t>(i)], dvec3(0.2 - 0.1 * i, 0.5, 0)), 0, 1e-15);
     EXPECT_EQ(placesOf(model, "left"), placesOf(model, "side2"));
     // Over the first corner, and all the way round but for a side.
     const std::vector<dvec3> round = placesOf(model, "round");

@@ -122,7 +122,7 @@ Section ClothSpec::section() {
                     "are points by the names of side0, from corner 0 to corner 1, and so on.")
             .required()
             .only(panel)
-            .tables("holes", &ClothSpec::holes, panelHoleSection(), "In a panel; their points have the names hole0, …")
+            .tables("holes", &ClothSpec::holes, panelHoleSection(), "In a panel; the points around the first are hole0.")
             .only(panel)
             .tables("edges", &ClothSpec::edges, panelEdgeSection(),
                     "Names for runs of its sides: points in the order of the outline.")

@@ -88,6 +88,20 @@ void visitPart(StateBytes& bytes, Body& body) {
     bytes.notNegative(body.plasticity.breakCell);
 }
 
+// The bytes between a number and the next are zero, so that equal states are equal files.
+void visitPart(StateBytes& bytes, std::vector<ContactAcceleration>& pressed) {
+    struct Filled {
+        int point = 0, between = 0;
+        dvec3 acceleration{0.0};
+    };
+    static_assert(sizeof(Filled) == sizeof(ContactAcceleration));
+    std::vector<Filled> filled;
+    for (const ContactAcceleration& one : pressed) filled.push_back({one.point, 0, one.acceleration});
+    bytes.list(filled);
+    pressed.clear();
+    for (const Filled& one : filled) pressed.push_back({one.point, one.acceleration});
+}
+
 void visitPart(StateBytes& bytes, Divergence& d) {
     bytes(d.tick);
     bytes.raw(d.time);
@@ -251,7 +265,7 @@ void Island::visit(StateBytes& bytes) {
         bytes.require(
             contact.point >= 0 && contact.point < static_cast<int>(plan_.points.size()) && contact.friction >= 0 &&
             std::isfinite(glm::dot(contact.normal, contact.normal) + glm::dot(contact.carried, contact.carried)));
-    bytes.list(now_.pressed);
+    visitPart(bytes, now_.pressed);
     for (const ContactAcceleration& one : now_.pressed)
         bytes.require(one.point >= 0 && one.point < static_cast<int>(plan_.points.size()) &&
                       std::isfinite(glm::dot(one.acceleration, one.acceleration)));

@@ -33,11 +33,11 @@ double enclosed(std::span<const Triangle> triangles, const PlaceOf& placeOf) {
     return sixfold / 6.0;
 }
 
-struct Side {
+struct EdgeSide {
     std::size_t triangle;
     bool isForward;  // from the lower point of the edge to the higher
 };
-using Edges = std::map<std::pair<int, int>, std::vector<Side>>;
+using Edges = std::map<std::pair<int, int>, std::vector<EdgeSide>>;
 
 Edges edgesOf(std::span<const Triangle> triangles) {
     Edges edges;

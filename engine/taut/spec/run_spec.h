@@ -18,11 +18,11 @@ struct StartState {
 };
 
 struct RunSpec {
-    double fps = 60.0;                             // pictures a second of scene time
-    double seconds = 5.0;                          // length
-    std::string start;                             // path of a kept state, resolved by the loader; empty: none
-    std::shared_ptr<const StartState> startState;  // what the file holds; null: all is as it is authored
-    Source startSource;
+    double fps = 60.0;                               // pictures a second of scene time
+    double seconds = 5.0;                            // length
+    std::string start{};                             // path of a kept state, resolved by the loader; empty: none
+    std::shared_ptr<const StartState> startState{};  // what the file holds; null: all is as it is authored
+    Source startSource{};
 };
 
 }  // namespace taut::world

@@ -79,6 +79,7 @@ TEST(Publish, VerticesOfAMeshAreInTheOrderOfItsFile) {
 
 TEST(Publish, SmoothClothHasFourTrianglesForEachAndSmoothRopesTwoRings) {
     SceneSpec scene = smallScene();
+    scene.colliders.clear();  // out of which cloth would be lifted
     const view::FrameView coarse = World(scene).view(false);
     const RopeSpec& rope = scene.bodies.of<RopeSpec>()[0];
     scene.bodies.of<ClothSpec>()[0].finish.smooth = 3;

@@ -137,14 +137,13 @@ void warnOfLostFriction(const ReadScene& scene, Problems& problems) {
 }
 
 void setSkin(Place place, world::BodySpec& body, const Assets& meshes, Problems& problems) {
-    if (body.finish.skin.empty()) return;
+    const auto found = meshes.find(body.finish.skin);
+    if (found == meshes.end()) return;
+    body.finish.skin = found->second.found;
     if (body.kind() != "cloth" && body.kind() != "block")
         return problems.addWarning(
             place, fmt::format("finish.skin does nothing in {}: cloths and blocks have one", body.fullName()),
             "leave it out");
-    const auto found = meshes.find(body.finish.skin);
-    if (found == meshes.end()) return;
-    body.finish.skin = found->second.found;
     body.finish.skinData = found->second.mesh;
 }
 

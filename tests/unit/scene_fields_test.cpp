@@ -253,7 +253,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 138);
+    EXPECT_EQ(net.points[1].source.line, 140);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");

@@ -159,7 +159,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 69);
+    EXPECT_EQ(flag.source.line, 71);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 

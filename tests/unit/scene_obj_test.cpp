@@ -69,17 +69,12 @@ TEST(SceneObj, ReadsWindowsLineEndsCommentsJoinedLinesAndNoLastLineEnd) {
     EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
 }
 
-TEST(SceneObj, GroupsOfLinesNameTheirVerticesInOrder) {
-    // Pieces that lie criss-cross, as modellers write them; a ring, no chain, what is at no face, what has faces.
+TEST(SceneObj, GroupsOfLinesAloneNameTheirVertices) {
+    // Pieces that lie criss-cross, as modellers write them; what is at no face; what has faces.
     const world::MeshData mesh = objMeshText(
-        corners + "v 9 9 9\ng seam\nl 3 2\nl 1 4\nl 3 4\ng ring\nl 4 1 2 3 4\ng star\nl 4 1\nl 3 1\nl 2 1\n"
-                  "g loose\nl 1 5\ng sheet\nl 2 1\nf 1 2 3\nf 1 3 4\n",
-        "m.obj");
+        corners + "v 9 9 9\ng seam\nl 3 2\nl 1 3\ng loose\nl 1 5\ng sheet\nl 2 1\nf 1 2 3\nf 1 3 4\n", "m.obj");
     using Groups = std::map<std::string, std::vector<int>>;
-    EXPECT_EQ(mesh.groups, (Groups{{"seam", {1, 2, 3, 0}},
-                                   {"ring", {3, 0, 1, 2}},
-                                   {"star", {0, 1, 2, 3}},
-                                   {"sheet", {0, 1, 2, 3}}}));
+    EXPECT_EQ(mesh.groups, (Groups{{"seam", {0, 1, 2}}, {"sheet", {0, 1, 2, 3}}}));
     EXPECT_EQ(messageOf(corners + "g a\nl 1\nf 1 2 3\n"), "m.obj:6: error: a line needs at least two vertices");
 }
 
@@ -132,11 +127,11 @@ TEST(SceneObj, WhatMakesNoClothIsNamedByTheLineOfItsFace) {
 TEST(SceneObj, OtherFormatsAreRefusedByName) {
     const AssetFolder folder;
     folder.write("shirt.fbx", "glTF");
-    EXPECT_EQ(
-        folder.messageOf("schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"shirt.fbx\"\n"),
-        "s.toml:5:8: error: cannot use this mesh: shirt.fbx: error: only OBJ and glTF are read: export it as Wavefront OBJ or as GLB\n"
-        "  mesh = \"shirt.fbx\"\n"
-        "         ^");
+    EXPECT_EQ(folder.messageOf("schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"shirt.fbx\"\n"),
+              "s.toml:5:8: error: cannot use this mesh: shirt.fbx: error: only OBJ and glTF are read: export it as "
+              "Wavefront OBJ or as GLB\n"
+              "  mesh = \"shirt.fbx\"\n"
+              "         ^");
 }
 
 TEST(SceneObj, FaultsAreNamedWithTheirLine) {

@@ -122,7 +122,8 @@ Section ClothSpec::section() {
                     "are points by the names of side0, from corner 0 to corner 1, and so on.")
             .required()
             .only(panel)
-            .tables("holes", &ClothSpec::holes, panelHoleSection(), "In a panel; the points around the first are hole0.")
+            .tables("holes", &ClothSpec::holes, panelHoleSection(),
+                    "In a panel; the points around the first are hole0.")
             .only(panel)
             .tables("edges", &ClothSpec::edges, panelEdgeSection(),
                     "Names for runs of its sides: points in the order of the outline.")
@@ -130,8 +131,7 @@ Section ClothSpec::section() {
             .number("cell_m", &ClothSpec::cell, "m", lengthRange, "Length of the edges of its triangles, nearly.")
             .only(panel)
             .text("mesh", &ClothSpec::mesh, Role::mesh,
-                  "OBJ or glTF file; groups and objects of an OBJ (g, o) are names of points, those of lines (l) in "
-                  "order.")
+                  "OBJ or glTF file; groups and objects of an OBJ (g, o), of faces or of lines, are names of points.")
             .only(mesh)
             .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
             .only(mesh)

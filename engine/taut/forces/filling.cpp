@@ -31,15 +31,18 @@ bool isIn(const FillingSpec& filling, const Body& body) {
                filling.in.begin(), filling.in.end(), [&](const std::string& target) { return names(target, body); });
 }
 
-// (points) The first of those that welds keep in one place.
-std::vector<int> weldedPoints(const IslandPlan& plan) {
+// (points) One of those that welds keep in one place, and seams, also before they are closed.
+std::vector<int> sewnPoints(const IslandPlan& plan) {
     std::vector<int> one(plan.points.size());
     std::iota(one.begin(), one.end(), 0);
-    for (const auto& constraint : plan.constraints)
-        if (const auto* pins = dynamic_cast<const Pins*>(constraint.get()))
-            for (const int point : pins->points())
-                if (const std::vector<int> welded = pins->clusterOf(point); !welded.empty())
-                    one[static_cast<std::size_t>(point)] = welded.front();
+    const auto isPin = [&](const JointTie::Part& part) {
+        return dynamic_cast<const Pins*>(plan.constraints[static_cast<std::size_t>(part.constraint)].get()) != nullptr;
+    };
+    for (const JointTie& tie : plan.ties) {
+        if (tie.b < 0 || !holds(plan, tie) || std::none_of(tie.parts.begin(), tie.parts.end(), isPin)) continue;
+        const int kept = one[static_cast<std::size_t>(tie.a)], other = one[static_cast<std::size_t>(tie.b)];
+        std::replace(one.begin(), one.end(), other, kept);
+    }
     return one;
 }
 
@@ -73,7 +76,7 @@ class FillingForce final : public ForceOf<FillingForce> {
                 for (int& i : triangles.back()) i = body->pointOf[static_cast<std::size_t>(i)];
             }
         }
-        std::vector<Chamber> chambers = mechanics::chambersOf(triangles, places, weldedPoints(plan));
+        std::vector<Chamber> chambers = mechanics::chambersOf(triangles, places, sewnPoints(plan));
         if (!isDamaged(plan))
             for (const Chamber& chamber : chambers) check(chamber, plan, places);
         std::erase_if(chambers, [](const Chamber& chamber) { return !chamber.isClosed(); });
@@ -113,6 +116,11 @@ class FillingForce final : public ForceOf<FillingForce> {
                             "its parts",
                             chamber.openEdges));
         if (chamber.isTwisted) fail("has one side only, as a Möbius strip has, and encloses nothing");
+        if (law_.keeps == FillingKeeps::amount && law_.outside + pressure_.to < 0)
+            fail(fmt::format(
+                "would hold less than nothing: {:.6g} Pa are less than the air has, world.air_pressure_Pa = "
+                "{:.6g}",
+                pressure_.to, law_.outside));
         if (law_.keeps != FillingKeeps::pressure && !(chamber.firstVolume > 0))
             fail("is flat when the scene starts, and has no volume to keep; keeps = \"pressure\" blows it up");
     }

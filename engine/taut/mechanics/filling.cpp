@@ -39,30 +39,41 @@ struct EdgeSide {
 };
 using Edges = std::map<std::pair<int, int>, std::vector<EdgeSide>>;
 
-Edges edgesOf(std::span<const Triangle> triangles) {
-    Edges edges;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const int a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-            if (a != b) edges[std::minmax(a, b)].push_back({t, a < b});
-        }
-    return edges;
+// By the points that stand for theirs.
+Triangle known(Triangle t, std::span<const int> one) {
+    if (!one.empty())
+        for (int& i : t) i = one[static_cast<std::size_t>(i)];
+    return t;
 }
 
-// Without those that lie on each other for good, as where two sheets are sewn through a corner.
-std::vector<Triangle> withoutPairs(std::span<const Triangle> triangles, std::span<const int> one) {
+// Without those that have no area for good, as in a gathered seam, and those that lie on each other, as where two
+// sheets are sewn through a corner.
+std::vector<Triangle> thatEnclose(std::span<const Triangle> triangles, std::span<const int> one) {
     std::map<Triangle, int> times;
-    const auto known = [&](Triangle t) {
-        if (!one.empty())
-            for (int& i : t) i = one[static_cast<std::size_t>(i)];
+    const auto sorted = [&](const Triangle& triangle) {
+        Triangle t = known(triangle, one);
         std::sort(t.begin(), t.end());
         return t;
     };
-    for (const Triangle& t : triangles) ++times[known(t)];
+    for (const Triangle& t : triangles) ++times[sorted(t)];
     std::vector<Triangle> left;
-    for (const Triangle& t : triangles)
-        if (times[known(t)] % 2 == 1) left.push_back(t);
+    for (const Triangle& t : triangles) {
+        const Triangle s = sorted(t);
+        if (s[0] != s[1] && s[1] != s[2] && times[s] % 2 == 1) left.push_back(t);
+    }
     return left;
+}
+
+Edges edgesOf(std::span<const Triangle> triangles, std::span<const int> one) {
+    Edges edges;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const Triangle corners = known(triangles[t], one);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int a = corners[k], b = corners[(k + 1) % 3];
+            edges[std::minmax(a, b)].push_back({t, a < b});
+        }
+    }
+    return edges;
 }
 
 // ½ (b - a) × (c - a): of a triangle its area, along its normal.
@@ -74,12 +85,8 @@ dvec3 areaOf(const dvec3& a, const dvec3& b, const dvec3& c) {
 
 std::vector<Chamber> chambersOf(std::span<const Triangle> all, std::span<const dvec3> places,
                                 std::span<const int> one) {
-    const std::vector<Triangle> triangles = withoutPairs(all, one);
-    std::vector<Triangle> known = triangles;
-    if (!one.empty())
-        for (Triangle& t : known)
-            for (int& i : t) i = one[static_cast<std::size_t>(i)];
-    const Edges edges = edgesOf(known);
+    const std::vector<Triangle> triangles = thatEnclose(all, one);
+    const Edges edges = edgesOf(triangles, one);
     std::vector<std::vector<std::pair<std::size_t, bool>>> beside(triangles.size());  // and whether turned alike
     for (const auto& [edge, sides] : edges)
         if (sides.size() == 2) {
@@ -144,7 +151,7 @@ typename Filling<Real>::State Filling<Real>::stateOf(const Chamber& chamber, dou
         case FillingKeeps::amount: {
             const double bounded = std::max(volume, leastShare * first);
             const double inside = (law_.outside + pressure) * first / bounded;
-            return {inside - law_.outside, volume > bounded || volume == bounded ? inside / bounded : 0.0};
+            return {inside - law_.outside, volume < bounded ? 0.0 : inside / bounded};
         }
         case FillingKeeps::volume:
             return {pressure + law_.bulkModulus * (1.0 - volume / first), law_.bulkModulus / first};

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -26,9 +25,6 @@ using world::dvec3;
 constexpr std::uint64_t maxObjSize = 256U << 20U;  // [bytes]
 constexpr std::size_t maxCorners = 1000;           // of one face; the cost of cutting grows with the cube
 
-// A piece of a line (l) by its positions, from 0.
-using Segment = std::array<int, 2>;
-
 struct Corner {
     int position = 0, uv = -1;  // from 0; -1: none
 };
@@ -45,13 +41,11 @@ class ObjReader {
         if (mesh_.triangles.empty()) fail("no face has an area");
         if (!hasUv_) mesh_.uv.clear();
         if (!hasUv_) mesh_.cornerUv.clear();
+        nameLines();
         for (auto& [name, vertices] : mesh_.groups) {
             std::sort(vertices.begin(), vertices.end());
             vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
         }
-        for (const auto& [name, segments] : lines_)
-            if (std::vector<int> chain = chainOf(segments); !chain.empty())
-                mesh_.groups.emplace(name, std::move(chain));  // unless it has faces
         return std::move(mesh_);
     }
 
@@ -181,43 +175,22 @@ class ObjReader {
 
     void readLineElement(const std::vector<std::string_view>& words) {
         if (words.size() < 3) fail("a line needs at least two vertices");
-        for (std::size_t i = 2; i < words.size(); ++i) {
-            const Segment segment{corner(words[i - 1]).position, corner(words[i]).position};
-            for (const std::string& name : groups_) lines_[name].push_back(segment);
-            if (!object_.empty()) lines_[object_].push_back(segment);
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            const int position = corner(words[i]).position;
+            for (const std::string& name : groups_) lines_[name].push_back(position);
+            if (!object_.empty()) lines_[object_].push_back(position);
         }
     }
 
-    // The vertices along lines, from the end that the file has first; of a closed way from its first vertex round, each
-    // once. Ascending where they are not one chain; none where one of them belongs to no face.
-    std::vector<int> chainOf(const std::vector<Segment>& segments) const {
-        std::map<int, std::vector<int>> next;
-        std::vector<int> order;  // as the file has them
-        for (const auto& [from, to] : segments) {
-            const std::optional<int> a = usedVertex(from), b = usedVertex(to);
-            if (!a || !b) return {};
-            order.insert(order.end(), {*a, *b});
-            next[*a].push_back(*b);
-            next[*b].push_back(*a);
+    // The groups of lines alone; none where a line has a vertex of no face.
+    void nameLines() {
+        for (const auto& [name, positions] : lines_) {
+            std::vector<int> vertices;
+            for (const int position : positions)
+                if (const auto found = vertices_.find(keyOf(position)); found != vertices_.end())
+                    vertices.push_back(found->second);
+            if (vertices.size() == positions.size()) mesh_.groups.emplace(name, std::move(vertices));
         }
-        const auto end = std::find_if(order.begin(), order.end(), [&](int i) { return next[i].size() == 1; });
-        std::vector<int> chain{end != order.end() ? *end : order.front()};
-        for (int last = -1, at = chain.front(); next[at].size() <= 2;) {
-            const int to = next[at].front() != last ? next[at].front() : next[at].back();
-            if (to == last || to == chain.front()) break;
-            chain.push_back(to);
-            last = std::exchange(at, to);
-        }
-        if (chain.size() == next.size()) return chain;
-        chain.clear();
-        for (const auto& [vertex, neighbours] : next) chain.push_back(vertex);
-        return chain;
-    }
-
-    std::optional<int> usedVertex(int position) const {
-        const dvec3 p = positions_[static_cast<std::size_t>(position)] + dvec3(0.0);
-        const auto found = vertices_.find({p.x, p.y, p.z});
-        return found == vertices_.end() ? std::nullopt : std::optional(found->second);
     }
 
     void addTo(const std::string& name, const std::array<int, 3>& vertices) {
@@ -225,12 +198,18 @@ class ObjReader {
         group.insert(group.end(), vertices.begin(), vertices.end());
     }
 
+    using Key = std::tuple<double, double, double>;
+    Key keyOf(int position) const {
+        const dvec3 p = positions_[static_cast<std::size_t>(position)] + dvec3(0.0);  // -0 becomes +0
+        return {p.x, p.y, p.z};
+    }
+
     // The vertex at the corner's position; new at its first use.
     int vertex(const Corner& corner) {
-        const dvec3 p = positions_[static_cast<std::size_t>(corner.position)] + dvec3(0.0);  // -0 becomes +0
-        const auto [found, isNew] = vertices_.try_emplace({p.x, p.y, p.z}, static_cast<int>(mesh_.positions.size()));
+        const Key key = keyOf(corner.position);
+        const auto [found, isNew] = vertices_.try_emplace(key, static_cast<int>(mesh_.positions.size()));
         if (isNew) {
-            mesh_.positions.push_back(p);
+            mesh_.positions.emplace_back(std::get<0>(key), std::get<1>(key), std::get<2>(key));
             mesh_.numbers.push_back(corner.position + 1);
             mesh_.uv.push_back(uvOf(corner));
         }
@@ -250,8 +229,8 @@ class ObjReader {
     std::vector<dvec2> uvs_;
     std::vector<std::string> groups_;  // of the following faces
     std::string object_;
-    std::map<std::string, std::vector<Segment>> lines_;  // by group
-    std::map<std::tuple<double, double, double>, int> vertices_;
+    std::map<std::string, std::vector<int>> lines_;  // positions by group
+    std::map<Key, int> vertices_;
     world::MeshData mesh_;
 };
 

@@ -42,8 +42,8 @@ struct Chamber {
 };
 
 // The chambers of triangles, whose points are at places (points) [m]. Points that are `one` (points) are the same point
-// to the surface; empty: each its own. Triangles on the same three points enclose nothing. The others are turned so
-// that the volume is positive; where it is none, as most of them are.
+// to the surface; empty: each its own. Triangles on the same three points, or on two, enclose nothing. The others are
+// turned so that the volume is positive; where it is none, as most of them are.
 std::vector<Chamber> chambersOf(std::span<const std::array<int, 3>> triangles, std::span<const glm::dvec3> places,
                                 std::span<const int> one = {});
 
@@ -66,7 +66,8 @@ class Filling final : public ForceGenerator<Real> {
     void addDiagonal(int stride, Real* out) const override;
     // -dΔp/dV g gᵀ has one eigenvalue, -dΔp/dV Σ w g²; |g| is no more than a third of the areas around a point. Of
     // Δp ∂²V/∂x² a row sums to no more than Δp/6 of the perimeters around a point. Both hold while edges are no longer
-    // than 1.2 times, areas no larger than 1.44 times what they were first, and a gas fills two thirds of V₀ or more.
+    // than 1.2 times, areas no larger than 1.44 times what they were first, a gas fills two thirds of V₀ or more, and a
+    // liquid keeps its volume.
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
   private:

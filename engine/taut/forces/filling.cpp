@@ -111,10 +111,10 @@ class FillingForce final : public ForceOf<FillingForce> {
                             authored(plan, point).first->fullName(), place.x, place.y, place.z, what));
         };
         if (chamber.openEdges > 0)
-            fail(
-                fmt::format("is open along {} edges, so that it encloses nothing; close the mesh, or weld the edges of "
-                            "its parts",
-                            chamber.openEdges));
+            fail(fmt::format(
+                "is open along {} edges, so that it encloses nothing; close the mesh, or weld or sew the edges of "
+                "its parts",
+                chamber.openEdges));
         if (chamber.isTwisted) fail("has one side only, as a Möbius strip has, and encloses nothing");
         if (law_.keeps == FillingKeeps::amount && law_.outside + pressure_.to < 0)
             fail(fmt::format(
@@ -138,7 +138,7 @@ Section FillingSpec::section() {
     section.fields =
         FieldList<FillingSpec>()
             .texts("in", &FillingSpec::in, Role::bodies,
-                   "Bodies whose surfaces enclose it, alone or welded together; each closed part has its own.")
+                   "Bodies whose surfaces enclose it, alone, welded or sewn together; each closed part has its own.")
             .required()
             .number("pressure_Pa", &FillingSpec::pressure, "Pa", Range{-1e5, 1e7},
                     "How much more than the air outside it presses, at the volume of the start.")

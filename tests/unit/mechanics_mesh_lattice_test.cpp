@@ -25,12 +25,14 @@ void turn(Mesh& mesh, const dmat3& by) {
 // About z, then about x.
 dmat3 turned(double aboutZ, double aboutX) {
     const double c = std::cos(aboutZ), s = std::sin(aboutZ), d = std::cos(aboutX), t = std::sin(aboutX);
-    return dmat3(dvec3(1, 0, 0), dvec3(0, d, t), dvec3(0, -t, d)) * dmat3(dvec3(c, s, 0), dvec3(-s, c, 0), dvec3(0, 0, 1));
+    return dmat3(dvec3(1, 0, 0), dvec3(0, d, t), dvec3(0, -t, d)) *
+           dmat3(dvec3(c, s, 0), dvec3(-s, c, 0), dvec3(0, 0, 1));
 }
 
 double filled(const Lattice& lattice) {
-    return std::accumulate(lattice.cells.begin(), lattice.cells.end(), 0.0,
-                           [&](double sum, const LatticeCell& cell) { return sum + cell.share(); }) *
+    return std::accumulate(
+               lattice.cells.begin(), lattice.cells.end(), 0.0,
+               [&](double sum, const LatticeCell& cell) { return sum + cell.share(); }) *
            lattice.cell.x * lattice.cell.y * lattice.cell.z;
 }
 
@@ -111,8 +113,8 @@ BlockShape shapeIn(const Lattice& lattice) {
     return shape;
 }
 
-// Measured 0.965 and 1.008 bent, 1.000 and 1.011 stretched; were what a cell has in its middle, it would be 1.19 stiffer
-// where the outer cells are half full.
+// Measured 0.965 and 1.008 bent, 1.000 and 1.011 stretched; were what a cell has in its middle, it would be 1.19
+// stiffer where the outer cells are half full.
 TEST(MeshLattice, ABarThatLiesAskewIsAsStiffAsABlock) {
     BlockShape shape{.centre = {0.5, 0, 0}, .size = {1.0, 0.2, 0.2}, .cells = {20, 4, 4}, .density = 1.0, .young = 1.0};
     const Lattice full = fullLattice(shape.cells, shape.size);

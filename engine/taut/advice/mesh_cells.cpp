@@ -38,15 +38,15 @@ class Thickness {
     // ½ of this is the area, along the normal.
     dvec3 doubleArea(std::size_t t) const { return glm::cross(at(t, 1) - at(t, 0), at(t, 2) - at(t, 0)); }
 
-    // [m] From the middle of a face inwards to the next face that looks away; no less than `most` if there is none nearer.
+    // [m] From the middle of a face inwards to the next face that looks away; no less than `most` if there is none
+    // nearer.
     double under(std::size_t face) const {
         const dvec3 from = (at(face, 0) + at(face, 1) + at(face, 2)) / 3.0, way = -glm::normalize(doubleArea(face));
         double least = most_;
-        eachBin(glm::min(from, from + most_ * way), glm::max(from, from + most_ * way),
-                [&](std::size_t bin) {
-                    for (const std::size_t t : bins_[bin])
-                        if (t != face) least = std::min(least, alongTo(t, from, way));
-                });
+        eachBin(glm::min(from, from + most_ * way), glm::max(from, from + most_ * way), [&](std::size_t bin) {
+            for (const std::size_t t : bins_[bin])
+                if (t != face) least = std::min(least, alongTo(t, from, way));
+        });
         return least;
     }
 
@@ -93,7 +93,8 @@ double roundedDown(double value) {
 }
 
 void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume, std::vector<std::string>& doubts) {
-    constexpr double worthSaying = 0.02, mostFaces = 1e4;
+    // What is thinner than a twentieth of a cell is two faces that lie on each other.
+    constexpr double worthSaying = 0.02, leastThick = 0.05, mostFaces = 1e4;
     const Triangles& triangles = block.meshData->triangles;
     const Thickness thickness(x, triangles, block.cell);
     const auto step = static_cast<std::size_t>(std::ceil(static_cast<double>(triangles.size()) / mostFaces));
@@ -103,7 +104,7 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
         const double own = 0.5 * glm::length(thickness.doubleArea(t));
         if (!(own > 0.0)) continue;
         area += own;
-        if (const double under = thickness.under(t); under < 0.999 * block.cell) {
+        if (const double under = thickness.under(t); leastThick * block.cell < under && under < 0.999 * block.cell) {
             thin.emplace_back(under, own);
             thinArea += own;
         }
@@ -119,7 +120,8 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
     doubts.push_back(fmt::format(
         "{}: {:.0f} % of the surface of {} is of parts thinner than a cell, which bend far too stiffly: cells_m = {:g} "
         "would do, about {:.0f} cells",
-        block.fullName(), 100.0 * thinArea / area, block.mesh, enough, roundedDown(volume / (enough * enough * enough))));
+        block.fullName(), 100.0 * thinArea / area, block.mesh, enough,
+        roundedDown(volume / (enough * enough * enough))));
 }
 
 void addCrossings(const BlockSpec& block, const std::vector<dvec3>& x, bool isFilledTwice,

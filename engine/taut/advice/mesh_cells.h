@@ -1,4 +1,5 @@
-// Whether the cells of blocks that are made of meshes are fine enough for these, and whether the meshes cross themselves.
+// Whether the cells of blocks that are made of meshes are fine enough for these, and whether the meshes cross
+// themselves.
 #pragma once
 
 #include <string>

@@ -43,7 +43,8 @@ Section BlockSpec::section() {
         .only(mesh)
         .number("scale", &BlockSpec::scale, "", lengthRange, "Metres of a unit of the file.")
         .only(mesh)
-        .vector("position", &BlockSpec::position, "m", placeRange, "Its centre; of a mesh where the file's origin lies.")
+        .vector("position", &BlockSpec::position, "m", placeRange,
+                "Its centre; of a mesh where the file's origin lies.")
         .rotation("rotation_deg", &BlockSpec::rotation, "About x, then y, then z.")
         .number("density_kg_per_m3", &BlockSpec::density, "kg/m³", positive, "Mass of a cubic metre.")
         .number("young_Pa", &BlockSpec::young, "Pa", positive,

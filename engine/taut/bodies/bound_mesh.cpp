@@ -17,7 +17,7 @@
 namespace taut::world {
 namespace {
 
-constexpr int boundAtOnce = 64;       // vertices in a task
+constexpr int boundAtOnce = 64;        // vertices in a task
 constexpr double mostEdgesAway = 2.0;  // of the longest edge, or cell, of what a vertex is bound to
 
 // What is drawn in place of a body: its skin, or the mesh of a block.
@@ -42,7 +42,8 @@ SkinPlace skinPlace(const Body& body, const mechanics::Lattice& lattice) {
     if (const auto* cloth = dynamic_cast<const ClothSpec*>(body.spec.get()); cloth == nullptr) {
         const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
         const mechanics::BlockShape shape = block.shapeOf(lattice);
-        place.shift = first - (shape.centre + shape.axes * (lattice.cell * dvec3(lattice.points.front()) - 0.5 * shape.size));
+        place.shift =
+            first - (shape.centre + shape.axes * (lattice.cell * dvec3(lattice.points.front()) - 0.5 * shape.size));
         if (block.finish.skinData != nullptr) return place;
         place.turn = rotationOf(block.rotation);
         place.scale = block.scale;

@@ -13,10 +13,11 @@ using glm::ivec3;
 
 // Stiffness of a cell of sides s, from its edges and face diagonals.
 //
-// Shares (lattice.h). A full cell owns a quarter of each of its 12 edges and half of the two diagonals of each of its 6 faces. A whole
-// spring has k, so a cell has three edges and six diagonals. Cells that meet add their shares: an inner edge has k, an
-// edge in a face k/2, an edge of the block k/4, an inner diagonal k, a diagonal in a face k/2. So a uniform strain
-// costs every cell the same energy, at the surface and inside. The energy per volume is that of the infinite lattice.
+// Shares (lattice.h). A full cell owns a quarter of each of its 12 edges and half of the two diagonals of each of its 6
+// faces. A whole spring has k, so a cell has three edges and six diagonals. Cells that meet add their shares: an inner
+// edge has k, an edge in a face k/2, an edge of the block k/4, an inner diagonal k, a diagonal in a face k/2. So a
+// uniform strain costs every cell the same energy, at the surface and inside. The energy per volume is that of the
+// infinite lattice.
 //
 // Cells a x b x c. The two diagonals of the a-b faces, d² = a² + b², give C12 = C66 = 2 k ab/(d² c) and
 // C11 = (that) · a²/b². Wanted is C12 = C44 = 0.4 E and C11 = 1.2 E (E with ν = 1/4):
@@ -151,15 +152,14 @@ class LatticeBuilder {
             const ivec3 last = n_ - stepY - stepZ;
             const auto stiffness = [&](ivec3 p) {
                 double sum = 0.0;  // of the cells on both sides
-                forBox(ivec3(0), stepY + stepZ, [&](ivec3 corner) {
-                    sum += share(p, corner) + share(p - stepX, corner + stepX);
-                });
+                forBox(
+                    ivec3(0), stepY + stepZ,
+                    [&](ivec3 corner) { sum += share(p, corner) + share(p - stepX, corner + stepX); });
                 return k.diagonal[x] * sum;
             };
             forBox(
                 ivec3(0), last, [&](ivec3 p) { add(p, p + stepY + stepZ, stiffness(p), d, SpringKind::shear); });
-            forBox(
-                ivec3(0), last, [&](ivec3 p) { add(p + stepY, p + stepZ, stiffness(p), d, SpringKind::shear); });
+            forBox(ivec3(0), last, [&](ivec3 p) { add(p + stepY, p + stepZ, stiffness(p), d, SpringKind::shear); });
         }
     }
 
@@ -187,7 +187,7 @@ class LatticeBuilder {
     const Lattice& lattice_;
     Moduli moduli_;
     ivec3 n_;
-    dvec3 s_;  // [m] sides of a cell
+    dvec3 s_;                   // [m] sides of a cell
     std::vector<int> numbers_;  // (places of corners in the box) of points; -1: none
     Model model_;
 };

@@ -1,5 +1,5 @@
-// The cells of a block: all of a box, or those that a closed mesh fills, each with what it has of the material. It knows
-// no material.
+// The cells of a block: all of a box, or those that a closed mesh fills, each with what it has of the material. It
+// knows no material.
 //
 //        . . . . . . .          A mesh in a lattice of cubes. What is filled of a cell counts at its corners c by
 //        .   ______  .            shares[c] = ∫ N_c dV / V,   N_c trilinear, over what is inside of the mesh:
@@ -25,13 +25,13 @@ struct LatticeCell {
 };
 
 struct Lattice {
-    glm::ivec3 counts{0};    // cells of the box
-    glm::dvec3 cell{0.0};    // [m] sides of one
-    glm::dvec3 centre{0.0};  // [m] of the box, in the mesh's coordinates
-    std::vector<LatticeCell> cells;   // x fastest, then y, then z
-    std::vector<glm::ivec3> points;   // places of their corners, likewise
-    std::vector<int> carriers;        // (cells of the box) the cell that carries what is there; -1: none
-    bool isFilledTwice = false;       // parts of the mesh fill the same place
+    glm::ivec3 counts{0};            // cells of the box
+    glm::dvec3 cell{0.0};            // [m] sides of one
+    glm::dvec3 centre{0.0};          // [m] of the box, in the mesh's coordinates
+    std::vector<LatticeCell> cells;  // x fastest, then y, then z
+    std::vector<glm::ivec3> points;  // places of their corners, likewise
+    std::vector<int> carriers;       // (cells of the box) the cell that carries what is there; -1: none
+    bool isFilledTwice = false;      // parts of the mesh fill the same place
 
     std::size_t indexOf(glm::ivec3 place) const {
         return static_cast<std::size_t>(place.x) +

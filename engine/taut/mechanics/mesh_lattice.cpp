@@ -18,9 +18,9 @@ using glm::ivec3;
 using Triangle = std::array<int, 3>;
 using Polygon = std::vector<dvec3>;
 
-constexpr double leastFilled = 1e-9;     // of a cell: less is nothing
-constexpr double fullEnough = 1e-9;      // as near to 1 it is rounding
-constexpr double smallShare = 0.25;      // less is left out where a neighbour can carry it
+constexpr double leastFilled = 1e-9;      // of a cell: less is nothing
+constexpr double fullEnough = 1e-9;       // as near to 1 it is rounding
+constexpr double smallShare = 0.25;       // less is left out where a neighbour can carry it
 constexpr double leastCorner = 1.0 / 16;  // of a cell: what a corner has at least, for the step; an even share is 1/8
 
 ivec3 bitsOf(std::size_t corner) {
@@ -148,8 +148,9 @@ std::array<GaussPoint, 7> gaussPoints() {
 class Filler {
   public:
     explicit Filler(ivec3 counts)
-        : counts_(counts), shares_(static_cast<std::size_t>(counts.x) * static_cast<std::size_t>(counts.y) *
-                                   static_cast<std::size_t>(counts.z)),
+        : counts_(counts),
+          shares_(static_cast<std::size_t>(counts.x) * static_cast<std::size_t>(counts.y) *
+                  static_cast<std::size_t>(counts.z)),
           behind_(shares_.size()) {}
 
     void add(const Polygon& piece) {
@@ -165,8 +166,8 @@ class Filler {
                 const dvec3 x = node.corners.x * a + node.corners.y * b + node.corners.z * c;
                 const double along[2] = {x.x - 0.5 * x.x * x.x, 0.5 * x.x * x.x};
                 for (std::size_t corner = 0; corner < 4; ++corner) {
-                    const double across = area * node.weight * (corner & 1 ? x.y : 1.0 - x.y) *
-                                          (corner & 2 ? x.z : 1.0 - x.z);
+                    const double across =
+                        area * node.weight * (corner & 1 ? x.y : 1.0 - x.y) * (corner & 2 ? x.z : 1.0 - x.z);
                     shares_[index][2 * corner] += across * along[0];
                     shares_[index][2 * corner + 1] += across * along[1];
                     behind_[index][corner] += across;
@@ -195,7 +196,8 @@ class Filler {
     std::size_t indexOf(ivec3 p) const {
         return static_cast<std::size_t>(p.x) +
                static_cast<std::size_t>(counts_.x) *
-                   (static_cast<std::size_t>(p.y) + static_cast<std::size_t>(counts_.y) * static_cast<std::size_t>(p.z));
+                   (static_cast<std::size_t>(p.y) +
+                    static_cast<std::size_t>(counts_.y) * static_cast<std::size_t>(p.z));
     }
 
     ivec3 counts_;
@@ -330,9 +332,8 @@ void numberPoints(Lattice& lattice) {
                static_cast<std::size_t>(n.x) *
                    (static_cast<std::size_t>(p.y) + static_cast<std::size_t>(n.y) * static_cast<std::size_t>(p.z));
     };
-    std::vector<int> numbers(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
-                                 static_cast<std::size_t>(n.z),
-                             -1);
+    std::vector<int> numbers(
+        static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z), -1);
     for (const LatticeCell& cell : lattice.cells)
         for (std::size_t c = 0; c < 8; ++c) numbers[indexOf(cell.at + bitsOf(c))] = 0;
     for (int z = 0; z < n.z; ++z)
@@ -402,8 +403,8 @@ const LatticeCell& Lattice::carrierOf(const dvec3& x) const {
         const dvec3 way = x - glm::clamp(x, dvec3(of.at), dvec3(of.at + 1));
         return glm::dot(way, way);
     };
-    return *std::min_element(
-        cells.begin(), cells.end(), [&](const LatticeCell& a, const LatticeCell& b) { return away(a) < away(b); });
+    return *std::min_element(cells.begin(), cells.end(),
+                             [&](const LatticeCell& a, const LatticeCell& b) { return away(a) < away(b); });
 }
 
 Lattice fullLattice(ivec3 counts, const dvec3& size) {

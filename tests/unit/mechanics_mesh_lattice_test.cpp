@@ -89,13 +89,9 @@ Hanging hang(const Model& model, const Lattice& lattice, const dmat3& axes, cons
     // In the middle of the section.
     const auto at = [&](const Vectors& u, double along) {
         const dvec3 x = (along * axes[0] - low) / lattice.cell;
-        const LatticeCell& cell = lattice.carrierOf(x);
-        const dvec3 share = x - dvec3(cell.at);
+        const CarriedPoint carried = carriedBy(lattice.carrierOf(x), x);
         dvec3 sum(0.0);
-        for (std::size_t c = 0; c < 8; ++c) {
-            const dvec3 w = glm::mix(1.0 - share, share, dvec3(c & 1, (c >> 1) & 1, c >> 2));
-            sum += w.x * w.y * w.z * u[static_cast<std::size_t>(cell.points[c])];
-        }
+        for (std::size_t c = 0; c < 8; ++c) sum += carried.weights[c] * u[static_cast<std::size_t>(carried.points[c])];
         return sum;
     };
     const Vectors across = under(axes[1]), along = under(axes[0]);
@@ -167,6 +163,33 @@ TEST(MeshLattice, WeighsWhatIsInsideOfTheMesh) {
     EXPECT_NEAR(totalMass(model), mass, 1e-12);
     EXPECT_NEAR(glm::distance(centreOfMass(model), turned(0.3, 0.5) * moment / mass), 0.0, 3e-3);
     EXPECT_EQ(brokenRule(model), "");
+}
+
+// Forces at the vertices of a mesh, handed to the points that carry them, have the same sum and torque; vertices beyond
+// all cells, where one was left out, too.
+TEST(MeshLattice, ForcesAtTheSurfaceGoToItsCellsWithTheirTorque) {
+    Mesh mesh;
+    addBox(mesh, {0, 0, 0}, {1.0, 0.7, 0.71});
+    turn(mesh, turned(0.3, 0.5));
+    const Lattice lattice = meshLattice(mesh.positions, mesh.triangles, 0.3);
+    const Model model = buildBlock(shapeIn(lattice));
+    const dvec3 low = lattice.centre - 0.5 * lattice.cell * dvec3(lattice.counts);
+    dvec3 force(0.0), torque(0.0), carriedForce(0.0), carriedTorque(0.0);
+    int beyond = 0;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const dvec3 f(1.0 + static_cast<double>(v), 2.0, -3.0 * static_cast<double>(v)), &x = mesh.positions[v];
+        force += f;
+        torque += glm::cross(x, f);
+        const CarriedPoint carried = carriedBy(lattice.carrierOf((x - low) / 0.3), (x - low) / 0.3);
+        for (std::size_t c = 0; c < 8; ++c) {
+            beyond += carried.weights[c] < 0.0 ? 1 : 0;
+            carriedForce += carried.weights[c] * f;
+            carriedTorque += glm::cross(at(model.positions, carried.points[c]), carried.weights[c] * f);
+        }
+    }
+    EXPECT_GT(beyond, 0);
+    EXPECT_NEAR(glm::distance(carriedForce, force), 0.0, 1e-13 * glm::length(force));
+    EXPECT_NEAR(glm::distance(carriedTorque, torque), 0.0, 1e-13 * glm::length(torque));
 }
 
 // A rod of a fifth of a cell, askew: each of its cells has a neighbour at a face.

@@ -83,21 +83,30 @@ TEST(MeshBlock, GoesOnTheSameFromASavedState) {
     EXPECT_EQ(through.save(), restored.save());
 }
 
-TEST(MeshBlock, AMeshWithoutAnInsideIsRefusedByTheLineOfAFace) {
+TEST(MeshBlock, WhatCannotBeFilledIsRefused) {
+    const auto refusal = [](const BlockSpec& block) -> std::string {
+        SceneSpec scene;
+        scene.bodies.add(block);
+        try {
+            World world(scene);
+        } catch (const core::Error& error) {
+            EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
+            return error.what();
+        }
+        return "";
+    };
     const auto mesh = box(dvec3(0.0), dvec3(1.0));
+    BlockSpec block = toy(mesh);
+    block.cell = 1e-6;
+    EXPECT_EQ(refusal(block),
+              "s.toml:3:1: error: there are 1e+18 cubes of cells_m = 1e-06 in the box around toy.obj; 2e+06 are the "
+              "most: give it larger ones");
     mesh->triangles.pop_back();
-    SceneSpec scene;
-    scene.bodies.add(toy(mesh));
-    try {
-        World world(scene);
-        FAIL() << "it was taken";
-    } catch (const core::Error& error) {
-        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
-        EXPECT_TRUE(std::string(error.what())
-                        .starts_with("s.toml:3:1: error: cannot use this mesh: toy.obj:10: error: the mesh is not "
-                                     "closed, so that it has no inside: 3 edges"))
-            << error.what();
-    }
+    const std::string open = refusal(toy(mesh));
+    EXPECT_TRUE(
+        open.starts_with("s.toml:3:1: error: cannot use this mesh: toy.obj:10: error: the mesh is not closed, so "
+                         "that it has no inside: 3 edges"))
+        << open;
 }
 
 TEST(MeshBlock, WhatIsThinnerThanACellOrCrossesItselfIsSaid) {

@@ -1,5 +1,7 @@
 #include "taut/bodies/block.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -73,6 +75,13 @@ Section BlockSpec::section() {
 }
 
 void BlockSpec::fillMesh() {
+    constexpr double mostCells = 2e6;
+    const dvec3 n = mechanics::boxCells(meshData->positions, cell / scale);
+    if (n.x * n.y * n.z > mostCells)
+        throw core::Error(core::ErrorKind::badContent,
+                          fmt::format("there are {:.3g} cubes of cells_m = {:g} in the box around {}; {:g} are the "
+                                      "most: give it larger ones",
+                                      n.x * n.y * n.z, cell, mesh, mostCells));
     std::vector<dvec3> places;
     for (const dvec3& x : meshData->positions) places.push_back(scale * x);
     try {

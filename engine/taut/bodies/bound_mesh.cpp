@@ -210,16 +210,13 @@ BoundMesh::BoundMesh(const Body& body) {
             local[axis] += glm::dot(from, rotated(turn, unit));
         }
         const mechanics::LatticeCell& carrier = lattice->carrierOf(local / cell);
-        const dvec3 share = local / cell - dvec3(carrier.at);  // beyond 0 … 1 outside of the cell
-        const double outside = glm::length(cell * (share - glm::clamp(share, dvec3(0.0), dvec3(1.0))));
+        const dvec3 share = local / cell - dvec3(carrier.at);
+        const double outside = glm::length(cell * (share - glm::clamp(share, 0.0, 1.0)));
         if (!(outside <= most)) failFar(body, v, outside, most);
+        const mechanics::CarriedPoint carried = mechanics::carriedBy(carrier, local / cell);
         Vertex& vertex = vertices_.emplace_back();
-        for (std::size_t corner = 0; corner < 8; ++corner) {
-            const dvec3 side(glm::ivec3(corner & 1U, (corner >> 1U) & 1U, corner >> 2U));
-            const dvec3 weights = glm::mix(1.0 - share, share, side);
-            vertex.terms[corner] = {static_cast<std::uint32_t>(carrier.points[corner]),
-                                    static_cast<float>(weights.x * weights.y * weights.z)};
-        }
+        for (std::size_t c = 0; c < 8; ++c)
+            vertex.terms[c] = {static_cast<std::uint32_t>(carried.points[c]), static_cast<float>(carried.weights[c])};
         if (!hasUv) topology->uv.emplace_back(local);
     }
     topology_ = topology;

@@ -7,6 +7,9 @@
 //        ./_|___|___\.          mesh's mass and centre. A spring along an edge lies in the cell as N of both its ends
 //        .\_|___|___/.          does, one in a face as N of the face's corners. Full cells have eighths.
 //        . . . . . . .
+//
+// Cubes are cut by the surface and not drawn to it: springs along edges and diagonals cannot give a cell that is
+// squeezed by more than a fifth the moduli of its material (block_builder.cpp).
 #pragma once
 
 #include <array>
@@ -22,6 +25,13 @@ struct LatticeCell {
     std::array<double, 8> shares{};
     std::array<int, 8> points{};
     double share() const;  // of the cell, as if full: 1; a little more where it has what a neighbour left out
+};
+
+// A place that goes with the corners of a cell, by trilinear weights. What acts there acts on these by the same
+// weights: the sum of forces and their torque stay.
+struct CarriedPoint {
+    std::array<int, 8> points{};
+    std::array<double, 8> weights{};  // their sum is 1; beyond 0 … 1 outside of the cell
 };
 
 struct Lattice {
@@ -45,6 +55,9 @@ struct Lattice {
     // nearest.
     const LatticeCell& carrierOf(const glm::dvec3& x) const;
 };
+
+// By that cell, a place counted likewise.
+CarriedPoint carriedBy(const LatticeCell& cell, const glm::dvec3& x);
 
 // All cells of a box.
 Lattice fullLattice(glm::ivec3 counts, const glm::dvec3& size);

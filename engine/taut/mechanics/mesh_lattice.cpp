@@ -407,6 +407,16 @@ const LatticeCell& Lattice::carrierOf(const dvec3& x) const {
                              [&](const LatticeCell& a, const LatticeCell& b) { return away(a) < away(b); });
 }
 
+CarriedPoint carriedBy(const LatticeCell& cell, const dvec3& x) {
+    CarriedPoint carried{cell.points, {}};
+    const dvec3 share = x - dvec3(cell.at);
+    for (std::size_t c = 0; c < 8; ++c) {
+        const dvec3 weights = glm::mix(1.0 - share, share, dvec3(bitsOf(c)));
+        carried.weights[c] = weights.x * weights.y * weights.z;
+    }
+    return carried;
+}
+
 Lattice fullLattice(ivec3 counts, const dvec3& size) {
     Lattice lattice;
     lattice.counts = counts;

@@ -12,7 +12,6 @@
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
-#include "taut/scene/private/body_size.h"
 #include "taut/scene/private/gltf_file.h"
 #include "taut/scene/private/obj_file.h"
 #include "taut/spec/ticks.h"
@@ -138,9 +137,8 @@ void warnOfLostFriction(const ReadScene& scene, Problems& problems) {
     }
 }
 
-// One that is too large is refused later, with its size.
 void fillMesh(const ReadScene& scene, world::BlockSpec& block, Problems& problems) {
-    if (block.meshData == nullptr || block.outline(scene.spec).points > maxPoints) return;
+    if (block.meshData == nullptr) return;
     try {
         block.fillMesh();
     } catch (const core::Error& error) {

@@ -6,6 +6,7 @@
 #include "taut/bodies/block.h"
 #include "taut/core/error.h"
 #include "taut/spec/private/rotation.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

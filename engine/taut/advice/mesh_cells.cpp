@@ -155,7 +155,7 @@ std::vector<std::string> meshCellDoubts(const SceneSpec& scene) {
         for (const dvec3& place : block.meshData->positions) x.push_back(block.scale * place);
         double volume = 0.0;
         for (const mechanics::LatticeCell& cell : lattice->cells)
-            volume += cell.share() * block.cell * block.cell * block.cell;
+            volume += cell.share() * lattice->cell.x * lattice->cell.y * lattice->cell.z;
         addThin(block, x, volume, doubts);
         addCrossings(block, x, lattice->isFilledTwice, doubts);
     }

@@ -39,8 +39,8 @@ Section BlockSpec::section() {
               "the points around what they have.")
         .only(mesh)
         .number("cells_m", &BlockSpec::cell, "m", lengthRange,
-                "Side of the cubes that carry the mesh, along the axes of its file; partly filled ones weigh and "
-                "resist by their share.")
+                "Side, nearly, of the cubes that carry the mesh, along the axes of its file; partly filled ones "
+                "weigh and resist by their share.")
         .required()
         .only(mesh)
         .number("scale", &BlockSpec::scale, "", lengthRange, "Metres of a unit of the file.")

@@ -65,11 +65,12 @@ Lattice fullLattice(glm::ivec3 counts, const glm::dvec3& size);
 // The box of a mesh in cubes, before any are left out; doubles, as they may be far beyond any integer.
 glm::dvec3 boxCells(std::span<const glm::dvec3> positions, double side);
 
-// The cubes that a mesh fills, from exact integrals over what is inside of it: of each place as often as the mesh goes
-// round it, once at most. A cell of which less than a quarter is filled is left out where no part comes off by that; a
-// neighbour carries what is in it. Only + - * / and square roots: the same bits everywhere. Expects as many cells as an
-// array can have. Throws MeshFault (builders.h) for a mesh that is not closed, has faces turned against each other, is
-// inside out or crosses itself so that a part of it is.
+// The cubes that a mesh fills, a twentieth longer or shorter at most where they then fit its box, from exact integrals
+// over what is inside of it: of each place as often as the mesh goes round it, once at most. A cell of which less than
+// a quarter is filled is left out where no part comes off by that; a neighbour carries what is in it. Only + - * / and
+// square roots: the same bits everywhere. Expects as many cells as an array can have. Throws MeshFault (builders.h) for
+// a mesh that is not closed, has faces turned against each other, is inside out or crosses itself so that a part of it
+// is.
 Lattice meshLattice(std::span<const glm::dvec3> positions, std::span<const std::array<int, 3>> triangles, double side);
 
 }  // namespace taut::mechanics

@@ -20,6 +20,7 @@ using Polygon = std::vector<dvec3>;
 
 constexpr double leastFilled = 1e-9;      // of a cell: less is nothing
 constexpr double fullEnough = 1e-9;       // as near to 1 it is rounding
+constexpr double mostDrawnOut = 0.05;     // of a cube, where it then fits the mesh's box
 constexpr double smallShare = 0.25;       // less is left out where a neighbour can carry it
 constexpr double leastCorner = 1.0 / 16;  // of a cell: what a corner has at least, for the step; an even share is 1/8
 
@@ -361,6 +362,21 @@ Box boxOf(std::span<const dvec3> positions) {
     return box;
 }
 
+struct Grid {
+    dvec3 counts{1.0}, cell{0.0};
+};
+
+Grid gridOf(const Box& box, double side) {
+    Grid grid;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double size = box.high[axis] - box.low[axis], count = size / side, nearest = std::floor(count + 0.5);
+        const bool fits = nearest >= 1.0 && std::abs(count - nearest) <= mostDrawnOut * nearest;
+        grid.counts[axis] = fits ? nearest : std::max(std::ceil(count), 1.0);
+        grid.cell[axis] = fits ? size / nearest : side;
+    }
+    return grid;
+}
+
 // Near x less than nothing is filled: a whole part looks inwards, or one goes through itself.
 [[noreturn]] void failInsideOut(std::span<const dvec3> positions, std::span<const Triangle> triangles, const dvec3& x,
                                 double side) {
@@ -433,8 +449,7 @@ Lattice fullLattice(ivec3 counts, const dvec3& size) {
 }
 
 dvec3 boxCells(std::span<const dvec3> positions, double side) {
-    const Box box = boxOf(positions);
-    return glm::max(glm::ceil((box.high - box.low) / side - 1e-6), 1.0);
+    return gridOf(boxOf(positions), side).counts;
 }
 
 Lattice meshLattice(std::span<const dvec3> positions, std::span<const Triangle> triangles, double side) {
@@ -447,14 +462,15 @@ Lattice meshLattice(std::span<const dvec3> positions, std::span<const Triangle> 
                         -1);
     const Box box = boxOf(positions);
     Lattice lattice;
-    lattice.counts = ivec3(boxCells(positions, side));
-    lattice.cell = dvec3(side);
+    const Grid grid = gridOf(box, side);
+    lattice.counts = ivec3(grid.counts);
+    lattice.cell = grid.cell;
     lattice.centre = 0.5 * (box.low + box.high);
     Filler filler(lattice.counts);
     for (const Triangle& t : triangles) {
         Polygon corners;
         for (const int v : t)
-            corners.push_back((at(positions, v) - lattice.centre) / side + 0.5 * dvec3(lattice.counts));
+            corners.push_back((at(positions, v) - lattice.centre) / lattice.cell + 0.5 * dvec3(lattice.counts));
         cutIntoCells(std::move(corners), 0, [&](const Polygon& piece) { filler.add(piece); });
     }
     std::vector<std::array<double, 8>> shares = filler.take();
@@ -462,8 +478,9 @@ Lattice meshLattice(std::span<const dvec3> positions, std::span<const Triangle> 
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const double share = sumOf(shares[i]);
         if (share < -leastFilled)
-            failInsideOut(positions, triangles,
-                          lattice.centre + side * (dvec3(choice.placeOf(i)) + 0.5 - 0.5 * dvec3(lattice.counts)), side);
+            failInsideOut(
+                positions, triangles,
+                lattice.centre + lattice.cell * (dvec3(choice.placeOf(i)) + 0.5 - 0.5 * dvec3(lattice.counts)), side);
         if (share <= 1.0 + fullEnough) continue;
         lattice.isFilledTwice = true;
         for (double& s : shares[i]) s /= share;

@@ -14,7 +14,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 TEXTURES = os.path.join(HERE, "..", "textures")
 
 
-def write_obj(name, comment, vertices, triangles, uv=None):
+def write_obj(name, comment, vertices, triangles, uv=None, uv_of=range(10**9)):
+    """uv_of: which uv a vertex has; each its own if it is not given."""
     with open(os.path.join(HERE, name), "w", newline="\n") as out:
         out.write("# %s\n# %d vertices, %d triangles; made by make_models.py\n" % (comment, len(vertices), len(triangles)))
         for v in vertices:
@@ -22,7 +23,7 @@ def write_obj(name, comment, vertices, triangles, uv=None):
         for t in uv or []:
             out.write("vt %.5f %.5f\n" % tuple(t))
         for t in triangles:
-            out.write("f " + " ".join("%d/%d" % (i + 1, i + 1) if uv else "%d" % (i + 1) for i in t) + "\n")
+            out.write("f " + " ".join("%d/%d" % (i + 1, uv_of[i] + 1) if uv else "%d" % (i + 1) for i in t) + "\n")
 
 
 def edges_of(triangles):
@@ -359,6 +360,81 @@ def make_cushion(side=1.0, cells=26, apart=0.008):
 
 
 
+# ---- the bear: sewn of plush, with eyes and a nose of their own that sit in hollows, a gap from the plush ----
+
+BEAR_EYE, BEAR_NOSE = (0.05, 0.452, 0.124), (0.0, 0.414, 0.174)
+BEAR_EYE_RADII, BEAR_NOSE_RADII = (0.0165, 0.0165, 0.0165), (0.024, 0.0165, 0.0165)
+BEAR_GAP = 0.004
+
+
+def bear_distance(p):
+    p = (abs(p[0]), p[1], p[2])
+    plush = smooth_union(
+        [
+            ellipsoid(p, (0.0, 0.175, 0.0), (0.135, 0.175, 0.118)),  # body
+            ellipsoid(p, (0.0, 0.42, 0.022), (0.132, 0.112, 0.112)),  # head
+            ellipsoid(p, (0.0, 0.39, 0.122), (0.058, 0.046, 0.05)),  # muzzle
+            capsule(p, (0.115, 0.275, 0.01), (0.212, 0.185, 0.1), 0.047, 0.046),  # arm
+            capsule(p, (0.078, 0.07, 0.05), (0.145, 0.063, 0.215), 0.066, 0.056),  # leg
+            ellipsoid(p, (0.15, 0.075, 0.245), (0.056, 0.075, 0.042)),  # foot
+        ],
+        0.028,
+    )
+    plush = smooth_union([plush, ellipsoid(p, (0.108, 0.512, 0.004), (0.05, 0.05, 0.026))], 0.018)  # ear
+    for centre, radii in ((BEAR_EYE, BEAR_EYE_RADII), (BEAR_NOSE, BEAR_NOSE_RADII)):
+        plush = -smooth_union([-plush, ellipsoid(p, centre, [r + BEAR_GAP for r in radii])], 0.006)
+    return plush
+
+
+def bear_shade(p):
+    """0 dark, 1/2 brown, 1 cream: where the texture has the colour."""
+    p = (abs(p[0]), p[1], p[2])
+    patches = [
+        ellipsoid(p, (0.0, 0.385, 0.145), (0.06, 0.047, 0.045)),  # muzzle
+        ellipsoid(p, (0.0, 0.175, 0.11), (0.085, 0.11, 0.05)),  # belly
+        ellipsoid(p, (0.15, 0.075, 0.285), (0.042, 0.06, 0.022)),  # sole
+        ellipsoid(p, (0.108, 0.512, 0.03), (0.032, 0.032, 0.02)),  # ear
+    ]
+    return 0.5 + 0.5 * min(1.0, max(0.0, 0.5 - min(patches) / 0.012))
+
+
+def button(centre, radii, rings=8, around=16):
+    """An ellipsoid whose poles look to the front and the back."""
+    vertices = [(centre[0], centre[1], centre[2] + radii[2])]
+    for r in range(1, rings):
+        high, out = math.cos(math.pi * r / rings), math.sin(math.pi * r / rings)
+        for n in range(around):
+            angle = 2 * math.pi * n / around
+            vertices.append((centre[0] + radii[0] * out * math.cos(angle), centre[1] + radii[1] * out * math.sin(angle),
+                             centre[2] + radii[2] * high))
+    vertices.append((centre[0], centre[1], centre[2] - radii[2]))
+    triangles, last = [], len(vertices) - 1
+    for n in range(around):
+        m = (n + 1) % around
+        triangles.append((0, 1 + n, 1 + m))
+        for r in range(rings - 2):
+            a, b = 1 + r * around, 1 + (r + 1) * around
+            triangles += [(a + n, b + n, b + m), (a + n, b + m, a + m)]
+        triangles.append((last - around + n, last, last - around + m))
+    return vertices, triangles
+
+
+def make_bear():
+    cell, levels = 0.0152, 40
+    vertices, triangles = surface_net(bear_distance, (-17.5 * cell, -1.3 * cell, -8.7 * cell), (36, 40, 30), cell)
+    shades = [round(levels * bear_shade(v)) for v in vertices]
+    for x in (-1, 1, 0):
+        centre, radii = (BEAR_NOSE, BEAR_NOSE_RADII) if x == 0 else (BEAR_EYE, BEAR_EYE_RADII)
+        new, faces = button((x * centre[0], centre[1], centre[2]), radii)
+        triangles += [tuple(i + len(vertices) for i in t) for t in faces]
+        vertices += new
+        shades += [0] * len(new)
+    assert_watertight(vertices, triangles)
+    write_obj("bear.obj", "A bear that sits. Watertight, in four parts.", vertices, triangles,
+              [(min(0.96, max(0.04, s / levels)), 0.5) for s in range(levels + 1)], shades)
+    return len(vertices)
+
+
 # ---- pictures ----
 
 
@@ -438,6 +514,12 @@ def flag_colour(u, v):
     return white if 0.245 < u < 0.755 else red
 
 
+def bear_colour(u, v):
+    dark, brown, cream = map(hex_colour, ("#120d0a", "#8a5a34", "#e9d3ab"))
+    low, high, t = (dark, brown, 2 * u) if u < 0.5 else (brown, cream, 2 * u - 1)
+    return tuple(low[n] + min(1.0, max(0.0, t)) * (high[n] - low[n]) for n in range(3))
+
+
 if __name__ == "__main__":
     os.makedirs(TEXTURES, exist_ok=True)
     print("dummy", make_dummy(), "vertices")
@@ -446,5 +528,7 @@ if __name__ == "__main__":
     print("cape", make_cape(), "vertices")
     print("ball", make_ball(), "vertices")
     print("cushion", make_cushion(), "vertices")
+    print("bear", make_bear(), "vertices")
+    write_png("bear.png", 64, bear_colour)
     write_png("poncho.png", 768, poncho_colour)
     write_png("flag.png", 512, flag_colour)

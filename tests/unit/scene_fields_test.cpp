@@ -238,6 +238,11 @@ TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
     EXPECT_EQ(jelly.young, 1e4);
     EXPECT_EQ(jelly.bulk, 3e4);
     EXPECT_EQ(named(scene.bodies.of<world::BlockSpec>(), "rubber").poisson, 0.45);
+    const world::BlockSpec& bear = named(scene.bodies.of<world::BlockSpec>(), "teddy");
+    ASSERT_NE(bear.meshData, nullptr);
+    EXPECT_EQ(bear.cell, 0.3);
+    EXPECT_EQ(bear.scale, 2.0);
+    EXPECT_EQ(bear.position, dvec3(7, 8, 10));
     EXPECT_EQ(jelly.dampingTime, 4e-4);
     EXPECT_EQ(jelly.drag, 0.7);
     EXPECT_EQ(jelly.workingStretch, 2.0);
@@ -253,7 +258,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 140);
+    EXPECT_EQ(net.points[1].source.line, 145);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");
@@ -290,7 +295,7 @@ TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     EXPECT_EQ(scene.joints[1].reach(), 0.05);
     EXPECT_EQ(scene.joints.of<world::RodJoint>().at(0).place, world::dvec3(0, 1, 2.5));
     ASSERT_EQ(scene.masses.size(), 1U);
-    EXPECT_EQ(scene.masses[0].target, "block.*@corners");
+    EXPECT_EQ(scene.masses[0].target, "block.jelly@corners");
     EXPECT_EQ(scene.masses[0].mass, 1.5);
     const world::AnchorSpec& hand = named(scene.forces.of<world::AnchorSpec>(), "hand");
     EXPECT_EQ(hand.target, "cloth.flag.*@top-left");

@@ -141,6 +141,11 @@ break_strain = 0.7
 break_cell_m = 0.07
 [block.rubber]
 poisson = 0.45
+[block.teddy]
+mesh = "corner.obj"
+cells_m = 0.3
+scale = 2
+position = [7, 8, 10]
 [net.cradle]
 points = [{ name = "a", position = [0, 1, 0], mass_kg = 3, hold = true }, { name = "b", position = [1, 1, 0] }]
 springs = [{ a = "a", b = "b", stiffness_N_per_m = 20, rest_length_m = 0.5, damping_time_s = 5e-4 }]
@@ -185,7 +190,7 @@ radius = 0.001
 coil_radius = 0.01
 finish = { colour = [1, 1, 0] }
 [[mass]]
-target = "block.*@corners"
+target = "block.jelly@corners"
 mass_kg = 1.5
 [anchor.hand]
 target = "cloth.flag.*@top-left"

@@ -20,6 +20,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_islands_test.cpp
   world_motion_test.cpp
   world_letting_go_test.cpp
+  world_mesh_block_test.cpp
   world_own_action_test.cpp
   world_own_joint_test.cpp
   world_own_kinds_test.cpp

@@ -7,6 +7,7 @@
 
 #include "taut/core/error.h"
 #include "taut/advice/bending_cells.h"
+#include "taut/advice/mesh_cells.h"
 #include "taut/advice/private/encounters.h"
 #include "taut/world/private/impl.h"
 #include "taut/spec/kinds.h"
@@ -109,6 +110,7 @@ Rehearsal rehearse(const SceneSpec& scene) {
     World world(scene);
     warnOfEncounters(scene, rehearsal);
     for (std::string& doubt : startDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
+    for (std::string& doubt : meshCellDoubts(scene)) rehearsal.warnings.push_back(std::move(doubt));
     for (const auto& island : WorldAccess::of(world).islands)
         if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
     for (const IslandInfo& island : world.islands())

@@ -1,6 +1,12 @@
 #include "taut/bodies/block.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
 #include "taut/bodies/drawing.h"
+#include "taut/core/error.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/spec/common_rows.h"
@@ -13,15 +19,34 @@ using fields::FieldList;
 using fields::notNegative;
 using fields::positive;
 using fields::Range;
+using fields::Role;
 using fields::Section;
 
 Section BlockSpec::section() {
     Section section;
-    section.help = "A deformable block.";
+    section.help = "A deformable block: a box, or what a closed mesh from an OBJ or glTF file fills.";
+    section.variant = [](const fields::Node& table) -> std::string {
+        return table.find("mesh") != nullptr ? "a block from a mesh" : "a block that is a box";
+    };
+    const std::vector<std::string> box{"a block that is a box"}, mesh{"a block from a mesh"};
     FieldList<BlockSpec> list;
     list.vector("size", &BlockSpec::size, "m", lengthRange, "Its three edges.")
+        .only(box)
         .vector("cells", &BlockSpec::cells, "", countRange, "Number of cells along each.")
-        .vector("position", &BlockSpec::position, "m", placeRange, "Its centre.")
+        .only(box)
+        .text("mesh", &BlockSpec::mesh, Role::mesh,
+              "OBJ or glTF file of a closed surface, which is drawn; groups and objects of an OBJ (g, o) are names of "
+              "the points around what they have.")
+        .only(mesh)
+        .number("cells_m", &BlockSpec::cell, "m", lengthRange,
+                "Side, nearly, of the cubes that carry the mesh, along the axes of its file; partly filled ones "
+                "weigh and resist by their share.")
+        .required()
+        .only(mesh)
+        .number("scale", &BlockSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+        .only(mesh)
+        .vector("position", &BlockSpec::position, "m", placeRange,
+                "Its centre; of a mesh where the file's origin lies.")
         .rotation("rotation_deg", &BlockSpec::rotation, "About x, then y, then z.")
         .number("density_kg_per_m3", &BlockSpec::density, "kg/m³", positive, "Mass of a cubic metre.")
         .number("young_Pa", &BlockSpec::young, "Pa", positive,
@@ -49,21 +74,67 @@ Section BlockSpec::section() {
     return section;
 }
 
-mechanics::Model BlockSpec::build(const SceneSpec&) const {
+void BlockSpec::fillMesh() {
+    constexpr double mostCells = 2e6;
+    const dvec3 n = mechanics::boxCells(meshData->positions, cell / scale);
+    if (n.x * n.y * n.z > mostCells)
+        throw core::Error(core::ErrorKind::badContent,
+                          fmt::format("there are {:.3g} cubes of cells_m = {:g} in the box around {}; {:g} are the "
+                                      "most: give it larger ones",
+                                      n.x * n.y * n.z, cell, mesh, mostCells));
+    std::vector<dvec3> places;
+    for (const dvec3& x : meshData->positions) places.push_back(scale * x);
+    try {
+        filled_ = std::make_shared<const mechanics::Lattice>(mechanics::meshLattice(places, meshData->triangles, cell));
+    } catch (const mechanics::MeshFault& fault) {
+        throw core::Error(fault.kind(), meshFaultText(*this, fault.what(), fault.triangle));
+    }
+}
+
+std::shared_ptr<const mechanics::Lattice> BlockSpec::lattice() const {
+    if (!meshData) return std::make_shared<const mechanics::Lattice>(mechanics::fullLattice(cells, size));
+    if (filled_) return filled_;
+    BlockSpec filled = *this;
+    try {
+        filled.fillMesh();
+    } catch (const core::Error& error) {
+        throw core::Error(error.kind(), at(source) + error.what());
+    }
+    return filled.filled_;
+}
+
+mechanics::BlockShape BlockSpec::shapeOf(const mechanics::Lattice& lattice) const {
     const glm::dquat turn = rotationOf(rotation);
-    mechanics::Model model = mechanics::buildBlock(
-        {.centre = position,
-         .axes = glm::dmat3(rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1})),
-         .size = size,
-         .cells = cells,
-         .density = density,
-         .young = young,
-         .poisson = poisson.value_or(mechanics::BlockShape{}.poisson),
-         .bulk = bulk,
-         .dampingTime = dampingTime,
-         .dragRate = drag,
-         .lumping = lumping});
+    return {.centre = meshData ? position + rotated(turn, lattice.centre) : position,
+            .axes = glm::dmat3(rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1})),
+            .size = meshData ? lattice.cell * dvec3(lattice.counts) : size,
+            .cells = cells,
+            .density = density,
+            .young = young,
+            .poisson = poisson.value_or(mechanics::BlockShape{}.poisson),
+            .bulk = bulk,
+            .dampingTime = dampingTime,
+            .dragRate = drag,
+            .lumping = lumping,
+            .lattice = meshData ? &lattice : nullptr};
+}
+
+mechanics::Model BlockSpec::build(const SceneSpec&) const {
+    const std::shared_ptr<const mechanics::Lattice> found = meshData ? lattice() : nullptr;
+    mechanics::Model model = mechanics::buildBlock(shapeOf(found ? *found : mechanics::Lattice{}));
     model.workingStretch = workingStretch;
+    if (!found) return model;
+    // A group of the file is the corners of the cells that carry its vertices.
+    const dvec3 low = found->centre - 0.5 * found->cell * dvec3(found->counts);
+    for (const auto& [group, vertices] : meshData->groups) {
+        std::set<int> points;
+        for (const int v : vertices) {
+            const dvec3 place = scale * meshData->positions[static_cast<std::size_t>(v)];
+            const auto& corners = found->carrierOf((place - low) / found->cell).points;
+            points.insert(corners.begin(), corners.end());
+        }
+        model.groups.try_emplace(group, points.begin(), points.end());
+    }
     return model;
 }
 
@@ -73,12 +144,21 @@ std::unique_ptr<BodyDrawing> BlockSpec::drawing(const Body& body) const {
 
 BodyOutline BlockSpec::outline(const SceneSpec&) const {
     BodyOutline outline;
-    const dvec3 n(cells);
+    dvec3 n(cells);
+    if (meshData) n = mechanics::boxCells(meshData->positions, cell / scale);
     outline.points = (n.x + 1) * (n.y + 1) * (n.z + 1);
-    outline.springs = 9.0 * n.x * n.y * n.z;  // three edges and six face diagonals per cell
     outline.volumes = n.x * n.y * n.z;
     outline.hasSurface = true;
-    outline.groups = mechanics::blockGroups();
+    outline.groups = mechanics::blockGroups(!meshData);
+    if (filled_) {
+        outline.points = static_cast<double>(filled_->points.size());
+        outline.volumes = static_cast<double>(filled_->cells.size());
+    }
+    outline.springs = 9.0 * outline.volumes;  // three edges and six face diagonals per cell
+    if (!meshData) return outline;
+    for (const auto& group : meshData->groups)
+        if (std::find(outline.groups.begin(), outline.groups.end(), group.first) == outline.groups.end())
+            outline.groups.push_back(group.first);
     return outline;
 }
 

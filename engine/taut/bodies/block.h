@@ -1,16 +1,22 @@
-// A deformable block.
+// A deformable block: a box, or what a closed mesh from a file fills.
 #pragma once
 
+#include "taut/mechanics/builders.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
 
 namespace taut::world {
 
-struct BlockSpec final : SpecOf<BlockSpec, BodySpec> {
+struct BlockSpec final : SpecOf<BlockSpec, BodySpec>, MeshSource {
     static constexpr const char* kindName = "block";
+    // A box …
     dvec3 size{0.5, 0.5, 0.5};  // [m]
     ivec3 cells{4, 4, 4};
-    dvec3 position{0.0};            // centre [m]
+    // … or a mesh.
+    double cell = 0.05;  // [m] side of its cells
+    double scale = 1.0;
+
+    dvec3 position{0.0};            // of the centre, or of the mesh's origin [m]
     dvec3 rotation{0.0};            // [rad]
     double density = 300.0;         // [kg/m³]
     double young = 2e4;             // [Pa]
@@ -27,6 +33,19 @@ struct BlockSpec final : SpecOf<BlockSpec, BodySpec> {
     PlasticitySpec plasticityIn(const SceneSpec&) const override { return plasticity; }
     BodyOutline outline(const SceneSpec&) const override;
     std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
+    using BodySpec::meshSource;
+    const MeshSource* meshSource() const override { return this; }
+
+    // Finds the cells that its mesh fills. The loader calls it; where it was not called, they are found when asked for.
+    // Throws core::Error(badContent), naming the mesh and a line of it, for one that has no inside.
+    void fillMesh();
+    // Its cells. Throws as fillMesh() does, naming the scene as well.
+    std::shared_ptr<const mechanics::Lattice> lattice() const;
+    // What is built of these cells.
+    mechanics::BlockShape shapeOf(const mechanics::Lattice& cells) const;
+
+  private:
+    std::shared_ptr<const mechanics::Lattice> filled_;  // by its mesh; null: not yet known
 };
 
 }  // namespace taut::world

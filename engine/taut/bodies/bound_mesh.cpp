@@ -17,10 +17,16 @@
 namespace taut::world {
 namespace {
 
-constexpr int boundAtOnce = 64;       // vertices in a task
+constexpr int boundAtOnce = 64;        // vertices in a task
 constexpr double mostEdgesAway = 2.0;  // of the longest edge, or cell, of what a vertex is bound to
 
-// Where the skin of a body lies in the scene, and a place of the body in the same words.
+// What is drawn in place of a body: its skin, or the mesh of a block.
+const MeshData& meshOf(const Body& body) {
+    const FinishSpec& finish = body.spec->finish;
+    return finish.skinData != nullptr ? *finish.skinData : *body.spec->meshSource()->meshData;
+}
+
+// Where such a mesh lies in the scene, and a place of the body in the same words.
 struct SkinPlace {
     dvec3 shift{0.0};  // [m]
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
@@ -29,13 +35,19 @@ struct SkinPlace {
     dvec3 of(const dvec3& x) const { return shift + rotated(turn, scale * x); }
 };
 
-// As the mesh of a cloth that has one, else in metres of the scene; an array's copies each have their own.
-SkinPlace skinPlace(const Body& body) {
+// As the mesh of a body that has one, else in metres of the scene; an array's copies each have their own.
+SkinPlace skinPlace(const Body& body, const mechanics::Lattice& lattice) {
     const dvec3 first = body.model.positions.front() - jitterOf(body, 0);
     SkinPlace place;
     if (const auto* cloth = dynamic_cast<const ClothSpec*>(body.spec.get()); cloth == nullptr) {
         const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
-        place.shift = first - (block.position - rotated(rotationOf(block.rotation), 0.5 * block.size));
+        const mechanics::BlockShape shape = block.shapeOf(lattice);
+        place.shift =
+            first - (shape.centre + shape.axes * (lattice.cell * dvec3(lattice.points.front()) - 0.5 * shape.size));
+        if (block.finish.skinData != nullptr) return place;
+        place.turn = rotationOf(block.rotation);
+        place.scale = block.scale;
+        place.shift += block.position;
     } else if (cloth->meshData != nullptr) {
         place.turn = rotationOf(cloth->rotation);
         place.scale = cloth->scale;
@@ -46,10 +58,10 @@ SkinPlace skinPlace(const Body& body) {
     return place;
 }
 
-std::vector<dvec3> skinPlaces(const Body& body) {
-    const SkinPlace place = skinPlace(body);
+std::vector<dvec3> skinPlaces(const Body& body, const mechanics::Lattice& lattice) {
+    const SkinPlace place = skinPlace(body, lattice);
     std::vector<dvec3> places;
-    for (const dvec3& x : body.spec->finish.skinData->positions) places.push_back(place.of(x));
+    for (const dvec3& x : meshOf(body).positions) places.push_back(place.of(x));
     return places;
 }
 
@@ -143,12 +155,12 @@ BoundMesh::BoundMesh(const Body& body, std::span<const std::uint32_t> triangles,
             longest = std::max(longest, glm::distance(triangle.x[k], triangle.x[(k + 1) % 3]));
         }
     }
-    const std::vector<dvec3> places = skinPlaces(body);
+    const std::vector<dvec3> places = skinPlaces(body, {});
     std::vector<Foot> feet(places.size());
     core::parallelFor(static_cast<int>(places.size()), boundAtOnce, [&](int v) {
         feet[static_cast<std::size_t>(v)] = footOf(places[static_cast<std::size_t>(v)], flat);
     });
-    auto topology = topologyOf(*body.spec->finish.skinData);
+    auto topology = topologyOf(meshOf(body));
     const bool hasUv = !topology->uv.empty();
     for (std::size_t v = 0; v < places.size(); ++v) {
         Foot& foot = feet[v];
@@ -181,34 +193,30 @@ BoundMesh::BoundMesh(const Body& body, std::span<const std::uint32_t> triangles,
 
 BoundMesh::BoundMesh(const Body& body) {
     const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
-    const glm::ivec3 n = block.cells;
+    const std::shared_ptr<const mechanics::Lattice> lattice = block.lattice();
     const std::vector<glm::vec3> start = startOf(body);
     const glm::dquat turn = rotationOf(block.rotation);
-    const dvec3 cell = block.size / dvec3(n);
+    const dvec3 cell = lattice->cell;
     const double most = mostEdgesAway * std::max({cell.x, cell.y, cell.z});
-    auto topology = topologyOf(*block.finish.skinData);
+    auto topology = topologyOf(meshOf(body));
     const bool hasUv = !topology->uv.empty();
-    const std::vector<dvec3> places = skinPlaces(body);
+    const std::vector<dvec3> places = skinPlaces(body, *lattice);
     for (std::size_t v = 0; v < places.size(); ++v) {
         const dvec3 from = places[v] - dvec3(start.front());
-        dvec3 local;
+        dvec3 local = cell * dvec3(lattice->points.front());
         for (int axis = 0; axis < 3; ++axis) {
             dvec3 unit(0.0);
             unit[axis] = 1.0;
-            local[axis] = glm::dot(from, rotated(turn, unit));
+            local[axis] += glm::dot(from, rotated(turn, unit));
         }
-        const double outside = glm::distance(local, glm::clamp(local, dvec3(0.0), block.size));
+        const mechanics::LatticeCell& carrier = lattice->carrierOf(local / cell);
+        const dvec3 share = local / cell - dvec3(carrier.at);
+        const double outside = glm::length(cell * (share - glm::clamp(share, 0.0, 1.0)));
         if (!(outside <= most)) failFar(body, v, outside, most);
-        const glm::ivec3 low = glm::clamp(glm::ivec3(glm::floor(local / cell)), glm::ivec3(0), n - 1);
-        const dvec3 share = local / cell - dvec3(low);  // beyond 0 … 1 outside of the block
+        const mechanics::CarriedPoint carried = mechanics::carriedBy(carrier, local / cell);
         Vertex& vertex = vertices_.emplace_back();
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::ivec3 side(corner & 1, (corner >> 1) & 1, corner >> 2), at = low + side;
-            const dvec3 weights = glm::mix(1.0 - share, share, dvec3(side));
-            vertex.terms[static_cast<std::size_t>(corner)] = {
-                static_cast<std::uint32_t>((at.z * (n.y + 1) + at.y) * (n.x + 1) + at.x),
-                static_cast<float>(weights.x * weights.y * weights.z)};
-        }
+        for (std::size_t c = 0; c < 8; ++c)
+            vertex.terms[c] = {static_cast<std::uint32_t>(carried.points[c]), static_cast<float>(carried.weights[c])};
         if (!hasUv) topology->uv.emplace_back(local);
     }
     topology_ = topology;

@@ -182,11 +182,7 @@ mechanics::Model ClothSpec::buildSheet(const SceneSpec& scene) const {
             for (const auto& group : meshData->groups) model.groups[group.first] = group.second;
         return model;
     } catch (const mechanics::MeshFault& fault) {
-        const auto triangle = static_cast<std::size_t>(fault.triangle);  // a fault of no triangle is larger than any
-        const std::string line =
-            triangle < meshData->lines.size() ? ":" + std::to_string(meshData->lines[triangle]) : "";
-        throw core::Error(fault.kind(),
-                          at(source) + "cannot use this mesh: " + mesh + line + ": error: " + fault.what());
+        throw core::Error(fault.kind(), at(source) + meshFaultText(*this, fault.what(), fault.triangle));
     }
 }
 

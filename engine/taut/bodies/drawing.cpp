@@ -96,7 +96,7 @@ class SkinDrawing final : public BodyDrawing {
             }
             return entry->second;
         };
-        if (body.damage.isEmpty())
+        if (body.damage.isEmpty() && twoSided_)
             for (int v : orderInFile(*body.spec)) vertexAt(v, 0);
         for (const SkinTriangle& triangle : skin.triangles) {
             // The faces of cuts are separate sides.
@@ -110,7 +110,9 @@ class SkinDrawing final : public BodyDrawing {
         if (const int levels = body.spec->finish.smooth; twoSided_ && levels > 0)
             refinement_ = refinement(model, skin, vertexOf, topology->triangles, levels);
         // What is cut or torn shows its own surface.
-        if (body.spec->finish.skinData == nullptr || !body.damage.isEmpty()) return;
+        const MeshSource* source = body.spec->meshSource();
+        const bool isFilled = !twoSided_ && source != nullptr && source->meshData != nullptr;
+        if ((body.spec->finish.skinData == nullptr && !isFilled) || !body.damage.isEmpty()) return;
         if (!twoSided_) {
             bound_ = std::make_unique<BoundMesh>(body);
         } else {

@@ -76,8 +76,12 @@ void visitPart(StateBytes& bytes, Body& body) {
     visitPart(bytes, body.damage, body.model);
     double bulk = body.model.cells.empty() ? 0.0 : body.model.cells.front().bulkModulus;
     bytes.notNegative(bulk);
-    if (bytes.isReading())
-        for (mechanics::VolumeCell& cell : body.model.cells) cell.bulkModulus = bulk;
+    const MeshSource* source = body.spec->meshSource();
+    const bool isFilled = source != nullptr && source->meshData != nullptr;  // then each cell has its own
+    for (mechanics::VolumeCell& cell : body.model.cells) {
+        if (bytes.isReading()) cell.bulkModulus = bulk;
+        if (isFilled) bytes.notNegative(cell.bulkModulus);
+    }
     for (auto* limit : {&body.plasticity.yieldStrain, &body.plasticity.breakStrain}) {
         bool has = limit->has_value();
         double strain = limit->value_or(0.0);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "taut/bodies/block.h"
 #include "taut/core/error.h"
 
 namespace taut::world {
@@ -130,6 +131,7 @@ void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
     const Body& body = *plan.bodies[static_cast<std::size_t>(number)];
     const MeshSource* source = std::as_const(*body.spec).meshSource();
     if (source == nullptr || source->meshData == nullptr || source->mesh.empty()) return;
+    if (dynamic_cast<const BlockSpec*>(body.spec.get()) != nullptr) return;  // its points are not the vertices
 
     const mechanics::Spring* shortest = nullptr;
     std::vector<double> lengths;

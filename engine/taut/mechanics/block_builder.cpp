@@ -13,10 +13,11 @@ using glm::ivec3;
 
 // Stiffness of a cell of sides s, from its edges and face diagonals.
 //
-// Shares. A cell owns a quarter of each of its 12 edges and half of the two diagonals of each of its 6 faces. A whole
-// spring has k, so a cell has three edges and six diagonals. Cells that meet add their shares: an inner edge has k, an
-// edge in a face k/2, an edge of the block k/4, an inner diagonal k, a diagonal in a face k/2. So a uniform strain
-// costs every cell the same energy, at the surface and inside. The energy per volume is that of the infinite lattice.
+// Shares (lattice.h). A full cell owns a quarter of each of its 12 edges and half of the two diagonals of each of its 6
+// faces. A whole spring has k, so a cell has three edges and six diagonals. Cells that meet add their shares: an inner
+// edge has k, an edge in a face k/2, an edge of the block k/4, an inner diagonal k, a diagonal in a face k/2. So a
+// uniform strain costs every cell the same energy, at the surface and inside. The energy per volume is that of the
+// infinite lattice.
 //
 // Cells a x b x c. The two diagonals of the a-b faces, d² = a² + b², give C12 = C66 = 2 k ab/(d² c) and
 // C11 = (that) · a²/b². Wanted is C12 = C44 = 0.4 E and C11 = 1.2 E (E with ν = 1/4):
@@ -54,25 +55,39 @@ Moduli moduliOf(const BlockShape& shape) {
 
 class LatticeBuilder {
   public:
-    explicit LatticeBuilder(const BlockShape& shape)
-        : shape_(shape), moduli_(moduliOf(shape)), n_(shape.cells), s_(shape.size / dvec3(n_)) {}
+    LatticeBuilder(const BlockShape& shape, const Lattice& lattice)
+        : shape_(shape), lattice_(lattice), moduli_(moduliOf(shape)), n_(lattice.counts), s_(lattice.cell) {
+        numbers_.assign(indexOf(n_) + 1, -1);
+        for (std::size_t i = 0; i < lattice_.points.size(); ++i)
+            numbers_[indexOf(lattice_.points[i])] = static_cast<int>(i);
+    }
 
     Model build() {
-        detail::addRestingPoints(model_, (n_.x + 1) * (n_.y + 1) * (n_.z + 1), shape_.dragRate);
+        detail::addRestingPoints(model_, static_cast<int>(lattice_.points.size()), shape_.dragRate);
         addPoints();
         addSprings();
         addCells();
         for (int axis = 0; axis < 3; ++axis) {
-            addFace(axis, false);
-            addFace(axis, true);
+            addFaces(axis, false);
+            addFaces(axis, true);
         }
         return std::move(model_);
     }
 
   private:
-    int at(ivec3 p) const { return (p.z * (n_.y + 1) + p.y) * (n_.x + 1) + p.x; }
-    bool isInner(ivec3 p, int axis) const { return p[axis] > 0 && p[axis] < n_[axis]; }
-    double half(ivec3 p, int axis) const { return isInner(p, axis) ? 1.0 : 0.5; }
+    std::size_t indexOf(ivec3 p) const {
+        return static_cast<std::size_t>(p.x) +
+               static_cast<std::size_t>(n_.x + 1) *
+                   (static_cast<std::size_t>(p.y) + static_cast<std::size_t>(n_.y + 1) * static_cast<std::size_t>(p.z));
+    }
+    int at(ivec3 p) const { return numbers_[indexOf(p)]; }
+    // What the cell at a place has at a corner.
+    double share(ivec3 cell, ivec3 corner) const {
+        const int number = lattice_.cellAt(cell);
+        if (number < 0) return 0.0;
+        return lattice_.cells[static_cast<std::size_t>(number)]
+            .shares[static_cast<std::size_t>(corner.x + 2 * corner.y + 4 * corner.z)];
+    }
 
     // Calls visit(p) for all p from `first` to `last` inclusive, x fastest.
     template <class Visit>
@@ -84,95 +99,114 @@ class LatticeBuilder {
 
     void addPoints() {
         static const char* const names[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
-        const double mass = shape_.density * shape_.size.x * shape_.size.y * shape_.size.z;
         const double cell = shape_.density * s_.x * s_.y * s_.z;
-        forBox(ivec3(0), n_, [&](ivec3 p) {
-            const auto i = static_cast<std::size_t>(at(p));
+        double mass = shape_.density * shape_.size.x * shape_.size.y * shape_.size.z;
+        if (shape_.lattice != nullptr) {
+            mass = 0.0;
+            for (const LatticeCell& c : lattice_.cells) mass += cell * c.share();
+        }
+        ivec3 low = n_, high(0);
+        for (const ivec3& p : lattice_.points) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        for (std::size_t i = 0; i < lattice_.points.size(); ++i) {
+            const ivec3 p = lattice_.points[i];
             const dvec3 local = shape_.size * (dvec3(p) / dvec3(n_) - 0.5);
             model_.positions[i] = detail::withoutNegativeZero(shape_.centre + shape_.axes * local);
-            model_.masses[i] = shape_.lumping == Lumping::uniform ? mass / model_.pointCount()
-                                                                  : cell * half(p, 0) * half(p, 1) * half(p, 2);
+            double sum = 0.0;
+            forBox(ivec3(0), ivec3(1), [&](ivec3 corner) { sum += share(p - corner, corner); });
+            model_.masses[i] = shape_.lumping == Lumping::uniform ? mass / model_.pointCount() : cell * sum;
             int faces = 0;
             for (int axis = 0; axis < 3; ++axis) {
-                if (isInner(p, axis)) continue;
+                if (p[axis] != low[axis] && p[axis] != high[axis]) continue;
                 ++faces;
-                model_.groups[names[axis][p[axis] == 0 ? 0 : 1]].push_back(at(p));
+                model_.groups[names[axis][p[axis] == low[axis] ? 0 : 1]].push_back(static_cast<int>(i));
             }
-            if (faces == 3) model_.groups["corners"].push_back(at(p));
-        });
+            if (faces == 3 && shape_.lattice == nullptr) model_.groups["corners"].push_back(static_cast<int>(i));
+        }
     }
 
     void addSprings() {
         const LatticeStiffness k = stiffnessOf(moduli_.springs, s_);
         auto add = [this](ivec3 from, ivec3 to, double stiffness, double restLength, SpringKind kind) {
-            model_.springs.push_back({at(from), at(to), stiffness, restLength, shape_.dampingTime, kind});
+            if (stiffness > 0.0)
+                model_.springs.push_back({at(from), at(to), stiffness, restLength, shape_.dampingTime, kind});
         };
         for (int x = 0; x < 3; ++x) {  // edges along each axis
-            const int y = (x + 1) % 3, z = (x + 2) % 3;
-            ivec3 step(0);
+            ivec3 step(0), beside(1);
             step[x] = 1;
+            beside[x] = 0;
             forBox(ivec3(0), n_ - step, [&](ivec3 p) {
-                add(p, p + step, k.edge[x] * half(p, y) * half(p, z), s_[x], SpringKind::structural);
+                double sum = 0.0;  // of the cells around it
+                forBox(ivec3(0), beside,
+                       [&](ivec3 corner) { sum += share(p - corner, corner) + share(p - corner, corner + step); });
+                add(p, p + step, k.edge[x] * sum, s_[x], SpringKind::structural);
             });
         }
         for (int x = 0; x < 3; ++x) {  // both diagonals of the faces across each axis
             const int y = (x + 1) % 3, z = (x + 2) % 3;
             const double d = std::sqrt(s_[y] * s_[y] + s_[z] * s_[z]);
-            ivec3 stepY(0), stepZ(0);
-            stepY[y] = 1;
-            stepZ[z] = 1;
+            ivec3 stepX(0), stepY(0), stepZ(0);
+            stepX[x] = stepY[y] = stepZ[z] = 1;
             const ivec3 last = n_ - stepY - stepZ;
+            const auto stiffness = [&](ivec3 p) {
+                double sum = 0.0;  // of the cells on both sides
+                forBox(
+                    ivec3(0), stepY + stepZ,
+                    [&](ivec3 corner) { sum += share(p, corner) + share(p - stepX, corner + stepX); });
+                return k.diagonal[x] * sum;
+            };
             forBox(
-                ivec3(0), last,
-                [&](ivec3 p) { add(p, p + stepY + stepZ, k.diagonal[x] * half(p, x), d, SpringKind::shear); });
-            forBox(ivec3(0), last,
-                   [&](ivec3 p) { add(p + stepY, p + stepZ, k.diagonal[x] * half(p, x), d, SpringKind::shear); });
+                ivec3(0), last, [&](ivec3 p) { add(p, p + stepY + stepZ, stiffness(p), d, SpringKind::shear); });
+            forBox(ivec3(0), last, [&](ivec3 p) { add(p + stepY, p + stepZ, stiffness(p), d, SpringKind::shear); });
         }
     }
 
     void addCells() {
         if (shape_.bulk == 0.0) return;
-        forBox(ivec3(0), n_ - 1, [&](ivec3 p) {
-            VolumeCell cell{{}, s_.x * s_.y * s_.z, moduli_.pressure};
-            for (int c = 0; c < 8; ++c)
-                cell.points[static_cast<std::size_t>(c)] = at(p + ivec3(c & 1, c >> 1 & 1, c >> 2));
-            model_.cells.push_back(cell);
-        });
+        for (const LatticeCell& cell : lattice_.cells)
+            model_.cells.push_back({cell.points, s_.x * s_.y * s_.z, moduli_.pressure * cell.share()});
     }
 
-    // The surface across an axis at its low or high end, counter-clockwise seen from outside.
-    void addFace(int x, bool isHigh) {
+    // The surface across an axis at the low or high ends of cells, counter-clockwise seen from outside.
+    void addFaces(int x, bool isHigh) {
         const int y = (x + 1) % 3, z = (x + 2) % 3;
-        ivec3 first(0), last = n_ - 1, stepY(0), stepZ(0);
-        first[x] = last[x] = isHigh ? n_[x] : 0;
-        stepY[y] = 1;
-        stepZ[z] = 1;
+        ivec3 stepX(0), stepY(0), stepZ(0);
+        stepX[x] = stepY[y] = stepZ[z] = 1;
         if (!isHigh) std::swap(stepY, stepZ);
-        forBox(first, last, [&](ivec3 p) {
+        for (const LatticeCell& cell : lattice_.cells) {
+            if (lattice_.cellAt(isHigh ? cell.at + stepX : cell.at - stepX) >= 0) continue;
+            const ivec3 p = isHigh ? cell.at + stepX : cell.at;
             model_.triangles.push_back({at(p), at(p + stepY), at(p + stepY + stepZ)});
             model_.triangles.push_back({at(p), at(p + stepY + stepZ), at(p + stepZ)});
-        });
+        }
     }
 
     const BlockShape& shape_;
+    const Lattice& lattice_;
     Moduli moduli_;
     ivec3 n_;
-    dvec3 s_;  // [m] sides of a cell
+    dvec3 s_;                   // [m] sides of a cell
+    std::vector<int> numbers_;  // (places of corners in the box) of points; -1: none
     Model model_;
 };
 
 }  // namespace
 
 Model buildBlock(const BlockShape& shape) {
-    TAUT_EXPECTS(shape.cells.x >= 1 && shape.cells.y >= 1 && shape.cells.z >= 1);
+    TAUT_EXPECTS(shape.lattice != nullptr || (shape.cells.x >= 1 && shape.cells.y >= 1 && shape.cells.z >= 1));
     TAUT_EXPECTS(shape.size.x > 0.0 && shape.size.y > 0.0 && shape.size.z > 0.0);
     TAUT_EXPECTS(glm::determinant(shape.axes) > 0.0);
     TAUT_EXPECTS(shape.bulk || (shape.poisson >= 0.25 && shape.poisson < 0.5));
-    return LatticeBuilder(shape).build();
+    if (shape.lattice != nullptr) return LatticeBuilder(shape, *shape.lattice).build();
+    return LatticeBuilder(shape, fullLattice(shape.cells, shape.size)).build();
 }
 
-std::vector<std::string> blockGroups() {
-    return {"left", "right", "bottom", "top", "back", "front", "corners"};
+std::vector<std::string> blockGroups(bool isBox) {
+    std::vector<std::string> groups{"left", "right", "bottom", "top", "back", "front"};
+    if (isBox) groups.emplace_back("corners");
+    return groups;
 }
 
 }  // namespace taut::mechanics

@@ -12,6 +12,7 @@
 
 #include "taut/core/error.h"
 #include "taut/mechanics/bending.h"
+#include "taut/mechanics/lattice.h"
 #include "taut/mechanics/model.h"
 
 namespace taut::mechanics {
@@ -118,12 +119,14 @@ struct BlockShape {
     double dampingTime = 0.0;  // τ [s]
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
+    const Lattice* lattice = nullptr;  // the cells of a mesh: then `cells` is not looked at, `size` that of its box
 };
 // Points x fastest, then y, then z. Springs shared by several cells add up, so that faces and edges carry their
-// share. One pressure a cell. Groups: left right bottom top back front (-x +x -y +y -z +z), corners, all.
-// Expects at least one cell, and a size above zero, each way, and right-handed axes.
+// share. One pressure a cell. Groups: left right bottom top back front (-x +x -y +y -z +z), corners, all; in the
+// lattice of a mesh the outermost points that way, and no corners. Expects at least one cell, and a size above zero,
+// each way, and right-handed axes.
 Model buildBlock(const BlockShape& shape);
-std::vector<std::string> blockGroups();
+std::vector<std::string> blockGroups(bool isBox = true);
 
 struct NetPoint {
     std::string name;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <system_error>
 
+#include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
 #include "taut/scene/private/gltf_file.h"
@@ -136,6 +137,15 @@ void warnOfLostFriction(const ReadScene& scene, Problems& problems) {
     }
 }
 
+void fillMesh(const ReadScene& scene, world::BlockSpec& block, Problems& problems) {
+    if (block.meshData == nullptr) return;
+    try {
+        block.fillMesh();
+    } catch (const core::Error& error) {
+        problems.addError(scene.owners.at(block.fullName()), error.what());
+    }
+}
+
 void setSkin(Place place, world::BodySpec& body, const Assets& meshes, Problems& problems) {
     const auto found = meshes.find(body.finish.skin);
     if (found == meshes.end()) return;
@@ -177,6 +187,7 @@ void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, P
                     "unwrap the mesh, or leave weave out");
             }
         }
+        if (auto* block = dynamic_cast<world::BlockSpec*>(&body)) fillMesh(scene, *block, problems);
         setTexture(body.finish.texture, textures);
         setSkin(scene.owners.at(body.fullName()), body, meshes, problems);
     }

@@ -36,4 +36,7 @@ struct MeshSource {
     std::shared_ptr<const MeshData> meshData;  // what the file holds, or what was made of an outline; null: none
 };
 
+// "cannot use this mesh: file:line: error: what is wrong", with the line of the triangle concerned, if there is one.
+std::string meshFaultText(const MeshSource& source, const std::string& what, int triangle);
+
 }  // namespace taut::world

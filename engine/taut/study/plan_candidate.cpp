@@ -131,8 +131,10 @@ Resolution resolutionOf(const SceneSpec& spec) {
         add(cloth, std::max(cloth.cells.x, cloth.cells.y));
     }
     for (const world::RopeSpec& rope : spec.bodies.of<world::RopeSpec>()) add(rope, rope.segments);
-    for (const world::BlockSpec& block : spec.bodies.of<world::BlockSpec>())
+    for (const world::BlockSpec& block : spec.bodies.of<world::BlockSpec>()) {
+        if (block.meshData) resolution.fixed.emplace(block.fullName(), "its cells are those that a mesh fills");
         add(block, std::max({block.cells.x, block.cells.y, block.cells.z}));
+    }
     for (const world::NetSpec& net : spec.bodies.of<world::NetSpec>())
         resolution.fixed.emplace(net.fullName(), "its points and springs are listed one by one");
     limitCells(spec, resolution);

@@ -1,4 +1,4 @@
-// A fine mesh from a file that is drawn in place of a cloth or a block and goes with it. It knows no file format.
+// A mesh from a file that is drawn in place of a cloth or a block and goes with it. It knows no file format.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class BoundMesh {
     // core::Error(badContent), with file and line, for a vertex that is too far away.
     BoundMesh(const Body& body, std::span<const std::uint32_t> triangles, const view::Geometry& rest,
               std::span<const glm::vec2> uv);
-    // To the cells of a block, likewise.
+    // To the cells of a block: its skin, likewise, or else the mesh from which it is made.
     explicit BoundMesh(const Body& body);
 
     const std::shared_ptr<const view::Topology>& topology() const { return topology_; }

@@ -255,7 +255,8 @@ TEST(Seams, WhatCannotBeSewnIsRefused) {
          {std::pair{with("\"cloth.a@righ\"", left), "cloth.a has no points \"righ\""},
           {with("\"cloth.c@right\"", left), "there is no cloth.c"},
           {with("\"cloth.a@right\"", left, "start_s = 1\n"), "over_s = 0.5"},
-          {with("[\"cloth.a@right\", \"cloth.a@edges\"]", left, "over_s = 1\n"), "\"cloth.a@edges\" is closed, so no edge follows it; name it alone"},
+          {with("[\"cloth.a@right\", \"cloth.a@edges\"]", left, "over_s = 1\n"),
+           "\"cloth.a@edges\" is closed, so no edge follows it; name it alone"},
           {with("\"cloth.*@right\"", left, "over_s = 1\n"),
            "seams.toml:25:1: error: \"cloth.*@right\" names edges of several bodies; name them in a list, as they "
            "follow each other"},

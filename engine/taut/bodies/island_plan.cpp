@@ -163,7 +163,8 @@ class Planner {
         if (found.empty())
             throw Error(ErrorKind::badContent,
                         at(source) + "\"" + target +
-                            "\" is no edge to sew: its points are not one line; name a part of it, as @left of a cloth");
+                            "\" is no edge to sew: its points are not one line; name a part of it, as @left of a "
+                            "cloth");
         return found;
     }
 
@@ -238,7 +239,8 @@ class Planner {
         report.spec = &seam;
         std::map<std::pair<int, int>, int> sewn;  // by bodies: number of points
         for (const auto& [i, j] : pairedByLength(as.edge, bs.edge)) {
-            const PointRef first = as.points[static_cast<std::size_t>(i)], second = bs.points[static_cast<std::size_t>(j)];
+            const PointRef first = as.points[static_cast<std::size_t>(i)];
+            const PointRef second = bs.points[static_cast<std::size_t>(j)];
             if (global(first) == global(second)) continue;  // where two edges of one body meet
             const double apart = distance(first, second);
             if (apart > reach)

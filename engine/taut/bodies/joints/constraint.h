@@ -61,7 +61,7 @@ class Constraint {
     }
     // Whether a collider carries this point of the plan by it, so that other points do not matter.
     virtual bool carries(int /*point*/) const { return false; }
-    // Whether a part of it waits for a time up to t [s]; begin() starts it from x (points of the plan) [m], between ticks.
+    // Whether a part of it waits for a time up to t [s]. begin() starts it between ticks, from x [m] of the plan.
     virtual bool isDue(double /*t*/) const { return false; }
     virtual void begin(double /*t*/, std::span<const dvec3> /*x*/) {}
     // Throws core::Error(badContent) if it can never hold.

@@ -29,9 +29,9 @@ struct SewnEdge {
     bool isClosed() const { return steps.size() == places.size(); }
 };
 
-// Pairs of places: each place of the edge with more goes with the place of the other that is nearest by its share of the
-// length, and of the other those that are left likewise. So each has a partner, no two pairs cross, and one may have
-// several. A closed edge begins where, and either goes the way in which, the pairs are nearest to each other.
+// Pairs of places: each place of the edge with more goes with the place of the other that is nearest by its share of
+// the length, and of the other those that are left likewise. So each has a partner, no two pairs cross, and one may
+// have several. A closed edge begins where, and either goes the way in which, the pairs are nearest to each other.
 std::vector<std::pair<int, int>> pairedByLength(const SewnEdge& a, const SewnEdge& b);
 
 }  // namespace taut::world

@@ -183,6 +183,7 @@ place = [0, 1, 2.5]
 a = "cloth.flag.0@left"
 b = "cloth.flag.1@right"
 over_s = 2
+start_s = 3
 name = "side"
 break_N = 13
 turns = 1

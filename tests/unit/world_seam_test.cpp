@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "support/timelines.h"
 #include "taut/bodies/private/seam_pairing.h"
@@ -21,38 +22,67 @@ std::vector<dvec3> line(int points, const dvec3& from, const dvec3& to) {
     return x;
 }
 
+SewnEdge edgeOf(const std::vector<dvec3>& places, bool isClosed = false) {
+    SewnEdge edge{places, {}};
+    for (std::size_t i = isClosed ? 0 : 1; i < places.size(); ++i) {
+        const dvec3 d = places[(i + (isClosed ? 1 : 0)) % places.size()] - places[isClosed ? i : i - 1];
+        edge.steps.push_back(std::sqrt(glm::dot(d, d)));
+    }
+    return edge;
+}
+
+Pairs paired(const std::vector<dvec3>& a, const std::vector<dvec3>& b) {
+    return pairedByLength(edgeOf(a), edgeOf(b));
+}
+
 TEST(SeamPairing, PairsEqualEdgesPointByPointInTheNearerDirection) {
     const auto a = line(4, {0, 0, 0}, {0, 3, 0});
-    EXPECT_EQ(pairedByLength(a, line(4, {1, 0, 0}, {1, 3, 0})), (Pairs{{0, 0}, {1, 1}, {2, 2}, {3, 3}}));
-    EXPECT_EQ(pairedByLength(a, line(4, {1, 3, 0}, {1, 0, 0})), (Pairs{{0, 3}, {1, 2}, {2, 1}, {3, 0}}));
+    EXPECT_EQ(paired(a, line(4, {1, 0, 0}, {1, 3, 0})), (Pairs{{0, 0}, {1, 1}, {2, 2}, {3, 3}}));
+    EXPECT_EQ(paired(a, line(4, {1, 3, 0}, {1, 0, 0})), (Pairs{{0, 3}, {1, 2}, {2, 1}, {3, 0}}));
 }
 
 // Of a longer edge with more points each has a partner, at the same share of the length; so from either side.
 TEST(SeamPairing, GathersTheFinerEdgeEvenly) {
     const auto few = line(3, {0, 0, 0}, {0, 2, 0}), many = line(6, {1, 4, 0}, {1, 0, 0});
-    EXPECT_EQ(pairedByLength(few, many), (Pairs{{0, 5}, {0, 4}, {1, 3}, {1, 2}, {2, 1}, {2, 0}}));
-    EXPECT_EQ(pairedByLength(many, few), (Pairs{{0, 2}, {1, 2}, {2, 1}, {3, 1}, {4, 0}, {5, 0}}));
+    EXPECT_EQ(paired(few, many), (Pairs{{0, 5}, {0, 4}, {1, 3}, {1, 2}, {2, 1}, {2, 0}}));
+    EXPECT_EQ(paired(many, few), (Pairs{{0, 2}, {1, 2}, {2, 1}, {3, 1}, {4, 0}, {5, 0}}));
 }
 
 TEST(SeamPairing, LeavesNoPointOfAnUnevenEdgeAlone) {
     const std::vector<dvec3> uneven{{0, 0, 0}, {0, 0.1, 0}, {0, 0.2, 0}, {0, 3, 0}};
-    EXPECT_EQ(pairedByLength(uneven, line(4, {1, 0, 0}, {1, 3, 0})),
+    EXPECT_EQ(paired(uneven, line(4, {1, 0, 0}, {1, 3, 0})),
               (Pairs{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {3, 2}, {3, 3}}));
 }
 
-TEST(SeamPairing, AnEdgeIsALineWithTwoEnds) {
+// A square, and another that begins at another corner and runs the other way, with the middles of two sides.
+TEST(SeamPairing, TurnsAClosedEdgeToWhereItLiesNearest) {
+    const SewnEdge square = edgeOf({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, true);
+    const SewnEdge other = edgeOf({{2, 2, 1}, {2, 1, 1}, {2, 0, 1}, {0, 0, 1}, {0, 1, 1}, {0, 2, 1}}, true);
+    EXPECT_EQ(pairedByLength(square, other), (Pairs{{0, 3}, {1, 2}, {1, 1}, {2, 0}, {3, 5}, {3, 4}}));
+    EXPECT_EQ(pairedByLength(other, square), (Pairs{{3, 0}, {2, 1}, {1, 1}, {0, 2}, {5, 3}, {4, 3}}));
+}
+
+TEST(SeamPairing, BothEndsOfALineMeetAroundAClosedEdge) {
+    const SewnEdge square = edgeOf({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, true);
+    const SewnEdge strip = edgeOf({{2, 0, 1}, {2, 2, 1}, {0, 2, 1}, {0, 0, 1}, {2, 0, 2}});
+    EXPECT_EQ(pairedByLength(square, strip), (Pairs{{1, 0}, {2, 1}, {3, 2}, {0, 3}, {1, 4}}));
+}
+
+TEST(SeamPairing, AnEdgeIsALineOrALoop) {
     mechanics::ClothShape shape;
     shape.cells = {3, 2};
     const mechanics::Model cloth = mechanics::buildCloth(shape);
-    const auto lineAt = [&](const char* group) { return lineOf(cloth, cloth.groups.at(group)); };
+    const auto lineAt = [&](const char* group) { return lineOf(cloth, cloth.groups.at(group)).points; };
+    const auto lineOf = [&](const std::vector<int>& points) { return world::lineOf(cloth, points).points; };
     EXPECT_EQ(lineAt("right"), (std::vector{3, 7, 11}));
-    EXPECT_EQ(lineOf(cloth, std::vector{6, 4, 5, 7}), (std::vector{4, 5, 6, 7}));  // threads, inside
-    EXPECT_EQ(lineOf(cloth, std::vector{8, 4, 0, 1, 2}), (std::vector{2, 1, 0, 4, 8}));  // around a corner
+    EXPECT_EQ(lineOf({6, 4, 5, 7}), (std::vector{4, 5, 6, 7}));  // threads, inside
+    EXPECT_EQ(lineOf({8, 4, 0, 1, 2}), (std::vector{2, 1, 0, 4, 8}));  // around a corner
     EXPECT_TRUE(lineAt("all").empty());
-    EXPECT_TRUE(lineAt("edges").empty());                           // a loop
+    EXPECT_EQ(lineAt("edges"), (std::vector{0, 1, 2, 3, 7, 11, 10, 9, 8, 4}));  // a loop
+    EXPECT_TRUE(world::lineOf(cloth, cloth.groups.at("edges")).isClosed);
     EXPECT_TRUE(lineAt("top-left").empty());                        // a point
-    EXPECT_TRUE(lineOf(cloth, std::vector{0, 1, 8, 9}).empty());    // two lines
-    EXPECT_TRUE(lineOf(cloth, std::vector{4, 5, 6, 9}).empty());    // a fork
+    EXPECT_TRUE(lineOf({0, 1, 8, 9}).empty());    // two lines
+    EXPECT_TRUE(lineOf({4, 5, 6, 9}).empty());    // a fork
 }
 
 // Two panels side by side in free space, `apart` [m], the second of other cells.
@@ -102,6 +132,60 @@ TEST(Seams, CloseInTheirTimeAndKeepMomentum) {
 }
 
 // They lie flat side by side, much nearer than their thickness.
+// The panels drift apart until then.
+TEST(Seams, MayBeginLater) {
+    const std::string drifts = "velocity = [0.5, 0, 0]\n";
+    const SceneSpec scene = sceneOf(panels("0.2", "start_s = 0.405\nover_s = 0.4\n", drifts));
+    World world(scene);
+    const double start = gap(world);
+    const dvec3 momentum = world.metrics().momentum;
+    run(world, 40);
+    const double drifted = gap(world);
+    EXPECT_GT(drifted, start + 0.19);
+    for (const int ticks : {10, 10}) {  // from before it begins and from after
+        World other(scene);
+        other.restore(world.save());
+        run(world, ticks);
+        run(other, ticks);
+        EXPECT_EQ(world.save(), other.save());
+    }
+    const double share = (0.6 - 0.405) / 0.4, most = (drifted + 0.005) * (1 - share) * (1 - share) * (1 + 2 * share);
+    EXPECT_LT(gap(world), most * 1.001);
+    EXPECT_GT(gap(world), 0.8 * most);
+    run(world, 21);
+    EXPECT_LT(gap(world), 1e-14);
+    EXPECT_LT(lengthOf(world.metrics().momentum - momentum), 1e-12);
+}
+
+// A tube of two panels, and a wider one of one panel about it, whose upper edges go around.
+TEST(Seams, CloseAroundWhatOtherSeamsHaveClosed) {
+    const auto seam = [](const std::string& a, const std::string& b) {
+        return "[[seam]]\na = " + a + "\nb = " + b + "\nover_s = 0.2\n";
+    };
+    const std::string panel = "material = \"m\"\nthickness = 0.002\n";
+    World world(sceneOf("schema = 1\n[run]\nfps = 100\nseconds = 1\n[solver]\nprecision = \"double\"\n[world]\n"
+                        "gravity = [0, 0, 0]\n[material.m]\ndrag_per_s = 0\n[cloth.front]\nsize = [0.3, 0.2]\n"
+                        "cells = [3, 2]\norigin = [-0.15, 1, 0.1]\n" + panel +
+                        "[cloth.back]\nlike = \"front\"\norigin = [0.15, 1, -0.1]\nacross = [-1, 0, 0]\n"
+                        "[cloth.sleeve]\nsize = [0.6, 0.2]\ncells = [6, 2]\norigin = [-0.3, 1.4, 0.2]\n" + panel +
+                        seam("\"cloth.front@left\"", "\"cloth.back@right\"") +
+                        seam("\"cloth.front@right\"", "\"cloth.back@left\"") +
+                        seam("\"cloth.sleeve@left\"", "\"cloth.sleeve@right\"") +
+                        seam("[\"cloth.back@top\", \"cloth.front@top\"]", "\"cloth.sleeve@bottom\"")));
+    const auto at = [&](const char* name) { return world.points(name).x; };
+    run(world, 30);
+    const auto front = at("cloth.front@top"), back = at("cloth.back@top"), sleeve = at("cloth.sleeve@bottom");
+    std::set<std::size_t> partners;
+    for (const auto& row : {front, back})
+        for (const dvec3& x : row)
+            for (std::size_t j = 0; j < sleeve.size(); ++j)
+                if (lengthOf(sleeve[j] - x) < 1e-14) partners.insert(j);
+    EXPECT_EQ(partners.size(), sleeve.size());
+    EXPECT_LT(lengthOf(sleeve.front() - sleeve.back()), 1e-14);
+    EXPECT_LT(lengthOf(front.front() - back.back()), 1e-14);
+    EXPECT_LT(lengthOf(world.metrics().momentum), 1e-12);
+}
+
 TEST(Seams, NothingBesideThemTouches) {
     World world(sceneOf(panels("0.2", "over_s = 0.3\n")));
     for (int tick = 0; tick < 60; ++tick) {
@@ -170,12 +254,15 @@ TEST(Seams, WhatCannotBeSewnIsRefused) {
     for (const auto& [text, message] :
          {std::pair{with("\"cloth.a@righ\"", left), "cloth.a has no points \"righ\""},
           {with("\"cloth.c@right\"", left), "there is no cloth.c"},
-          {with("[\"cloth.a@right\", \"cloth.a@top\"]", left), "write a [[seam]] for each"},
+          {with("\"cloth.a@right\"", left, "start_s = 1\n"), "over_s = 0.5"},
+          {with("[\"cloth.a@right\", \"cloth.a@edges\"]", left, "over_s = 1\n"),
+           "\"cloth.a@edges\" is closed, so no edge follows it; name it alone"},
           {with("\"cloth.*@right\"", left, "over_s = 1\n"),
-           "seams.toml:25:1: error: \"cloth.*@right\" names edges of several bodies; write a [[seam]] for each"},
+           "seams.toml:25:1: error: \"cloth.*@right\" names edges of several bodies; name them in a list, as they "
+           "follow each other"},
           {with("\"cloth.a@all\"", left, "over_s = 1\n"),
-           "seams.toml:25:1: error: \"cloth.a@all\" is no edge to sew: its points are not one line with two ends; name a "
-           "part of it, as @left of a cloth"},
+           "seams.toml:25:1: error: \"cloth.a@all\" is no edge to sew: its points are not one line; name a part of "
+           "it, as @left of a cloth"},
           {with(left, left), "seams.toml:25:1: error: the seam sews \"cloth.b@left\" to itself; name two edges"},
           {with("\"cloth.a@right\"", left),
            "seams.toml:25:1: error: the seam \"cloth.a@right\" – \"cloth.b@left\" starts 0.200000 m apart; say how "

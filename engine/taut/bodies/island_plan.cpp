@@ -1,6 +1,7 @@
 #include "taut/bodies/island_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -63,9 +64,11 @@ class Planner {
           firstGlobal_(firsts(bodies)),
           welds_(firstGlobalEnd()) {
         int number = 0;
+        const std::vector<std::array<Row, 2>> rows = rowsOfSeams();
+        auto next = rows.begin();
         for (const JointSpec& joint : spec.joints) {
             if (joint.isSeam())
-                addSeam(joint, number);
+                addSeam(joint, number, *next++);
             else if (!isTie(joint))
                 addJoint(joint, number);
             ++number;
@@ -126,62 +129,137 @@ class Planner {
         return once;
     }
 
-    // The points of the edge that a side of a seam names, from one end to the other.
-    std::vector<PointRef> edge(const JointSide& side, const Source& source) const {
-        const std::vector<PointRef> named = points(side, source);
+    // A side of a seam: its edges one after the other.
+    struct Row {
+        std::vector<PointRef> points;
+        SewnEdge edge;
+        double longest = 0;  // [m] from a point to the next
+        void addStep(double length) {
+            edge.steps.push_back(length);
+            longest = std::max(longest, length);
+        }
+    };
+
+    double distance(PointRef a, PointRef b) const {
+        const dvec3 d = position(b) - position(a);
+        return std::sqrt(glm::dot(d, d));
+    }
+
+    // The points of one edge, from one end to the other or around.
+    std::vector<PointRef> edge(const std::string& target, const Source& source, bool& isClosed) const {
+        const std::vector<PointRef> named = points(target, source);
         std::vector<int> own;
         for (const PointRef& p : named) {
             if (p.body != named.front().body)
-                throw Error(ErrorKind::badContent, at(source) + "\"" + side.text() +
-                                                       "\" names edges of several bodies; write a [[seam]] for each");
+                throw Error(ErrorKind::badContent,
+                            at(source) + "\"" + target +
+                                "\" names edges of several bodies; name them in a list, as they follow each other");
             own.push_back(p.point);
         }
-        std::vector<PointRef> line;
-        for (const int i : lineOf(body(named.front().body).model, own)) line.push_back({named.front().body, i});
-        if (line.empty())
+        const Line line = lineOf(body(named.front().body).model, own);
+        isClosed = line.isClosed;
+        std::vector<PointRef> found;
+        for (const int i : line.points) found.push_back({named.front().body, i});
+        if (found.empty())
             throw Error(ErrorKind::badContent,
-                        at(source) + "\"" + side.text() +
-                            "\" is no edge to sew: its points are not one line with two ends; name a part of it, as "
-                            "@left of a cloth");
-        return line;
+                        at(source) + "\"" + target +
+                            "\" is no edge to sew: its points are not one line; name a part of it, as @left of a "
+                            "cloth");
+        return found;
     }
 
-    void addSeam(const JointSpec& seam, int ofScene) {
-        const std::vector<PointRef> as = edge(seam.a, seam.source), bs = edge(seam.b, seam.source);
-        const int a = as.front().body, b = bs.front().body;
-        double longest = 0;  // [m] from a point of a side to the next; partners are half of it aside at most
-        const auto distance = [](const dvec3& d) { return std::sqrt(glm::dot(d, d)); };
-        const auto places = [&](const std::vector<PointRef>& line) {
-            std::vector<dvec3> x;
-            for (const PointRef& p : line) {
-                if (!x.empty()) longest = std::max(longest, distance(position(p) - x.back()));
-                x.push_back(position(p));
-            }
-            return x;
+    // Each edge goes on from the end that lies nearest to the one before. What is between them has no length. Whether
+    // other seams close it is not known here.
+    Row row(const JointSide& side, const Source& source) const {
+        std::vector<std::vector<PointRef>> edges;
+        bool isClosed = false;
+        for (const std::string& target : side.targets) {
+            edges.push_back(edge(target, source, isClosed));
+            if (isClosed && side.targets.size() > 1)
+                throw Error(ErrorKind::badContent, at(source) + "\"" + target +
+                                                       "\" is closed, so no edge follows it; name it alone");
+        }
+        const auto reach = [&](PointRef end, const std::vector<PointRef>& next) {
+            return std::min(distance(end, next.front()), distance(end, next.back()));
         };
+        std::vector<PointRef>& first = edges.front();
+        if (edges.size() > 1 && reach(first.front(), edges[1]) < reach(first.back(), edges[1]))
+            std::reverse(first.begin(), first.end());
+        Row row;
+        for (std::vector<PointRef>& next : edges) {
+            if (!row.points.empty()) {
+                const PointRef last = row.points.back();
+                if (distance(last, next.back()) < distance(last, next.front())) std::reverse(next.begin(), next.end());
+                if (global(last) == global(next.front()))
+                    row.points.pop_back();
+                else
+                    row.addStep(0.0);
+            }
+            for (std::size_t i = 0; i < next.size(); ++i) {
+                if (i > 0) row.addStep(distance(next[i - 1], next[i]));
+                row.points.push_back(next[i]);
+            }
+        }
+        if (global(row.points.front()) == global(row.points.back()))
+            row.points.pop_back();
+        else if (isClosed)
+            row.addStep(distance(row.points.back(), row.points.front()));
+        for (const PointRef& p : row.points) row.edge.places.push_back(position(p));
+        return row;
+    }
+
+    // The rows of all seams. One is closed, too, if other seams bring its ends together.
+    std::vector<std::array<Row, 2>> rowsOfSeams() const {
+        std::vector<std::array<Row, 2>> rows;
+        Sets meets(firstGlobalEnd());
+        for (const JointSpec& seam : spec_.joints) {
+            if (!seam.isSeam()) continue;
+            rows.push_back({row(seam.a, seam.source), row(seam.b, seam.source)});
+            const auto& [a, b] = rows.back();
+            if (a.edge.isClosed() || b.edge.isClosed()) continue;
+            for (const auto& [i, j] : pairedByLength(a.edge, b.edge))
+                if (i == 0 || i + 1 == static_cast<int>(a.points.size()))
+                    if (j == 0 || j + 1 == static_cast<int>(b.points.size()))
+                        meets.unite(global(a.points[static_cast<std::size_t>(i)]),
+                                    global(b.points[static_cast<std::size_t>(j)]));
+        }
+        for (std::array<Row, 2>& sides : rows)
+            for (Row& row : sides)
+                if (!row.edge.isClosed() && row.points.size() > 2 &&
+                    meets.find(global(row.points.front())) == meets.find(global(row.points.back())))
+                    row.addStep(0.0);
+        return rows;
+    }
+
+    void addSeam(const JointSpec& seam, int ofScene, const std::array<Row, 2>& rows) {
+        const auto& [as, bs] = rows;
+        // Partners are half of a step aside at most.
+        const double reach = seam.reach() + 0.5 * std::max(as.longest, bs.longest);
         JointReport& report = reports_.emplace_back();
         report.spec = &seam;
-        int sewn = 0;
-        for (const auto& [i, j] : pairedByLength(places(as), places(bs))) {
-            const PointRef &first = as[static_cast<std::size_t>(i)], &second = bs[static_cast<std::size_t>(j)];
+        std::map<std::pair<int, int>, int> sewn;  // by bodies: number of points
+        for (const auto& [i, j] : pairedByLength(as.edge, bs.edge)) {
+            const PointRef first = as.points[static_cast<std::size_t>(i)];
+            const PointRef second = bs.points[static_cast<std::size_t>(j)];
             if (global(first) == global(second)) continue;  // where two edges of one body meet
-            const double apart = distance(position(second) - position(first));
-            if (apart > seam.reach() + 0.5 * longest)
+            const double apart = distance(first, second);
+            if (apart > reach)
                 throw Error(ErrorKind::badContent, at(seam.source) + "the seam \"" + seam.a.text() + "\" – \"" +
                                                        seam.b.text() + "\" starts " + std::to_string(apart) +
                                                        " m apart; say how long it takes to close, e.g. over_s = 1.0");
             if (seam.isWeld()) report.jump = std::max(report.jump, apart);
-            ++sewn;
-            if (seam.isWeld() && a != b && !seam.hasOwnTies())
+            ++sewn[{first.body, second.body}];
+            islands_.unite(first.body, second.body);
+            if (seam.isWeld() && first.body != second.body && !seam.hasOwnTies())
                 welds_.unite(global(first), global(second));
             else
                 joints_.push_back({first, second, &seam, ofScene, apart});
         }
-        if (sewn == 0)
+        if (sewn.empty())
             throw Error(ErrorKind::badContent, at(seam.source) + "the seam sews \"" + seam.a.text() +
                                                    "\" to itself; name two edges");
-        islands_.unite(a, b);
-        report.pairs.push_back({&body(a), &body(b), sewn});
+        for (const auto& [numbers, count] : sewn)
+            report.pairs.push_back({&body(numbers.first), &body(numbers.second), count});
     }
 
     // Over 60 lines: it ties each point of one side to the nearest of the other, and reports what it did not tie.

@@ -33,7 +33,7 @@ std::vector<Link> threadsOf(const mechanics::Model& model) {
     return threads;
 }
 
-std::vector<int> lineAlong(std::span<const Link> links, std::span<const int> points) {
+Line lineAlong(std::span<const Link> links, std::span<const int> points) {
     std::map<int, std::vector<int>> next;
     for (const int i : points) next[i];
     for (const auto& [a, b] : links)
@@ -42,75 +42,118 @@ std::vector<int> lineAlong(std::span<const Link> links, std::span<const int> poi
             next[b].push_back(a);
         }
     const auto end = std::find_if(next.begin(), next.end(), [](const auto& own) { return own.second.size() == 1; });
-    if (end == next.end()) return {};
-    std::vector<int> line{end->first};
-    for (int before = -1, here = end->first;;) {
+    Line line{{}, end == next.end()};
+    if (next.empty()) return {};
+    const int first = line.isClosed ? next.begin()->first : end->first;
+    for (int before = -1, here = first;;) {
+        line.points.push_back(here);
         const std::vector<int>& ways = next.at(here);
         if (ways.size() > 2) return {};
         const auto on = std::find_if(ways.begin(), ways.end(), [&](int i) { return i != before; });
-        if (on == ways.end()) break;
+        if (on == ways.end() || *on == first) break;
         before = here;
         here = *on;
-        line.push_back(here);
     }
-    return line.size() == next.size() ? line : std::vector<int>{};
+    const bool isOne = line.points.size() == next.size() && line.points.size() > (line.isClosed ? 2u : 1u);
+    return isOne ? line : Line{};
 }
 
-// (places) the share of the length up to each, from 0 to 1.
-std::vector<double> sharesOf(std::span<const dvec3> line) {
-    std::vector<double> shares{0.0};
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        const dvec3 d = line[i] - line[i - 1];
-        shares.push_back(shares.back() + std::sqrt(glm::dot(d, d)));
+// An edge on its way from a start, which a closed one reaches again.
+struct Way {
+    std::vector<int> order;      // of its places
+    std::vector<double> shares;  // of the length up to each, from 0 to 1
+};
+
+Way wayAlong(const SewnEdge& edge, std::size_t start, bool isBackward) {
+    const std::size_t count = edge.places.size();
+    Way way{{}, {0.0}};
+    for (std::size_t k = 0; k < count + (edge.isClosed() ? 1 : 0); ++k) {
+        const std::size_t i = (start + k) % count;
+        way.order.push_back(static_cast<int>(isBackward ? count - 1 - i : i));
     }
-    const double length = shares.back();
-    for (double& share : shares) share = length > 0 ? share / length : 0.0;
-    return shares;
+    for (std::size_t k = 1; k < way.order.size(); ++k) {
+        const auto step = static_cast<std::size_t>(way.order[isBackward ? k : k - 1]);
+        way.shares.push_back(way.shares.back() + edge.steps[step]);
+    }
+    const double length = way.shares.back();
+    for (double& share : way.shares) share = length > 0 ? share / length : 0.0;
+    return way;
 }
 
-int nearest(std::span<const double> shares, double share) {
-    const auto isNearer = [&](double a, double b) { return std::abs(a - share) < std::abs(b - share); };
-    return static_cast<int>(std::min_element(shares.begin(), shares.end(), isNearer) - shares.begin());
+// Of the way the place with the nearest share; of several with that share, as where two edges meet, the one that lies
+// nearest to `place`. Expects that shares do not fall.
+int nearest(const Way& way, const SewnEdge& edge, double share, const dvec3& place) {
+    const std::vector<double>& shares = way.shares;
+    const auto after = std::lower_bound(shares.begin(), shares.end(), share);
+    const bool isBefore =
+        after != shares.begin() && (after == shares.end() || share - after[-1] <= *after - share);
+    const auto [first, last] = std::equal_range(shares.begin(), shares.end(), isBefore ? after[-1] : *after);
+    const auto squareAt = [&](std::ptrdiff_t k) {
+        const int i = way.order[static_cast<std::size_t>(k)];
+        const dvec3 d = edge.places[static_cast<std::size_t>(i)] - place;
+        return glm::dot(d, d);
+    };
+    std::ptrdiff_t best = first - shares.begin();
+    for (std::ptrdiff_t k = best + 1; k < last - shares.begin(); ++k)
+        if (squareAt(k) < squareAt(best)) best = k;
+    return static_cast<int>(best);
 }
 
 // Expects that `many` has no fewer places.
-std::vector<std::pair<int, int>> pairs(std::span<const double> many, std::span<const double> few) {
+std::vector<std::pair<int, int>> pairs(const Way& many, const SewnEdge& manyEdge, const Way& few,
+                                       const SewnEdge& fewEdge) {
+    const auto placeOf = [](const Way& way, const SewnEdge& edge, std::size_t k) {
+        return edge.places[static_cast<std::size_t>(way.order[k])];
+    };
     std::vector<std::pair<int, int>> all;
-    std::vector<bool> isTaken(few.size(), false);
-    for (std::size_t i = 0; i < many.size(); ++i) {
-        all.emplace_back(static_cast<int>(i), nearest(few, many[i]));
+    std::vector<bool> isTaken(few.shares.size(), false);
+    for (std::size_t i = 0; i < many.shares.size(); ++i) {
+        all.emplace_back(static_cast<int>(i), nearest(few, fewEdge, many.shares[i], placeOf(many, manyEdge, i)));
         isTaken[static_cast<std::size_t>(all.back().second)] = true;
     }
-    for (std::size_t j = 0; j < few.size(); ++j)
-        if (!isTaken[j]) all.emplace_back(nearest(many, few[j]), static_cast<int>(j));
+    for (std::size_t j = 0; j < few.shares.size(); ++j)
+        if (!isTaken[j])
+            all.emplace_back(nearest(many, manyEdge, few.shares[j], placeOf(few, fewEdge, j)), static_cast<int>(j));
     std::sort(all.begin(), all.end());
     return all;
 }
 
 }  // namespace
 
-std::vector<int> lineOf(const mechanics::Model& model, std::span<const int> points) {
-    const std::vector<int> border = lineAlong(bordersOf(model), points);
-    return !border.empty() ? border : lineAlong(threadsOf(model), points);
+Line lineOf(const mechanics::Model& model, std::span<const int> points) {
+    const Line border = lineAlong(bordersOf(model), points);
+    return !border.points.empty() ? border : lineAlong(threadsOf(model), points);
 }
 
-std::vector<std::pair<int, int>> pairedByLength(std::span<const dvec3> a, std::span<const dvec3> b) {
-    const auto sewn = [&](const std::vector<dvec3>& other) {
-        const bool isMore = a.size() >= other.size();
-        auto all = isMore ? pairs(sharesOf(a), sharesOf(other)) : pairs(sharesOf(other), sharesOf(a));
-        double squares = 0;
-        for (auto& [i, j] : all) {
-            if (!isMore) std::swap(i, j);
-            const dvec3 d = other[static_cast<std::size_t>(j)] - a[static_cast<std::size_t>(i)];
-            squares += glm::dot(d, d);
+std::vector<std::pair<int, int>> pairedByLength(const SewnEdge& a, const SewnEdge& b) {
+    const bool turnsFirst = a.isClosed() && (!b.isClosed() || a.places.size() > b.places.size());
+    const SewnEdge &still = turnsFirst ? b : a, &turned = turnsFirst ? a : b;
+    const Way own = wayAlong(still, 0, false);
+    std::vector<std::pair<int, int>> best;
+    double least = HUGE_VAL;
+    for (const bool isBackward : {false, true})
+        for (std::size_t start = 0; start < (turned.isClosed() ? turned.places.size() : 1); ++start) {
+            const Way other = wayAlong(turned, start, isBackward);
+            const bool isMore = still.places.size() >= turned.places.size();
+            auto all = isMore ? pairs(own, still, other, turned) : pairs(other, turned, own, still);
+            double squares = 0;
+            for (auto& [i, j] : all) {
+                if (!isMore) std::swap(i, j);
+                i = own.order[static_cast<std::size_t>(i)];
+                j = other.order[static_cast<std::size_t>(j)];
+                const dvec3 d = turned.places[static_cast<std::size_t>(j)] - still.places[static_cast<std::size_t>(i)];
+                squares += glm::dot(d, d);
+            }
+            if (!(squares < least)) continue;
+            least = squares;
+            best = all;
         }
-        return std::pair(squares, all);
-    };
-    auto [ahead, onward] = sewn({b.begin(), b.end()});
-    auto [behind, backward] = sewn({b.rbegin(), b.rend()});
-    if (ahead <= behind) return onward;
-    for (auto& [i, j] : backward) j = static_cast<int>(b.size()) - 1 - j;
-    return backward;
+    std::vector<std::pair<int, int>> once;  // the start of a closed edge is there twice
+    for (auto [i, j] : best) {
+        if (turnsFirst) std::swap(i, j);
+        if (std::find(once.begin(), once.end(), std::pair(i, j)) == once.end()) once.emplace_back(i, j);
+    }
+    return once;
 }
 
 }  // namespace taut::world

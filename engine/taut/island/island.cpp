@@ -435,6 +435,18 @@ void Island::release(const TickTime& time, const std::function<bool(const JointT
         if (wanted(plan_.ties[t]) && holds(plan_, plan_.ties[t])) letGo(change(time, Change::shape), t);
 }
 
+void Island::beginConstraints(const TickTime& time) {
+    if (frozen_) return;
+    for (std::size_t c = 0; c < plan_.constraints.size(); ++c) {
+        if (!plan_.constraints[c]->isDue(time.start())) continue;
+        change(time, Change::shape);
+        std::shared_ptr<Constraint> begun = plan_.constraints[c]->copy();
+        dynamics_->positions(x_);
+        begun->begin(time.start(), x_);
+        plan_.constraints[c] = std::move(begun);
+    }
+}
+
 std::vector<bool> Island::overloaded() const {
     return tieLoad_.isOn() && !isStill() ? tieLoad_.overloaded(plan_, *dynamics_, tickSeconds_)
                                          : std::vector<bool>(plan_.ties.size(), false);

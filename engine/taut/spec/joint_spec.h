@@ -70,8 +70,8 @@ struct JointSpec {
     // Whether points come to one place. If they never have to come apart, they become one point or are held by their
     // collider, and tie() and carry() are not called.
     virtual bool isWeld() const { return false; }
-    // Whether both sides are edges of one body each, whose points are paired by their share of the length, all of them,
-    // and whose cells beside it do not touch each other.
+    // Whether both sides are rows of edges, whose points are paired by their share of the length, all of them, and
+    // whose cells beside it do not touch each other.
     virtual bool isSeam() const { return false; }
     // Adds to the plan springs or constraints that tie two of its points, `distance` [m] apart.
     virtual void tie(IslandPlan& plan, int a, int b, double distance) const = 0;

@@ -100,6 +100,10 @@ void releaseJoints(WorldImpl& w, const std::string& name) {
         });
 }
 
+void beginJoints(WorldImpl& w) {
+    for (const auto& island : w.islands) island->beginConstraints(w.now());
+}
+
 void breakJoints(WorldImpl& w) {
     for (const auto& island : w.islands) {
         const std::vector<bool> isOver = island->overloaded();

@@ -87,6 +87,7 @@ std::optional<Divergence> World::advance() {
     changeSprings(w);
     leadHands(w);
     carryTied(w);
+    beginJoints(w);
     const std::vector<ColliderMotion> moving = movingColliders(w);
     wakeReached(w, moving);
     closeIslands(w);

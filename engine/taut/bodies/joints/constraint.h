@@ -61,6 +61,9 @@ class Constraint {
     }
     // Whether a collider carries this point of the plan by it, so that other points do not matter.
     virtual bool carries(int /*point*/) const { return false; }
+    // Whether a part of it waits for a time up to t [s]. begin() starts it between ticks, from x [m] of the plan.
+    virtual bool isDue(double /*t*/) const { return false; }
+    virtual void begin(double /*t*/, std::span<const dvec3> /*x*/) {}
     // Throws core::Error(badContent) if it can never hold.
     virtual void check() const {}
 

@@ -48,7 +48,8 @@ struct RodJoint final : SpecOf<RodJoint, JointSpec> {
 // Draws two edges together, then keeps them together.
 struct SeamJoint final : SpecOf<SeamJoint, JointSpec> {
     static constexpr std::string_view kindName = "seam";
-    double over = 0;  // [s] until it is closed; 0: it is as the scene starts
+    double over = 0;   // [s] from its start until it is closed; 0: it is as the scene starts
+    double start = 0;  // [s] when it begins to close
 
     std::string_view title() const override { return "a seam"; }
     double reach() const override { return over > 0 ? HUGE_VAL : WeldJoint().furthest; }

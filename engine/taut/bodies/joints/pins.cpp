@@ -1,5 +1,6 @@
 #include "taut/bodies/private/joints/pins.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "taut/core/error.h"
@@ -34,12 +35,12 @@ void Pins::sew(int a, int b, const Closing& closing, const Source& source) {
 }
 
 double Pins::Closing::mostAt(double t) const {
-    const double left = 1.0 - t / over;
-    return left > 0 ? length * left * left * (1.0 + 2.0 * (t / over)) : 0.0;
+    const double share = (t - start) / over, left = 1.0 - share;
+    return left > 0 ? length * left * left * (1.0 + 2.0 * share) : 0.0;
 }
 
 double Pins::Closing::speedAt(double t) const {
-    const double share = t / over;
+    const double share = (t - start) / over;
     return share < 1 ? -6.0 * length / over * share * (1.0 - share) : 0.0;
 }
 
@@ -56,17 +57,18 @@ void Pins::layOut(double t) {
     until_ = HUGE_VAL;
     open_.clear();
     for (int p = 0; p < size(); ++p) {
-        const double end = pins_[static_cast<std::size_t>(p)].closing.over;
+        const Closing& closing = pins_[static_cast<std::size_t>(p)].closing;
+        const double end = closing.end();
         if (t < end)
             until_ = std::min(until_, end);
         else
             from_ = std::max(from_, end);
-        if (t < end && holds(p)) open_.push_back(p);
+        if (t < end && holds(p) && closing.length != Closing::notBegun) open_.push_back(p);
     }
     const std::size_t count = points_.size() + places_.size();
     std::vector<std::vector<int>> at(count);  // pins
     for (int p = 0; p < size(); ++p)
-        if (holds(p) && t >= pins_[static_cast<std::size_t>(p)].closing.over)
+        if (holds(p) && t >= pins_[static_cast<std::size_t>(p)].closing.end())
             for (const int number : {pins_[static_cast<std::size_t>(p)].a, pins_[static_cast<std::size_t>(p)].b})
                 at[static_cast<std::size_t>(end(number))].push_back(p);
     nodes_.clear();
@@ -131,6 +133,33 @@ void Pins::check() const {
                                       " too; take different points");
         }
     }
+}
+
+bool Pins::isDue(double t) const {
+    return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) {
+        return pin.closing.length == Closing::notBegun && t >= pin.closing.start;
+    });
+}
+
+void Pins::begin(double t, std::span<const dvec3> x) {
+    for (Pin& pin : pins_) {
+        if (pin.closing.length != Closing::notBegun || !(t >= pin.closing.start)) continue;
+        const auto at = [&](int number) {
+            return x[static_cast<std::size_t>(points_[static_cast<std::size_t>(number)])];
+        };
+        const dvec3 d = at(pin.b) - at(pin.a);
+        pin.closing.length = std::sqrt(glm::dot(d, d));
+    }
+    layOut(t);
+}
+
+void Pins::visitOwn(StateBytes& bytes) {
+    for (Pin& pin : pins_) {
+        if (!(pin.closing.start > 0)) continue;
+        bytes(pin.closing.length);
+        bytes.require(pin.closing.length >= 0 || pin.closing.length == Closing::notBegun);
+    }
+    if (bytes.isReading()) layOut(time_);
 }
 
 bool Pins::project(std::span<dvec3> values, const Moment& moment) {

@@ -16,7 +16,8 @@ void SeamJoint::tie(IslandPlan& plan, int first, int second, double distance) co
         return weld.tie(plan, first, second, distance);
     }
     const dvec3 d = plan.positions[static_cast<std::size_t>(second)] - plan.positions[static_cast<std::size_t>(first)];
-    changeOnly<Pins>(plan, [&](Pins& pins) { pins.sew(first, second, {std::sqrt(glm::dot(d, d)), over}, source); });
+    const double length = start > 0 ? Pins::Closing::notBegun : std::sqrt(glm::dot(d, d));
+    changeOnly<Pins>(plan, [&](Pins& pins) { pins.sew(first, second, {length, over, start}, source); });
 }
 
 void SeamJoint::carry(IslandPlan&, Grip grip) const {
@@ -27,22 +28,26 @@ void SeamJoint::carry(IslandPlan&, Grip grip) const {
 Kind<JointSpec> seamKind() {
     Kind<JointSpec> kind = jointKind<SeamJoint>(
         "Sews two edges together. Each point goes with that of the other edge at the same share of the length, in the "
-        "direction in which they lie nearer.",
-        fields::FieldList<SeamJoint>().number(
-            "over_s", &SeamJoint::over, "s", fields::notNegative,
-            "From the start until it is closed; until then points are drawn together. 0: they meet as the scene "
-            "starts."));
+        "direction in which they lie nearer; around a closed edge, also from where they lie nearest.",
+        fields::FieldList<SeamJoint>()
+            .number(
+                "over_s", &SeamJoint::over, "s", fields::notNegative,
+                "From its start until it is closed; until then points are drawn together. 0: they meet as the scene "
+                "starts.")
+            .number("start_s", &SeamJoint::start, "s", fields::notNegative,
+                    "When it begins to close; before, nothing draws its points."));
     for (fields::Field& row : kind.section.fields)
         if (row.key == "a" || row.key == "b") {
             row.role = fields::Role::points;
-            row.help = row.key == "a" ? "An edge: KIND.NAME@SELECTOR." : "The other, of the same body or of another.";
+            row.help = row.key == "a" ? "An edge: KIND.NAME@SELECTOR, or a list of edges that follow each other."
+                                      : "The other, of the same bodies or of others.";
         }
     kind.section.check = [](const fields::CheckInput& input, void* target) {
         const auto& seam = *static_cast<const SeamJoint*>(target);
         checkJoint(input, seam);
-        for (const auto& [key, side] : {std::pair("a", &seam.a), std::pair("b", &seam.b)})
-            if (side->targets.size() > 1)
-                input.problems.addError(input.at(key), "a side of a seam is one edge", "write a [[seam]] for each");
+        if (seam.start > 0 && !(seam.over > 0))
+            input.problems.addError(input.at("start_s"), "a seam that starts later takes a time to close",
+                                    "say how long, e.g. over_s = 0.5");
     };
     return kind;
 }

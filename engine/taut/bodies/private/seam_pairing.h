@@ -12,13 +12,26 @@ namespace taut::world {
 
 using glm::dvec3;
 
-// The points from one end to the other, the one with the lower number first: along borders of the surface if they lead
-// through all of them, else along structural springs. Empty if they are no such line of two points or more.
-std::vector<int> lineOf(const mechanics::Model& model, std::span<const int> points);
+// Points one after the other: from one end to the other, or around.
+struct Line {
+    std::vector<int> points;
+    bool isClosed = false;
+};
 
-// Pairs of places of two lines [m]: each place of the one with more goes with the place of the other that is nearest by
-// its share of the length, and of the other those that are left likewise. So each has a partner, no two pairs cross, and
-// one may have several. The second line is taken backwards if that brings the pairs nearer to each other.
-std::vector<std::pair<int, int>> pairedByLength(std::span<const dvec3> a, std::span<const dvec3> b);
+// Along borders of the surface if they lead through all the points, else along structural springs. It begins at the end
+// with the lower number, or, closed, at the lowest. Empty if they are no such line of two points or more.
+Line lineOf(const mechanics::Model& model, std::span<const int> points);
+
+// What a seam sews: places, and how long the edge is between them. It is closed if its ends are one place.
+struct SewnEdge {
+    std::vector<dvec3> places;  // [m]
+    std::vector<double> steps;  // [m] from each to the next; closed: from the last to the first too
+    bool isClosed() const { return steps.size() == places.size(); }
+};
+
+// Pairs of places: each place of the edge with more goes with the place of the other that is nearest by its share of
+// the length, and of the other those that are left likewise. So each has a partner, no two pairs cross, and one may
+// have several. A closed edge begins where, and either goes the way in which, the pairs are nearest to each other.
+std::vector<std::pair<int, int>> pairedByLength(const SewnEdge& a, const SewnEdge& b);
 
 }  // namespace taut::world

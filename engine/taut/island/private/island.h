@@ -110,6 +110,8 @@ class Island {
     // Whether any spring tore in the last tick.
     bool hasTorn() const { return yielding_.hasTorn(); }
 
+    // Begins constraints that are due.
+    void beginConstraints(const TickTime& time);
     // (ties of joints) whether the mean force through a tie over the last tick was more than it bears.
     std::vector<bool> overloaded() const;
 

@@ -16,6 +16,8 @@ void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports);
 
 bool isJoint(const WorldImpl& w, const std::string& name);
 void releaseJoints(WorldImpl& w, const std::string& name);
+// Begins those whose time has come.
+void beginJoints(WorldImpl& w);
 // Lets go of the ties that the last tick overloaded. Runs between two ticks, so a repeated tick need not restore them.
 void breakJoints(WorldImpl& w);
 int jointsLeft(const WorldImpl& w, const JointInfo& info);  // ties that hold

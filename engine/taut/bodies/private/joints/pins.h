@@ -20,10 +20,12 @@ class Pins final : public ConstraintOf<Pins> {
     // Ties two points of the plan, or a point and a place.
     void tie(int a, int b, const Source& source);
     void tie(int a, const Place& b, const Source& source);
-    // Ties two points, `length` [m] apart at 0 s, that have come together `over` [s] > 0 later. In between they are at
-    // most length (1 - s)² (1 + 2 s) apart, s = t/over: it begins and ends at rest.
+    // Ties two points, `length` [m] apart at `start` [s], that have come together `over` [s] > 0 later. In between they
+    // are at most length (1 - s)² (1 + 2 s) apart, s = (t - start)/over: it begins and ends at rest.
     struct Closing {
-        double length = 0, over = 0;
+        static constexpr double notBegun = -1;  // a length that begin() finds
+        double length = 0, over = 0, start = 0;
+        double end() const { return start + over; }
         double mostAt(double t) const;   // [m]
         double speedAt(double t) const;  // [m/s] below 0
     };
@@ -38,6 +40,8 @@ class Pins final : public ConstraintOf<Pins> {
     bool projectVelocities(const Moment& moment) override { return project(moment.v, moment); }
     bool carries(int point) const override;
     void check() const override;
+    bool isDue(double t) const override;
+    void begin(double t, std::span<const dvec3> x) override;
 
   private:
     struct Pin {
@@ -59,6 +63,7 @@ class Pins final : public ConstraintOf<Pins> {
     int end(int number) const { return number >= 0 ? number : static_cast<int>(points_.size()) - 1 - number; }
     bool isPlace(int number) const { return number >= static_cast<int>(points_.size()); }
     void tiesChanged() override { layOut(time_); }
+    void visitOwn(StateBytes& bytes) override;
     void layOut(double t);
     bool project(std::span<dvec3> values, const Moment& moment);
     bool draw(std::span<dvec3> values, const Moment& moment);

@@ -21,6 +21,7 @@ list(APPEND TAUT_PHYSICS_TESTS
   oscillator_limits_test.cpp
   precision_test.cpp
   sdirk2_test.cpp
+  solid_test.cpp
   step_following_test.cpp
   touching_bodies_test.cpp
   touching_energy_test.cpp

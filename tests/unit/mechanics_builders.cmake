@@ -11,6 +11,7 @@ list(APPEND TAUT_UNIT_TESTS
   mechanics_gravity_generator_test.cpp
   mechanics_gust_generator_test.cpp
   mechanics_index_runs_generator_test.cpp
+  mechanics_rigid_test.cpp
   mechanics_mesh_lattice_test.cpp
   mechanics_panel_mesher_test.cpp
   mechanics_sheet_moduli_test.cpp

@@ -7,6 +7,7 @@
 #include "taut/bodies/joints/joints.h"
 #include "taut/bodies/net.h"
 #include "taut/bodies/rope.h"
+#include "taut/bodies/solid.h"
 #include "taut/core/trig.h"
 #include "taut/forces/anchor.h"
 #include "taut/forces/wind.h"
@@ -159,7 +160,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 71);
+    EXPECT_EQ(flag.source.line, 72);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 
@@ -258,7 +259,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 145);
+    EXPECT_EQ(net.points[1].source.line, 146);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");
@@ -269,6 +270,26 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.drag, 0.8);
     EXPECT_EQ(net.radius, 0.04);
     EXPECT_EQ(net.ball, 0.07);
+}
+
+TEST(SceneFields, SolidsLandInTheirMembers) {
+    const world::SceneSpec scene = fullSpec();
+    EXPECT_EQ(scene.contact.restitution, 0.35);
+    const world::SolidSpec& crate = named(scene.bodies.of<world::SolidSpec>(), "crate");
+    EXPECT_EQ(crate.size, dvec3(0.3, 0.4, 0.5));
+    EXPECT_EQ(crate.edge, 0.01);
+    EXPECT_EQ(crate.position, dvec3(9, 8, 7));
+    expectNear(crate.rotation, {0, 0, core::pi / 6});
+    EXPECT_EQ(crate.density, 700.0);
+    EXPECT_EQ(crate.drag, 0.05);
+    EXPECT_EQ(crate.touch, world::Touch::others);
+    const world::SolidSpec& pill = named(scene.bodies.of<world::SolidSpec>(), "pill");
+    EXPECT_EQ(pill.height, 0.2);
+    EXPECT_EQ(pill.thickness, 0.06);
+    EXPECT_EQ(pill.mass, 0.8);
+    const world::SolidSpec& stone = named(scene.bodies.of<world::SolidSpec>(), "stone");
+    ASSERT_NE(stone.meshData, nullptr);
+    EXPECT_EQ(stone.scale, 0.5);
 }
 
 TEST(SceneFields, TiesAndWindLandInTheirMembers) {

@@ -28,6 +28,7 @@ air_density_kg_per_m3 = 0.02
 air_pressure_Pa = 2e4
 [contact]
 friction = 0.45
+restitution = 0.35
 instants = 8
 [run]
 fps = 30
@@ -156,6 +157,23 @@ ball = 0.07
 yield_strain = 0.08
 break_strain = 0.8
 break_cell_m = 0.08
+[solid.crate]
+shape = "box"
+size = [0.3, 0.4, 0.5]
+edge = 0.01
+position = [9, 8, 7]
+rotation_deg = [0, 0, 30]
+density_kg_per_m3 = 700
+drag_per_s = 0.05
+[solid.pill]
+shape = "capsule"
+radius = 0.06
+height = 0.2
+mass_kg = 0.8
+[solid.stone]
+shape = "mesh"
+mesh = "corner.obj"
+scale = 0.5
 [[joint]]
 a = "rope.rail@end"
 b = "net.cradle@b"

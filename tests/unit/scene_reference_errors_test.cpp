@@ -61,7 +61,7 @@ TEST(SceneErrors, ReferencesToWhatIsNotThereAreReported) {
          "mass_kg = 1\n",
          "s.toml:5:10: error: \"collider\" is no kind of body\n"
          "  target = \"collider.s@all\"\n"
-         "           ^ bodies are cloth, rope, block, net"},
+         "           ^ bodies are cloth, rope, block, net, solid"},
         {"a target that is not there",
          "[rope.rail]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"

@@ -35,6 +35,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_saving_test.cpp
   world_seam_test.cpp
   world_sleep_test.cpp
+  world_solid_test.cpp
   world_start_doubts_test.cpp
   world_start_test.cpp
   world_step_choice_test.cpp

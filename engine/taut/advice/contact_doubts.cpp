@@ -63,7 +63,7 @@ void doubtInstants(const WorldImpl& world, std::vector<std::string>& doubts) {
 }
 
 void doubtLoneliness(std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
-    if (bodies.size() != 1 || bodies[0]->spec->touch != Touch::others) return;
+    if (bodies.size() != 1 || bodies[0]->spec->touch != Touch::others || bodies[0]->spec->isRigid()) return;
     doubts.push_back(bodies[0]->fullName() +
                      " has touch = \"others\", but there is no other that touches: nothing will come of it; give "
                      "another body touch too, or this one touch = \"all\"");

@@ -334,6 +334,7 @@ class Planner {
         for (const bool isWeld : {true, false})  // welds first, as they move points
             for (const JointPair& joint : joints)
                 if (joint.spec->isWeld() == isWeld) tie(plan, joint);
+        for (const Body* body : plan.bodies) body->spec->constrain(plan, *body);
         plan.origins.resize(plan.springs.size());
         plan.broken.resize(plan.springs.size(), false);
         plan.solver = solverOf(plan);

@@ -66,9 +66,8 @@ bool Colliders::isNear(int collider, const core::Aabb& box) const {
     TAUT_EXPECTS(collider >= 0 && collider < size());
     const std::size_t first = impl_->firstSolid[static_cast<std::size_t>(collider)];
     const std::size_t last = impl_->firstSolid[static_cast<std::size_t>(collider) + 1];
-    return std::any_of(impl_->solids.data() + first, impl_->solids.data() + last, [&](const Solid& solid) {
-        return !solid.bounded || solid.bounds.overlaps(box, 0.0);
-    });
+    return std::any_of(impl_->solids.data() + first, impl_->solids.data() + last,
+                       [&](const Solid& solid) { return !solid.bounded || solid.bounds.overlaps(box, 0.0); });
 }
 
 double Colliders::distance(const glm::dvec3& position) const {
@@ -90,6 +89,19 @@ Colliders::Near Colliders::nearest(const glm::dvec3& position, double reach) con
             near = {found.distance, solid.to.directionToWorld(found.normal)};
     }
     return near;
+}
+
+void Colliders::findNear(const glm::dvec3& position, double reach, double h, std::vector<Surface>& found) const {
+    for (const Solid& solid : impl_->solids) {
+        if (solid.bounded && !solid.bounds.overlaps({position, position}, reach)) continue;
+        const dvec3 local = solid.to.toLocal(position);
+        const Nearest near = solid.form->nearest(local);
+        if (!(near.distance < reach)) continue;
+        const dvec3 foot = local - near.distance * near.normal;
+        const dvec3 velocity = solid.still ? dvec3(0.0) : (solid.to.toWorld(foot) - solid.from.toWorld(foot)) / h;
+        found.push_back(
+            {near.distance, solid.to.directionToWorld(near.normal), velocity, solid.collider, solid.material});
+    }
 }
 
 Colliders::Inside Colliders::inside(const glm::dvec3& position) const {

@@ -148,6 +148,17 @@ class Colliders {
     };
     Near nearest(const glm::dvec3& position, double reach) const;
 
+    // Appends the colliders whose surface is less than `reach` [m] from a position, at their end-of-step poses, in
+    // their order. Of a mesh the nearest place alone.
+    struct Surface {
+        double distance;      // [m]
+        glm::dvec3 away;      // unit, in which it grows fastest
+        glm::dvec3 velocity;  // [m/s] of the surface there, over a step of h [s]
+        int collider;
+        Material material;
+    };
+    void findNear(const glm::dvec3& position, double reach, double h, std::vector<Surface>& found) const;
+
     // The collider whose end-of-step pose contains the position deepest, and how deep [m]; -1 and 0 outside all.
     struct Inside {
         int collider = -1;

@@ -12,9 +12,9 @@ namespace taut::contact {
 namespace {
 
 constexpr int mostSlides = 8, mostZones = 12;
-constexpr double apartSpeed = 0.3;  // [m/s] at which crossings come apart
-constexpr int mostSqueezes = 3;  // rounds of letting through
-constexpr double oneSided = 0.5;  // share of impulses that does not cancel
+constexpr double apartSpeed = 0.3;      // [m/s] at which crossings come apart
+constexpr int mostSqueezes = 3;         // rounds of letting through
+constexpr double oneSided = 0.5;        // share of impulses that does not cancel
 constexpr double squeezedShare = 3e-4;  // of the thickness, by which soft pairs of squeezed points yield in an instant
 
 // Sorts, and removes duplicates. Usually there is nothing to do.
@@ -41,6 +41,11 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
     v_.resize(count);
     shift_.resize(count);
     marks_.assign(count, unmarked);
+}
+
+void ContactGroup::setSolids(std::vector<Solid> solids) {
+    solids_ = std::move(solids);
+    solver_.setSolids(solids_, static_cast<std::size_t>(elements_.pointCount()));
 }
 
 void ContactGroup::drop() {
@@ -122,9 +127,9 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
 
     // Response: impulses for the pairs that would close their gap, then the crossings.
     selectActive(instant);
-    if (!active_.empty() || !crossings_.empty()) {
+    if (!active_.empty() || !crossings_.empty() || !solids_.empty()) {
         solveActive(instant);
-        if (options_.untangles) untangle(instant);
+        if (options_.untangles) changeAsSolids(instant.x0, u_, v_, [&] { untangle(instant); });
         handOver(instant, applyVelocities(instant));
     }
 
@@ -183,15 +188,22 @@ void ContactGroup::solveActive(const Instant& instant) {
             for (int i : pair.points) load(i);
         for (const Crossing& crossing : crossings_)
             for (int i : crossing.points) load(i);
+        for (const Solid& solid : solids_)
+            for (int i : solid.points) load(i);
     };
     loadAll();
+    SolverOptions options = options_.solver;
+    options.restSpeed = std::max(options.restSpeed, instant.restSpeed);
+    const auto solve = [&] {
+        solver_.solve(active_, instant.kinematic, instant.inverseMass, instant.h, options, u_, v_, shift_, instant.x0);
+    };
 
-    solver_.solve(active_, instant.kinematic, instant.inverseMass, instant.h, options_.solver, u_, v_, shift_);
+    solve();
     squeezed_.clear();
     for (int round = 0; round < mostSqueezes && findSqueezed(instant); ++round) {
         std::erase_if(active_, [&](const ContactConstraint& pair) { return isLetThrough(pair); });
         loadAll();
-        solver_.solve(active_, instant.kinematic, instant.inverseMass, instant.h, options_.solver, u_, v_, shift_);
+        solve();
     }
 
     for (std::size_t p = 0; p < active_.size(); ++p) {
@@ -203,10 +215,10 @@ void ContactGroup::solveActive(const Instant& instant) {
     result_.sweeps = solver_.sweeps();
 }
 
-// Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw it
-// out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others may go
-// through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster than its
-// softness explains. Returns whether any is, beyond those known.
+// Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw
+// it out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others
+// may go through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster
+// than its softness explains. Returns whether any is, beyond those known.
 bool ContactGroup::findSqueezed(const Instant& instant) {
     struct Pressed {
         dvec3 sum{0.0};   // [N s] of impulses
@@ -222,7 +234,8 @@ bool ContactGroup::findSqueezed(const Instant& instant) {
         if (!(impulse > 0)) continue;
         double inverse = 0;
         for (std::size_t k = 0; k < 4; ++k)
-            inverse += pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
+            inverse +=
+                pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
         const bool yields = pair.softness * inverse * impulse * instant.h > squeezedShare * pair.thickness;
         for (std::size_t k = 0; k < 4; ++k) {
             Pressed& own = pressed[pair.points[k]];
@@ -281,8 +294,55 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
     std::vector<int> points(solver_.points().begin(), solver_.points().end());
     for (const Crossing& crossing : crossings_)
         points.insert(points.end(), crossing.points.begin(), crossing.points.end());
+    for (const Solid& solid : solids_) points.insert(points.end(), solid.points.begin(), solid.points.end());
     makeAscending(points);
     for (int i : points) apply(i);
+    return moved;
+}
+
+// What `change` does with single points of solids in two fields, impulses do with the solids: all points of one move as
+// such impulses at its points move it. x (points) [m]. Returns the points of the solids that this moved.
+std::vector<int> ContactGroup::changeAsSolids(std::span<const dvec3> x, std::span<dvec3> a, std::span<dvec3> b,
+                                              const std::function<void()>& change) const {
+    std::vector<dvec3> before;
+    for (const Solid& solid : solids_)
+        for (int i : solid.points)
+            for (const auto& field : {a, b}) before.push_back(field[static_cast<std::size_t>(i)]);
+    change();
+    std::vector<int> moved;
+    std::vector<dvec3> places, changes;
+    for (std::size_t first = 0, s = 0; s < solids_.size(); first += 2 * solids_[s++].points.size()) {
+        const Solid& solid = solids_[s];
+        bool isSame = true;
+        for (std::size_t part = 0; part < 2; ++part) {
+            const std::span<dvec3> field = part == 0 ? a : b;
+            places.clear();
+            changes.clear();
+            bool changesAny = false;
+            for (std::size_t n = 0; n < solid.points.size(); ++n) {
+                const auto i = static_cast<std::size_t>(solid.points[n]);
+                dvec3& own = field[i];
+                places.push_back(x[i]);
+                changes.push_back(own - before[first + 2 * n + part]);
+                changesAny = changesAny || changes.back() != dvec3(0.0);
+                own -= changes.back();
+            }
+            if (!changesAny || !solid.moves) continue;
+            isSame = false;
+            // A point was moved as if it had the mass of all.
+            core::RigidMotion motion = core::rigidMotionOf(solid.masses, places, changes);
+            dvec3 moment(0.0);
+            motion.velocity = dvec3(0.0);
+            for (std::size_t n = 0; n < changes.size(); ++n) {
+                motion.velocity += changes[n];
+                moment += glm::cross(places[n] - motion.centre, motion.mass * changes[n]);
+            }
+            motion.spin = motion.inverseInertia * moment;
+            for (std::size_t n = 0; n < places.size(); ++n)
+                field[static_cast<std::size_t>(solid.points[n])] += motion.velocityAt(places[n]);
+        }
+        if (!isSame) moved.insert(moved.end(), solid.points.begin(), solid.points.end());
+    }
     return moved;
 }
 
@@ -343,14 +403,17 @@ void ContactGroup::detectAgain(const Instant& instant) {
 std::vector<int> ContactGroup::separate(const Instant& instant, std::span<const ContactConstraint* const> pairs,
                                         int round) {
     std::vector<int> moved;
-    if (round < mostSlides && options_.slides) {
-        for (const ContactConstraint* pair : pairs)
-            slideApart(*pair, instant.inverseMass, instant.kinematic, instant.x1, instant.v, moved);
-        result_.slides += static_cast<int>(pairs.size());
-    } else {
-        moveAsImpactZones(pairs, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);
-        ++result_.zones;
-    }
+    const std::vector<int> ofSolids = changeAsSolids(instant.x0, instant.x1, instant.v, [&] {
+        if (round < mostSlides && options_.slides) {
+            for (const ContactConstraint* pair : pairs)
+                slideApart(*pair, instant.inverseMass, instant.kinematic, instant.x1, instant.v, moved);
+            result_.slides += static_cast<int>(pairs.size());
+        } else {
+            moveAsImpactZones(pairs, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);
+            ++result_.zones;
+        }
+    });
+    moved.insert(moved.end(), ofSolids.begin(), ofSolids.end());
     makeAscending(moved);
     return moved;
 }

@@ -18,9 +18,9 @@
 // finds the time of impact).
 //
 // No memory beyond a tick. The solver starts from the impulses of the last instant of the same tick, and a tick's first
-// instant from 0: begin() and rewind() forget them. The broad phase keeps lists from instant to instant, but a list only
-// says what to measure, and never leaves out what matters (broad_phase.h). So the result of a tick depends on its start
-// alone. A restored world that has no lists yet goes on with the same bits.
+// instant from 0: begin() and rewind() forget them. The broad phase keeps lists from instant to instant, but a list
+// only says what to measure, and never leaves out what matters (broad_phase.h). So the result of a tick depends on its
+// start alone. A restored world that has no lists yet goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
 // (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as impact zones
@@ -29,8 +29,8 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "taut/contact/broad_phase.h"
@@ -55,6 +55,7 @@ struct Instant {
     std::span<dvec3> v;                           // [m/s] as the integrator of each island stores them
     std::span<const double> inverseMass;          // [1/kg]; 0: pinned or kinematic, contact does not move it
     std::span<const KinematicContact> kinematic;  // contacts of points with colliders, ascending by point
+    double restSpeed = 0;                         // [m/s] what closes more slowly does not bounce
     // The group calls it with the points (ascending) whose x1 and v it has changed. Their island places them, and may
     // change both again: by rounding, or at a collider. May be empty.
     std::function<void(std::span<const int> points)> place;
@@ -93,6 +94,9 @@ class ContactGroup {
     ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest, const ContactOptions& options);
     ContactGroup(const ContactGroup&) = delete;
     ContactGroup& operator=(const ContactGroup&) = delete;
+
+    // Points that keep their distances, in the coming instants.
+    void setSolids(std::vector<Solid> solids);
 
     Elements& elements() { return elements_; }
     const Elements& elements() const { return elements_; }
@@ -136,8 +140,10 @@ class ContactGroup {
     bool findSqueezed(const Instant& instant);                          // active_ -> squeezed_
     int rankOf(const ContactConstraint& pair) const;
     bool isLetThrough(const ContactConstraint& pair) const;
-    void untangle(const Instant& instant);                              // crossings_ -> u_, v_
-    std::vector<int> applyVelocities(const Instant& instant) const;     // u_, v_, shift_ -> x1, v; the moved points
+    void untangle(const Instant& instant);                           // crossings_ -> u_, v_
+    std::vector<int> applyVelocities(const Instant& instant) const;  // u_, v_, shift_ -> x1, v; the moved points
+    std::vector<int> changeAsSolids(std::span<const dvec3> x, std::span<dvec3> a, std::span<dvec3> b,
+                                    const std::function<void()>& change) const;
     void handOver(const Instant& instant, std::span<const int> points);
     void detectAgain(const Instant& instant);  // pairs that pending_ may have brought into reach -> tested_
     std::vector<const ContactConstraint*> uncertified(const Instant& instant) const;
@@ -171,6 +177,7 @@ class ContactGroup {
     std::vector<ContactConstraint> found_, merged_;        // scratch
     std::vector<ContactConstraint> active_;                // pairs of tested_ that the solver gets
     std::vector<std::vector<ContactConstraint>> perTask_;  // (tasks) scratch
+    std::vector<Solid> solids_;
     ContactSolver solver_;
     std::map<int, int> squeezed_;  // points; the rank of the driven surface that still presses, -1: none
     // (points) [m/s] mean velocity in the instant before and after the solver; [m/s] stored velocity after it; [m]

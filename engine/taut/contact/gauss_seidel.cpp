@@ -45,6 +45,9 @@ void putInto(Pack& pack, int lane, const Row& row, int number) {
         pack.slots[lane][k] = row.slots[k];
     }
     pack.mass.of[lane] = row.mass;
+    pack.grip.of[lane] = row.grip > 0 ? row.grip : row.mass;
+    pack.turns[lane] = row.turns;
+    pack.hasTurns = pack.hasTurns || row.turns >= 0;
     pack.closing.of[lane] = row.closing;
     pack.friction.of[lane] = row.friction;
     pack.softness.of[lane] = row.softness;
@@ -54,7 +57,8 @@ void putInto(Pack& pack, int lane, const Row& row, int number) {
 
 }  // namespace
 
-int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities) {
+int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
+                         std::span<const Turn> turns) {
     thread_local Scratch scratch;
     const int count = static_cast<int>(rows.size());
     const int levels = findLevels(rows, velocities.size(), scratch);
@@ -81,8 +85,8 @@ int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std:
         putInto(pack, place % 4, row, r);
     }
     scratch.perRow.assign(rows.size() + 1, 0.0);
-    const Sweeps batch{scratch.packs.data(), packCount, count, scratch.perRow.data(), velocities.data(),
-                       sweeps,               tolerance};
+    const Sweeps batch{scratch.packs.data(), packCount,    count,  scratch.perRow.data(),
+                       velocities.data(),    turns.data(), sweeps, tolerance};
     const int taken = TAUT_IN_USE(sweep)(batch);
     for (const Pack& pack : scratch.packs)
         for (int lane = 0; lane < 4; ++lane)

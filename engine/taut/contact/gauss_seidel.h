@@ -11,6 +11,9 @@
 // Softness. Two things that nothing moves may close on a third, and no impulses keep both. Where rows are soft, their
 // impulses end at what closes divided by the softness, instead of growing for ever.
 //
+// Solids. What a row does with a point of a rigid body it does with the velocity of the body's centre, which is in the
+// point's slot, and with its spin, which is in a slot of its own (Turn).
+//
 // Four rows at a time. A row waits for the rows before it that share a velocity with it, and for no others. So rows are
 // put into levels, each one above the highest of those it waits for, and go through the processor in packs of four of
 // one level. The result is that of the rows one after the other, bit for bit; sums over rows are in their order.
@@ -24,33 +27,45 @@ struct alignas(32) Four {
     double of[4];
 };
 
+// A point of a row that turns with a rigid body: it has spin × arm besides the velocity of its slot.
+struct Turn {
+    int slot = -1;     // of the spin [rad/s]; -1: the point does not turn
+    double arm[3]{};   // [m] weight × (place of the impulse - centre of mass)
+    double gain[9]{};  // [1/(kg m²)] inverse inertia, symmetric
+};
+
 // A direction along which the weighted sum of up to four velocities may not close.
 struct Row {
-    Four normal{};         // unit; last 0
-    Four impulse{};        // [N s] friction along x, y, z; then along the normal
-    double weights[4]{};   // of the velocities
-    double gains[4]{};     // [1/kg] how much an impulse of 1 changes each velocity
-    double mass = 0;       // [kg] effective, along the normal
-    double closing = 0;    // [m/s] at which it may close in this instant; below 0: at which it has to part
-    double friction = 0;   // Coulomb's μ [-]
-    double softness = 0;   // [m/s] by which it may close further for each impulse of 1
+    Four normal{};           // unit; last 0
+    Four impulse{};          // [N s] friction along x, y, z; then along the normal
+    double weights[4]{};     // of the velocities
+    double gains[4]{};       // [1/kg] how much an impulse of 1 changes each velocity
+    double mass = 0;         // [kg] effective, along the normal
+    double grip = 0;         // [kg] effective, the least across the normal; 0: as along it
+    double closing = 0;      // [m/s] at which it may close in this instant; below 0: at which it has to part
+    double friction = 0;     // Coulomb's μ [-]
+    double softness = 0;     // [m/s] by which it may close further for each impulse of 1
     double largestGain = 0;  // [1/kg]
-    int slots[4]{};        // of the velocities
-    int source = 0;        // for its owner
+    int slots[4]{};          // of the velocities
+    int turns = -1;          // number of the first of its points' turns; -1: nothing turns
+    int source = 0;          // for its owner
 };
 
 // Changes the velocities (slots) [m/s], last 0, by the impulses. It ends after `sweeps`, or when a sweep changes no
 // velocity by `tolerance` [m/s]. Returns the number of sweeps.
-int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities);
+int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
+                         std::span<const Turn> turns = {});
 
 // What the kernel gets: rows lane by lane. A lane without a row is all 0, and has the first lane's slots.
 struct Pack {
     Four normal[3]{};
     Four impulse[4]{}, change[4]{}, direction[4]{};  // [N s]
     Four weights[4]{}, gains[4]{};
-    Four mass{}, closing{}, friction{}, softness{}, largestGain{};
+    Four mass{}, grip{}, closing{}, friction{}, softness{}, largestGain{};
     int slots[4][4]{};  // lane, velocity
-    int rows[4]{};      // lane; the number of rows where there is none
+    bool hasTurns = false;
+    int turns[4]{-1, -1, -1, -1};  // lane
+    int rows[4]{};                 // lane; the number of rows where there is none
 };
 struct Sweeps {
     Pack* packs;
@@ -58,6 +73,7 @@ struct Sweeps {
     int rowCount;
     double* perRow;  // (rows + 1) scratch
     Four* velocities;
+    const Turn* turns;
     int most;
     double tolerance;  // [m/s]
 };

@@ -44,7 +44,33 @@ inline Vectors velocitiesOf(const Pack& pack, int k, const Four* velocities) {
             __builtin_shufflevector(abEven, cdEven, 2, 3, 6, 7)};
 }
 
-inline Vectors relativeVelocity(const Pack& pack, const Four* velocities) {
+// Adds what points of the rows have from the spins of their bodies.
+inline void addTurns(const Pack& pack, const Sweeps& batch, Vectors& sum) {
+    for (int lane = 0; lane < 4; ++lane)
+        for (int k = 0; k < 4 && pack.turns[lane] >= 0; ++k) {
+            const Turn& turn = batch.turns[pack.turns[lane] + k];
+            if (turn.slot < 0) continue;
+            const double* spin = batch.velocities[turn.slot].of;
+            sum.x[lane] += spin[1] * turn.arm[2] - spin[2] * turn.arm[1];
+            sum.y[lane] += spin[2] * turn.arm[0] - spin[0] * turn.arm[2];
+            sum.z[lane] += spin[0] * turn.arm[1] - spin[1] * turn.arm[0];
+        }
+}
+// Changes the spins of the bodies of a row's points by its impulse.
+inline void turn(const Turn* turns, const Lanes& impulse, Four* velocities) {
+    for (int k = 0; k < 4; ++k) {
+        const double *arm = turns[k].arm, *gain = turns[k].gain;
+        if (turns[k].slot < 0) continue;
+        const double moment[3] = {arm[1] * impulse[2] - arm[2] * impulse[1], arm[2] * impulse[0] - arm[0] * impulse[2],
+                                  arm[0] * impulse[1] - arm[1] * impulse[0]};
+        double* spin = velocities[turns[k].slot].of;
+        for (int i = 0; i < 3; ++i)
+            spin[i] += gain[3 * i] * moment[0] + gain[3 * i + 1] * moment[1] + gain[3 * i + 2] * moment[2];
+    }
+}
+
+inline Vectors relativeVelocity(const Pack& pack, const Sweeps& batch) {
+    const Four* velocities = batch.velocities;
     Vectors sum;
     for (int k = 0; k < 4; ++k) {
         const Vectors own = velocitiesOf(pack, k, velocities);
@@ -52,11 +78,13 @@ inline Vectors relativeVelocity(const Pack& pack, const Four* velocities) {
         sum = k == 0 ? Vectors{weight * own.x, weight * own.y, weight * own.z}
                      : Vectors{sum.x + weight * own.x, sum.y + weight * own.y, sum.z + weight * own.z};
     }
+    if (pack.hasTurns) addTurns(pack, batch, sum);
     return sum;
 }
 
 // Changes the velocities by impulses; rows for which all of it is 0 change nothing.
-inline void apply(const Pack& pack, const Lanes (&impulse)[4], Four* velocities) {
+inline void apply(const Pack& pack, const Lanes (&impulse)[4], const Sweeps& batch) {
+    Four* velocities = batch.velocities;
     const Vectors normal = load(pack.normal);
     const Lanes x = impulse[0] + impulse[3] * normal.x, y = impulse[1] + impulse[3] * normal.y,
                 z = impulse[2] + impulse[3] * normal.z, none{};
@@ -73,22 +101,23 @@ inline void apply(const Pack& pack, const Lanes (&impulse)[4], Four* velocities)
             Four& own = velocities[pack.slots[lane][k]];
             store(own, load(own) + pack.gains[k].of[lane] * rows[lane]);
         }
+        if (pack.turns[lane] >= 0) turn(batch.turns + pack.turns[lane], rows[lane], velocities);
     }
 }
 
 // Solves the rows for the current velocities: first the normal impulse, then friction.
-inline void visit(Pack& pack, Four* velocities) {
-    const Lanes none{}, mass = load(pack.mass), friction = load(pack.friction);
-    const Vectors normal = load(pack.normal), velocity = relativeVelocity(pack, velocities);
+inline void visit(Pack& pack, const Sweeps& batch) {
+    const Lanes none{}, mass = load(pack.mass), grip = load(pack.grip), friction = load(pack.friction);
+    const Vectors normal = load(pack.normal), velocity = relativeVelocity(pack, batch);
     const Lanes before[4] = {load(pack.impulse[0]), load(pack.impulse[1]), load(pack.impulse[2]),
                              load(pack.impulse[3])};
     const Lanes parting = dot(normal, velocity);
     const Lanes wanted = before[3] - mass * (parting + load(pack.closing) + load(pack.softness) * before[3]);
     const Lanes pressing = wanted > none ? wanted : none;
     // Coulomb's friction: in the disk around 0.
-    Vectors next{before[0] - mass * (velocity.x - parting * normal.x),
-                 before[1] - mass * (velocity.y - parting * normal.y),
-                 before[2] - mass * (velocity.z - parting * normal.z)};
+    Vectors next{before[0] - grip * (velocity.x - parting * normal.x),
+                 before[1] - grip * (velocity.y - parting * normal.y),
+                 before[2] - grip * (velocity.z - parting * normal.z)};
     const Lanes limit = friction * pressing, square = dot(next, next);
     const auto isBeyond = square > limit * limit, slides = friction > none;
     const Lanes share = isBeyond ? limit / root(square) : none + 1.0;
@@ -99,7 +128,7 @@ inline void visit(Pack& pack, Four* velocities) {
     store(pack.impulse[2], next.z);
     store(pack.impulse[3], pressing);
     for (int k = 0; k < 4; ++k) store(pack.change[k], change[k]);
-    apply(pack, change, velocities);
+    apply(pack, change, batch);
 }
 
 inline double sumOf(const Sweeps& batch) {
@@ -115,11 +144,11 @@ inline void storePerRow(const Sweeps& batch, const Pack& pack, const Lanes& valu
 inline double slope(const Sweeps& batch, double share) {
     for (int p = 0; p < batch.packCount; ++p) {
         const Pack& pack = batch.packs[p];
-        const Vectors velocity = relativeVelocity(pack, batch.velocities);
+        const Vectors velocity = relativeVelocity(pack, batch);
         const Lanes yielding = load(pack.closing) + load(pack.softness) * (share * load(pack.impulse[3]));
-        storePerRow(batch, pack,
-                    load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + yielding) +
-                        dot(load(pack.impulse), velocity));
+        storePerRow(
+            batch, pack,
+            load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + yielding) + dot(load(pack.impulse), velocity));
     }
     return sumOf(batch);
 }
@@ -136,7 +165,7 @@ inline void start(const Sweeps& batch) {
             const Pack& pack = batch.packs[p];
             const Lanes impulse[4] = {share * load(pack.impulse[0]), share * load(pack.impulse[1]),
                                       share * load(pack.impulse[2]), share * load(pack.impulse[3])};
-            apply(pack, impulse, batch.velocities);
+            apply(pack, impulse, batch);
         }
     };
     const double before = slope(batch, 0);
@@ -159,7 +188,7 @@ int sweep(const Sweeps& batch) {
         Lanes largest{};
         for (int p = 0; p < batch.packCount; ++p) {
             Pack& pack = batch.packs[p];
-            visit(pack, batch.velocities);
+            visit(pack, batch);
             const Vectors change = load(pack.change);
             const Lanes own = dot(change, change) + load(pack.change[3]) * load(pack.change[3]);
             const Lanes gain = load(pack.largestGain), fastest = gain * gain * own;
@@ -188,7 +217,7 @@ int sweep(const Sweeps& batch) {
                 store(pack.direction[k], step[k] + load(pack.change[k]));
                 store(pack.impulse[k], load(pack.impulse[k]) + step[k]);
             }
-            apply(pack, step, batch.velocities);
+            apply(pack, step, batch);
         }
     }
 }

@@ -10,10 +10,15 @@
 namespace taut::contact {
 namespace {
 
+using glm::dmat3;
+
 constexpr double fastestOut = 1.0;         // [m/s] limit of the position correction
 constexpr std::size_t parallelRows = 64;   // fewer rows are solved on one thread, which is faster
 constexpr std::size_t colouredPairs = 64;  // clusters with fewer keep the order of their pairs
 constexpr int mostColours = 64;
+// Solids have no springs that take up what the sweeps leave: a stack leans by it.
+constexpr int sweepsForSolids = 3;        // times as many
+constexpr double settledForSolids = 0.1;  // of the change that ends them
 
 Four four(const dvec3& v) {
     return {{v.x, v.y, v.z, 0}};
@@ -22,13 +27,34 @@ dvec3 vectorOf(const Four& v) {
     return {v.of[0], v.of[1], v.of[2]};
 }
 
-// [m/s] The speed at which a pair has to part. 0: the pair may come to rest.
-double reboundOf(const Row& row, const SolverOptions& options, std::span<const Four> velocities) {
+dvec3 relativeVelocity(const Row& row, std::span<const Four> velocities, std::span<const Turn> turns) {
     dvec3 sum(0.0);
-    for (int k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < 4; ++k) {
         sum += row.weights[k] * vectorOf(velocities[static_cast<std::size_t>(row.slots[k])]);
-    const double closing = -glm::dot(vectorOf(row.normal), sum);
-    return closing > options.restSpeed ? options.restitution * closing : 0.0;
+        if (row.turns < 0) continue;
+        const Turn& turn = turns[static_cast<std::size_t>(row.turns) + k];
+        if (turn.slot < 0) continue;
+        sum += glm::cross(vectorOf(velocities[static_cast<std::size_t>(turn.slot)]),
+                          dvec3(turn.arm[0], turn.arm[1], turn.arm[2]));
+    }
+    return sum;
+}
+
+void push(const Row& row, const dvec3& impulse, std::span<Four> velocities, std::span<const Turn> turns) {
+    const auto add = [&](int slot, const dvec3& change) {
+        for (int i = 0; i < 3; ++i) velocities[static_cast<std::size_t>(slot)].of[i] += change[i];
+    };
+    for (std::size_t k = 0; k < 4; ++k) {
+        add(row.slots[k], row.gains[k] * impulse);
+        if (row.turns < 0) continue;
+        const Turn& turn = turns[static_cast<std::size_t>(row.turns) + k];
+        if (turn.slot < 0) continue;
+        const dvec3 moment = glm::cross(dvec3(turn.arm[0], turn.arm[1], turn.arm[2]), impulse);
+        dvec3 change(0.0);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) change[i] += turn.gain[3 * i + j] * moment[j];
+        add(turn.slot, change);
+    }
 }
 
 // Of the same contact in every instant.
@@ -42,6 +68,26 @@ std::uint64_t keyOf(const KinematicContact& contact, int number) {
 }
 
 }  // namespace
+
+void ContactSolver::setSolids(std::span<const Solid> solids, std::size_t pointCount) {
+    solids_ = solids;
+    solidAt_.assign(solids.empty() ? 0 : pointCount, -1);
+    for (std::size_t s = 0; s < solids.size(); ++s)
+        for (int i : solids[s].points) solidAt_[static_cast<std::size_t>(i)] = static_cast<int>(s);
+}
+
+const Solid* ContactSolver::solidOf(int point) const {
+    const int solid = solidAt_.empty() ? -1 : solidAt_[static_cast<std::size_t>(point)];
+    return solid >= 0 && solids_[static_cast<std::size_t>(solid)].moves ? &solids_[static_cast<std::size_t>(solid)]
+                                                                        : nullptr;
+}
+bool ContactSolver::isFixed(int point, const Problem& problem) const {
+    return !(problem.inverseMass[static_cast<std::size_t>(point)] > 0) && solidOf(point) == nullptr;
+}
+int ContactSolver::leaderOf(int point) const {
+    const Solid* solid = solidOf(point);
+    return solid != nullptr ? solid->points.front() : point;
+}
 
 int ContactSolver::root(int point) {
     while (parent_[static_cast<std::size_t>(point)] != point) {
@@ -62,9 +108,10 @@ void ContactSolver::joinPoints(const Problem& problem) {
         for (int i : touched_) parent_[static_cast<std::size_t>(i)] = -1;
     for (const ContactConstraint& pair : problem.pairs) {
         int first = -1;
-        for (int i : pair.points) {
+        for (int point : pair.points) {
+            const int i = leaderOf(point);
             if (parent_[static_cast<std::size_t>(i)] < 0) parent_[static_cast<std::size_t>(i)] = i;
-            if (problem.isFixed(i)) continue;
+            if (isFixed(i, problem)) continue;
             const int own = root(i);
             if (first < 0) {
                 first = own;
@@ -75,6 +122,15 @@ void ContactSolver::joinPoints(const Problem& problem) {
             first = low;
         }
     }
+    // A solid meets colliders here alone.
+    for (const KinematicContact& contact : problem.kinematic)
+        if (solidOf(contact.point) != nullptr) {
+            const auto leader = static_cast<std::size_t>(leaderOf(contact.point));
+            if (parent_[leader] < 0) parent_[leader] = static_cast<int>(leader);
+        }
+    for (const Solid& solid : solids_)
+        if (const int leader = solid.points.front(); solid.moves && parent_[static_cast<std::size_t>(leader)] >= 0)
+            for (int i : solid.points) parent_[static_cast<std::size_t>(i)] = root(leader);
     touched_.clear();
     for (std::size_t i = 0; i < pointCount; ++i)
         if (parent_[i] >= 0) touched_.push_back(static_cast<int>(i));
@@ -87,45 +143,54 @@ void ContactSolver::findClusters(const Problem& problem) {
     u_.clear();
     v_.clear();
     for (int i : touched_) {
-        if (problem.isFixed(i)) continue;
+        if (isFixed(i, problem) || solidOf(i) != nullptr) continue;
         const auto k = static_cast<std::size_t>(i);
         slots_[k] = addSlot(problem.u[k], problem.v[k]);
     }
+    loadSolids(problem);
 
     const int pairCount = static_cast<int>(problem.pairs.size());
     order_.clear();
     for (int p = 0; p < pairCount; ++p)
         for (int i : problem.pairs[static_cast<std::size_t>(p)].points)
-            if (!problem.isFixed(i)) {
+            if (!isFixed(i, problem)) {
                 order_.emplace_back(root(i), p);
                 break;
             }
     for (std::size_t k = 0; k < problem.kinematic.size(); ++k) {
         const int i = problem.kinematic[k].point;
-        if (parent_[static_cast<std::size_t>(i)] >= 0 && !problem.isFixed(i))
+        if (parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i, problem))
             order_.emplace_back(root(i), pairCount + static_cast<int>(k));
     }
     std::sort(order_.begin(), order_.end());
 
     rows_.clear();
+    turns_.clear();
     keys_.clear();
     clusters_.clear();
     std::vector<int> sources;
     for (std::size_t k = 0; k < order_.size();) {
-        Cluster cluster{rows_.size(), 0, 1e300};
+        Cluster cluster{rows_.size(), 0, 1e300, 0};
         sources.clear();
         std::size_t next = k;
         for (; next < order_.size() && order_[next].first == order_[k].first; ++next) {
             const int source = order_[next].second;
             sources.push_back(source);
-            if (source < pairCount)
-                cluster.tolerance =
-                    std::min(cluster.tolerance, problem.pairs[static_cast<std::size_t>(source)].thickness);
+            const double thickness = source < pairCount
+                                         ? problem.pairs[static_cast<std::size_t>(source)].thickness
+                                         : problem.kinematic[static_cast<std::size_t>(source - pairCount)].thickness;
+            if (thickness > 0) cluster.tolerance = std::min(cluster.tolerance, thickness);
         }
         cluster.tolerance *= problem.options.settled / problem.h;
         colour(sources, problem);
         for (int source : sources) addRow(source, problem);
         cluster.last = rows_.size();
+        cluster.sweeps = problem.options.sweeps;
+        if (std::any_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first), rows_.end(),
+                        [](const Row& row) { return row.turns >= 0; })) {
+            cluster.sweeps *= sweepsForSolids;
+            cluster.tolerance *= settledForSolids;
+        }
         clusters_.push_back(cluster);
         k = next;
     }
@@ -143,10 +208,11 @@ void ContactSolver::colour(std::span<int> sources, const Problem& problem) {
         std::uint64_t used = 0;
         const std::array<int, 4>& points = problem.pairs[static_cast<std::size_t>(source)].points;
         for (int i : points)
-            if (!problem.isFixed(i)) used |= taken_[static_cast<std::size_t>(i)];
+            if (!isFixed(i, problem)) used |= taken_[static_cast<std::size_t>(leaderOf(i))];
         const int free = std::min(std::countr_one(used), mostColours - 1);  // the last one may share points
         colours[static_cast<std::size_t>(free)].push_back(source);
-        for (int i : points) taken_[static_cast<std::size_t>(i)] |= std::uint64_t{1} << static_cast<unsigned>(free);
+        for (int i : points)
+            taken_[static_cast<std::size_t>(leaderOf(i))] |= std::uint64_t{1} << static_cast<unsigned>(free);
     }
     auto to = sources.begin();
     for (const std::vector<int>& own : colours) to = std::copy(own.begin(), own.end(), to);
@@ -160,7 +226,103 @@ int ContactSolver::addSlot(const dvec3& u, const dvec3& v) {
 
 int ContactSolver::slotOf(int point, const Problem& problem) {
     const auto k = static_cast<std::size_t>(point);
-    return problem.isFixed(point) ? addSlot(problem.u[k], problem.v[k]) : slots_[k];
+    return isFixed(point, problem) ? addSlot(problem.u[k], problem.v[k]) : slots_[k];
+}
+
+// The motions of the solids that are touched -> bodies_, slots of their points.
+void ContactSolver::loadSolids(const Problem& problem) {
+    bodies_.resize(solids_.size());
+    thread_local std::vector<dvec3> x, u, v;
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        const Solid& solid = solids_[s];
+        if (!solid.moves || parent_[static_cast<std::size_t>(solid.points.front())] < 0) continue;
+        x.clear();
+        u.clear();
+        v.clear();
+        for (int i : solid.points) {
+            const auto k = static_cast<std::size_t>(i);
+            x.push_back(problem.x[k]);
+            u.push_back(problem.u[k]);
+            v.push_back(problem.v[k]);
+        }
+        Body& body = bodies_[s];
+        body.u = core::rigidMotionOf(solid.masses, x, u);
+        body.v = core::rigidMotionOf(solid.masses, x, v);
+        body.slot = addSlot(body.u.velocity, body.v.velocity);
+        addSlot(body.u.spin, body.v.spin);
+        for (int i : solid.points) slots_[static_cast<std::size_t>(i)] = body.slot;
+    }
+}
+
+// Their points get what the solids got.
+void ContactSolver::storeSolids(const Problem& problem) {
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        const Solid& solid = solids_[s];
+        if (!solid.moves || parent_[static_cast<std::size_t>(solid.points.front())] < 0) continue;
+        const Body& body = bodies_[s];
+        const auto at = [&](const std::vector<Four>& field, int more) {
+            return vectorOf(field[static_cast<std::size_t>(body.slot + more)]);
+        };
+        for (int i : solid.points) {
+            const auto k = static_cast<std::size_t>(i);
+            const dvec3 arm = problem.x[k] - body.u.centre;
+            problem.u[k] += (at(u_, 0) - body.u.velocity) + glm::cross(at(u_, 1) - body.u.spin, arm);
+            problem.v[k] += (at(v_, 0) - body.v.velocity) + glm::cross(at(v_, 1) - body.v.spin, arm);
+            problem.shift[k] = at(shift_, 0) + glm::cross(at(shift_, 1), arm);
+        }
+    }
+}
+
+// The turns of a row whose slots and weights are set. arms (points) [m]: where its impulse acts on each, from the
+// centre of its solid.
+void ContactSolver::addTurns(Row& row, std::span<const int> points, std::span<const dvec3> arms) {
+    row.turns = static_cast<int>(turns_.size());
+    for (std::size_t k = 0; k < 4; ++k) {
+        Turn& turn = turns_.emplace_back();
+        const Solid* solid = k < points.size() ? solidOf(points[k]) : nullptr;
+        if (solid == nullptr) continue;
+        const Body& body = bodies_[static_cast<std::size_t>(solid - solids_.data())];
+        turn.slot = body.slot + 1;
+        for (int i = 0; i < 3; ++i) {
+            turn.arm[i] = row.weights[k] * arms[k][i];
+            for (int j = 0; j < 3; ++j) turn.gain[3 * i + j] = body.u.inverseInertia[j][i];
+        }
+    }
+}
+
+// Gains and effective masses of a row with solids. The velocity that an impulse p of 1 gives along itself is p·K p.
+void ContactSolver::weigh(Row& row, const std::array<double, 4>& inverseMass) const {
+    dmat3 inverse(0.0);  // K
+    for (std::size_t k = 0; k < 4; ++k) {
+        row.gains[k] = row.weights[k] * inverseMass[k];
+        // All points of one solid at once, at the first of them.
+        double weight = 0;
+        dvec3 arm(0.0);
+        const Turn& turn = turns_[static_cast<std::size_t>(row.turns) + k];
+        bool isFirst = true;
+        for (std::size_t j = 0; j < 4; ++j) {
+            if (row.slots[j] != row.slots[k]) continue;
+            isFirst = isFirst && j >= k;
+            const Turn& own = turns_[static_cast<std::size_t>(row.turns) + j];
+            weight += row.weights[j];
+            arm += dvec3(own.arm[0], own.arm[1], own.arm[2]);
+        }
+        if (!isFirst) continue;
+        inverse += dmat3(weight * weight * inverseMass[k]);
+        if (turn.slot < 0) continue;
+        dmat3 gain;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) gain[j][i] = turn.gain[3 * i + j];
+        const dmat3 across(0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0);  // arm × p
+        inverse -= across * gain * across;
+    }
+    const dvec3 normal = vectorOf(row.normal), aside = std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    const dvec3 t = glm::normalize(glm::cross(normal, aside)), b = glm::cross(normal, t);
+    const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
+    const double along = glm::dot(normal, inverse * normal), difference = 0.5 * (tt - bb);
+    row.mass = 1.0 / along;
+    row.grip = 1.0 / (0.5 * (tt + bb) + std::sqrt(difference * difference + tb * tb));
+    row.largestGain = std::max(1.0 / row.mass, 1.0 / row.grip);
 }
 
 // Appends the row of a pair, or of a contact with a collider. It starts with what it had in the last instant.
@@ -185,8 +347,25 @@ void ContactSolver::addRow(int source, const Problem& problem) {
         }
         row.softness = pair.softness * inverse;
         row.mass = 1.0 / (inverse + row.softness);
-        const double rebound = reboundOf(row, problem.options, u_);
-        row.closing = rebound > 0 ? -rebound : std::max(pair.gap(), 0.0) / problem.h;
+        if (std::any_of(pair.points.begin(), pair.points.end(), [&](int i) { return solidOf(i) != nullptr; })) {
+            // Where the sides meet. Each is brought there by a shift of its own.
+            std::array<dvec3, 4> arms;
+            std::array<double, 4> inverseMass;
+            for (std::size_t i = 0; i < 4; ++i) {
+                const bool isFirst = static_cast<int>(i) < pair.firstSide();
+                const double way = (isFirst ? -pair.firstShare : 1.0 - pair.firstShare) * pair.distance;
+                const Solid* solid = solidOf(pair.points[i]);
+                const Body* body =
+                    solid == nullptr ? nullptr : &bodies_[static_cast<std::size_t>(solid - solids_.data())];
+                arms[i] = problem.x[static_cast<std::size_t>(pair.points[i])] + way * pair.normal;
+                if (body != nullptr) arms[i] -= body->u.centre;
+                inverseMass[i] = body != nullptr ? 1.0 / body->u.mass
+                                                 : problem.inverseMass[static_cast<std::size_t>(pair.points[i])];
+            }
+            addTurns(row, pair.points, arms);
+            weigh(row, inverseMass);
+        }
+        row.closing = std::max(pair.gap(), 0.0) / problem.h;
     } else {
         const std::size_t k = own - pairCount;
         const KinematicContact& contact = problem.kinematic[k];
@@ -204,6 +383,14 @@ void ContactSolver::addRow(int source, const Problem& problem) {
         row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
         row.slots[0] = slotOf(contact.point, problem);
         row.slots[1] = row.slots[2] = row.slots[3] = addSlot(contact.carried, contact.carried);
+        if (const Solid* solid = solidOf(contact.point); solid != nullptr) {
+            const Body& body = bodies_[static_cast<std::size_t>(solid - solids_.data())];
+            const dvec3 arm =
+                problem.x[static_cast<std::size_t>(contact.point)] - contact.thickness * contact.normal - body.u.centre;
+            addTurns(row, std::span(&contact.point, 1), std::span(&arm, 1));
+            weigh(row, {1.0 / body.u.mass, 0, 0, 0});
+            row.closing += std::max(contact.gap, 0.0) / problem.h;
+        }
     }
 
     keys_.push_back(key);
@@ -224,12 +411,49 @@ void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster
     thread_local std::vector<Row> rows;
     rows.clear();
     for (const Row& row : all) {
-        const bool isPair = static_cast<std::size_t>(row.source) < problem.pairs.size();
-        if (isPair && !(row.impulse.of[3] > 0)) continue;
+        const auto source = static_cast<std::size_t>(row.source);
+        const bool isPair = source < problem.pairs.size(), isOfSolid = !isPair && row.turns >= 0;
+        if ((isPair || isOfSolid) && !(row.impulse.of[3] > 0)) continue;
         Row& own = rows.emplace_back(row);
-        if (isPair) own.closing = std::max(own.closing, 0.0) - reboundOf(own, problem.options, v_);
+        if (isPair || isOfSolid) own.closing = std::max(own.closing, 0.0);
     }
-    projectedGaussSeidel(rows, problem.options.sweeps, cluster.tolerance, v_);
+    projectedGaussSeidel(rows, cluster.sweeps, cluster.tolerance, v_, turns_);
+}
+
+// Bounces: one row after the other, the fastest first, gives back its share of the speed with which it closes, until
+// none closes faster than restSpeed. So momentum goes through a row of balls as from one to the next. The impulses are
+// added to those that the rows get.
+void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, std::span<Four> velocities,
+                           std::span<double> sizes) const {
+    constexpr std::size_t mostEach = 50;  // bounces of a row, on average
+    const std::size_t pairCount = problem.pairs.size();
+    for (std::size_t left = mostEach * rows.size(); left > 0; --left) {
+        double fastest = problem.options.restSpeed, restitution = 0;
+        const Row* next = nullptr;
+        for (const Row& row : rows) {
+            const auto source = static_cast<std::size_t>(row.source);
+            const bool isPair = source < pairCount;
+            const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - pairCount];
+            const double own = isPair ? problem.options.restitution : contact->restitution;
+            if (!(own > 0) || (!isPair && row.turns < 0)) continue;
+            const double closing = -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, turns_));
+            const double gap = isPair ? problem.pairs[source].gap() : contact->gap;
+            if (!(closing > fastest) || gap > closing * problem.h) continue;
+            fastest = closing;
+            restitution = own;
+            next = &row;
+        }
+        if (next == nullptr) return;
+        const double size = (1.0 + restitution) * fastest * next->mass;
+        dvec3 impulse = size * vectorOf(next->normal);
+        const dvec3 velocity = relativeVelocity(*next, velocities, turns_);
+        dvec3 friction = -(next->grip > 0 ? next->grip : next->mass) * (velocity + fastest * vectorOf(next->normal));
+        const double most = next->friction * size, own = std::sqrt(glm::dot(friction, friction));
+        if (own > most) friction *= most / own;
+        impulse += friction;
+        push(*next, impulse, velocities, turns_);
+        if (!sizes.empty()) sizes[static_cast<std::size_t>(next - rows.data())] += size;
+    }
 }
 
 // Solves 0 <= multiplier  ⊥  n·shift - target >= 0, for the pairs that overlap or have an impulse. Pairs that do not
@@ -240,10 +464,13 @@ void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cl
     bool overlaps = false;
     for (const Row& row : all) {
         double target = 0;
-        if (const auto source = static_cast<std::size_t>(row.source); source < problem.pairs.size()) {
-            const ContactConstraint& pair = problem.pairs[source];
-            if (pair.gap() < 0)
-                target = std::min(-problem.options.recovery * pair.recovery * pair.gap(), fastestOut * problem.h);
+        const auto source = static_cast<std::size_t>(row.source);
+        const bool isPair = source < problem.pairs.size();
+        if (isPair || row.turns >= 0) {
+            const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - problem.pairs.size()];
+            const double gap = isPair ? problem.pairs[source].gap() : contact->gap;
+            const double recovery = problem.options.recovery * (isPair ? problem.pairs[source].recovery : 1.0);
+            if (gap < 0) target = std::min(-recovery * gap, fastestOut * problem.h);
             if (!(target > 0) && !(row.impulse.of[3] > 0)) continue;
         }
         overlaps = overlaps || target > 0;
@@ -252,21 +479,27 @@ void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cl
         own.friction = 0;
         own.closing = -target;
     }
-    if (overlaps) projectedGaussSeidel(rows, problem.options.sweeps, cluster.tolerance * problem.h, shift_);
+    if (overlaps) projectedGaussSeidel(rows, cluster.sweeps, cluster.tolerance * problem.h, shift_, turns_);
 }
 
 // Solves u, then v and the position correction. Both need the impulses of u, but not each other. Returns the number of
 // sweeps for u.
 int ContactSolver::solveCluster(const Cluster& cluster, const Problem& problem) {
     const std::span<Row> rows(rows_.data() + cluster.first, cluster.last - cluster.first);
-    const int sweeps = projectedGaussSeidel(rows, problem.options.sweeps, cluster.tolerance, u_);
+    if (!bounces_.empty()) {
+        bounce(rows, problem, u_, std::span(bounces_).subspan(cluster.first, rows.size()));
+        bounce(rows, problem, v_, {});
+    }
+    const int sweeps = projectedGaussSeidel(rows, cluster.sweeps, cluster.tolerance, u_, turns_);
     if (rows.size() < parallelRows) {
         correctPositions(rows, cluster, problem);
         solveStored(rows, cluster, problem);
     } else {
-        core::parallelFor(2, [&](int which) {
-            which == 0 ? correctPositions(rows, cluster, problem) : solveStored(rows, cluster, problem);
-        });
+        core::parallelFor(
+            2,
+            [&](int which) {
+                which == 0 ? correctPositions(rows, cluster, problem) : solveStored(rows, cluster, problem);
+            });
     }
     return sweeps;
 }
@@ -278,11 +511,12 @@ void ContactSolver::remember(std::size_t pairCount) {
     frictions_.assign(pairCount, dvec3(0.0));
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const Row& row = rows_[r];
+        const auto source = static_cast<std::size_t>(row.source);
+        if (!bounces_.empty() && source < pairCount) impulses_[source] += bounces_[r];
         if (!(row.impulse.of[3] > 0)) continue;
         last_.push_back({keys_[r], row.impulse});
-        const auto source = static_cast<std::size_t>(row.source);
         if (source >= pairCount) continue;
-        impulses_[source] = row.impulse.of[3];
+        impulses_[source] += row.impulse.of[3];
         frictions_[source] = vectorOf(row.impulse);
     }
     std::sort(last_.begin(), last_.end(), [](const LastImpulse& a, const LastImpulse& b) { return a.key < b.key; });
@@ -290,9 +524,14 @@ void ContactSolver::remember(std::size_t pairCount) {
 
 void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
                           std::span<const double> inverseMass, double h, const SolverOptions& options,
-                          std::span<dvec3> u, std::span<dvec3> v, std::span<dvec3> shift) {
-    const Problem problem{pairs, kinematic, inverseMass, h, options, u, v, shift};
+                          std::span<dvec3> u, std::span<dvec3> v, std::span<dvec3> shift, std::span<const dvec3> x) {
+    const Problem problem{pairs, kinematic, inverseMass, h, options, x, u, v, shift};
     findClusters(problem);
+
+    const bool anyBounces =
+        options.restitution > 0 ||
+        std::any_of(kinematic.begin(), kinematic.end(), [](const auto& contact) { return contact.restitution > 0; });
+    bounces_.assign(anyBounces ? rows_.size() : 0, 0.0);
 
     // No two clusters share a slot, so they can be solved in parallel.
     const int count = clusters();
@@ -308,8 +547,9 @@ void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<co
 
     mostSweeps_ = 0;
     for (int own : sweeps) mostSweeps_ = std::max(mostSweeps_, own);
+    storeSolids(problem);
     for (int i : touched_) {
-        if (problem.isFixed(i)) continue;
+        if (isFixed(i, problem) || solidOf(i) != nullptr) continue;
         const auto k = static_cast<std::size_t>(i), slot = static_cast<std::size_t>(slots_[k]);
         u[k] = vectorOf(u_[slot]);
         v[k] = vectorOf(v_[slot]);

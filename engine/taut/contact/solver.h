@@ -22,18 +22,21 @@
 // places. The shift is no velocity, so it adds no energy of motion (split impulses, as in Bullet).
 //
 // Clusters are sets of pairs that share movable points. They are solved in parallel, each in the order of its pairs:
-// the bits do not depend on threads. Large clusters are coloured: rows of one colour share no velocity (gauss_seidel.h).
+// the bits do not depend on threads. Large clusters are coloured: rows of one colour share no velocity
+// (gauss_seidel.h).
+//
+// Solids. Points of a rigid body have its two velocities, of the centre and the spin. An impulse acts where the sides
+// meet, a thickness off the points, so that balls roll. Its points get what the body got.
 //
 // A collider that holds a point is one more row, between the point and a velocity that nothing changes. So is each
 // fixed point of a pair: it has a slot of its own, and passes nothing on.
 //
-// Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft: they
-// yield by a hundredth of the velocity that they take, which the position correction makes up for.
+// Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft:
+// they yield by a hundredth of the velocity that they take, which the position correction makes up for.
 //
 // The impulses of the last instant are where the next one starts, as most contacts last longer than an instant. They
 // are forgotten as a tick begins, so that what outlives a tick is the state of the islands alone.
 #pragma once
-
 
 #include <array>
 #include <cstdint>
@@ -44,6 +47,7 @@
 
 #include "taut/contact/contact_constraint.h"
 #include "taut/contact/gauss_seidel.h"
+#include "taut/core/private/rigid_motion.h"
 
 namespace taut::contact {
 
@@ -55,6 +59,13 @@ struct SolverOptions {
     double restSpeed = 0.0;    // [m/s]
 };
 
+// Points that keep their distances.
+struct Solid {
+    std::vector<int> points;     // ascending
+    std::vector<double> masses;  // (points) [kg]; of a held one far more than of all others
+    bool moves = true;           // else its points are as any that nothing moves
+};
+
 // A point in contact with a collider. It does not go into the collider, and the impulses of pairs that press it there
 // raise the limit of its friction.
 struct KinematicContact {
@@ -63,23 +74,29 @@ struct KinematicContact {
     double speed;           // [m/s] of the collider's surface along the normal
     dvec3 carried{0.0};     // [m/s] velocity of the collider's surface
     double friction = 0.0;  // Coulomb's μ of point and surface [-]
+    // Of a point of a solid, whose contacts with colliders the solver resolves like those of pairs:
+    double gap = 0.0;          // [m] at x0
+    double thickness = 0.0;    // [m] from the point to where the impulse acts
+    double restitution = 0.0;  // [-]
 };
 
 class ContactSolver {
   public:
     // Changes u and v (points) [m/s] by the impulses. shift (points) [m] gets the position correction; expects 0. h
-    // [s]: length of the instant. kinematic: ascending by point.
+    // [s]: length of the instant. kinematic: ascending by point. x (points) [m]: at x0, needed where there are solids.
     void solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
                std::span<const double> inverseMass, double h, const SolverOptions& options, std::span<dvec3> u,
-               std::span<dvec3> v, std::span<dvec3> shift);
+               std::span<dvec3> v, std::span<dvec3> shift, std::span<const dvec3> x = {});
+    // Which points keep their distances.
+    void setSolids(std::span<const Solid> solids, std::size_t pointCount);
     // The next instant does not follow on the last.
     void forget() { last_.clear(); }
 
     // After solve().
-    std::span<const int> points() const { return touched_; }        // of the pairs, ascending
-    std::span<const double> impulses() const { return impulses_; }  // (pairs) [N s] along the normal
+    std::span<const int> points() const { return touched_; }         // of the pairs, and of their solids, ascending
+    std::span<const double> impulses() const { return impulses_; }   // (pairs) [N s] along the normal
     std::span<const dvec3> frictions() const { return frictions_; }  // (pairs) [N s] tangential, on the first side
-    int sweeps() const { return mostSweeps_; }                      // of the cluster that took most
+    int sweeps() const { return mostSweeps_; }                       // of the cluster that took most
     int clusters() const { return static_cast<int>(clusters_.size()); }
 
   private:
@@ -89,18 +106,30 @@ class ContactSolver {
         std::span<const double> inverseMass;
         double h;
         const SolverOptions& options;
+        std::span<const dvec3> x;
         std::span<dvec3> u, v, shift;
-
-        bool isFixed(int point) const { return !(inverseMass[static_cast<std::size_t>(point)] > 0); }
+    };
+    // A solid in this instant.
+    struct Body {
+        core::RigidMotion u, v;
+        int slot;  // of its velocity; then comes that of its spin
     };
     struct Cluster {
         std::size_t first, last;  // of rows_
         double tolerance;         // [m/s] smaller changes end the sweeps
+        int sweeps;               // at most
     };
     struct LastImpulse {
         std::uint64_t key;
         Four impulse;
     };
+    const Solid* solidOf(int point) const;  // that moves; null: none
+    bool isFixed(int point, const Problem& problem) const;
+    int leaderOf(int point) const;  // the lowest point that moves with it
+    void loadSolids(const Problem& problem);
+    void storeSolids(const Problem& problem);
+    void addTurns(Row& row, std::span<const int> points, std::span<const dvec3> arms);
+    void weigh(Row& row, const std::array<double, 4>& inverseMass) const;
     void joinPoints(const Problem& problem);
     void findClusters(const Problem& problem);
     void colour(std::span<int> sources, const Problem& problem);
@@ -108,24 +137,31 @@ class ContactSolver {
     int slotOf(int point, const Problem& problem);
     int addSlot(const dvec3& u, const dvec3& v);
     int solveCluster(const Cluster& cluster, const Problem& problem);
+    void bounce(std::span<const Row> rows, const Problem& problem, std::span<Four> velocities,
+                std::span<double> sizes) const;
     void solveStored(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
     void correctPositions(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
     void remember(std::size_t pairCount);
     int root(int point);
 
     // A source is a pair, or after all pairs a contact with a collider.
-    std::vector<Row> rows_;                    // cluster by cluster, contacts with colliders after the pairs
-    std::vector<std::uint64_t> keys_;          // (rows) the same for the same contact in every instant
+    std::vector<Row> rows_;            // cluster by cluster, contacts with colliders after the pairs
+    std::vector<std::uint64_t> keys_;  // (rows) the same for the same contact in every instant
     std::vector<Cluster> clusters_;
-    std::vector<int> parent_;                  // (points) union-find; -1: in no pair
-    std::vector<int> touched_;                 // points of pairs, ascending
-    std::vector<int> slots_;                   // (points) of those touched that move
-    std::vector<Four> u_, v_, shift_;          // (slots)
-    std::vector<std::pair<int, int>> order_;   // cluster, source
-    std::vector<std::uint64_t> taken_;         // (slots) scratch: colours
-    std::vector<LastImpulse> last_;            // ascending by key
-    std::vector<double> impulses_;             // (pairs)
-    std::vector<dvec3> frictions_;             // (pairs)
+    std::vector<int> parent_;          // (points) union-find; -1: in no pair
+    std::vector<int> touched_;         // points of pairs, ascending
+    std::vector<int> slots_;           // (points) of those touched that move
+    std::vector<Four> u_, v_, shift_;  // (slots)
+    std::span<const Solid> solids_;
+    std::vector<int> solidAt_;                // (points) empty where there are none; -1: of none
+    std::vector<Body> bodies_;                // (solids) of those that are touched
+    std::vector<Turn> turns_;                 // of rows, four each
+    std::vector<std::pair<int, int>> order_;  // cluster, source
+    std::vector<std::uint64_t> taken_;        // (slots) scratch: colours
+    std::vector<LastImpulse> last_;           // ascending by key
+    std::vector<double> bounces_;             // (rows) [N s]; empty: nothing bounces
+    std::vector<double> impulses_;            // (pairs)
+    std::vector<dvec3> frictions_;            // (pairs)
     int mostSweeps_ = 0;
 };
 

@@ -8,6 +8,7 @@
 
 #include "taut/core/error.h"
 #include "taut/mechanics/builders.h"
+#include "taut/mechanics/closed_mesh.h"
 #include "taut/mechanics/lattice.h"
 
 namespace taut::mechanics {
@@ -36,44 +37,6 @@ const dvec3& at(std::span<const dvec3> positions, int i) {
 double sixfoldVolume(std::span<const dvec3> x, const Triangle& t) {
     const dvec3& origin = x.front();
     return glm::dot(at(x, t[0]) - origin, glm::cross(at(x, t[1]) - origin, at(x, t[2]) - origin));
-}
-
-// Refuses a mesh with a border, and one whose faces are turned against each other.
-void checkClosed(std::span<const Triangle> triangles) {
-    struct Side {
-        int low, high, turn;
-        int triangle;
-    };
-    std::vector<Side> sides;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
-            sides.push_back({low, high, triangles[t][k] == low ? 1 : -1, static_cast<int>(t)});
-        }
-    const auto rank = [](const Side& s) { return std::array{s.low, s.high, s.triangle}; };
-    std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return rank(a) < rank(b); });
-    int open = 0, turned = 0, firstOpen = -1, firstTurned = -1;
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t last = i;
-        int turns = 0;
-        while (last < sides.size() && sides[last].low == sides[i].low && sides[last].high == sides[i].high)
-            turns += sides[last++].turn;
-        const bool isOpen = (last - i) % 2 == 1;
-        if (isOpen && open++ == 0) firstOpen = sides[i].triangle;
-        if (!isOpen && turns != 0 && turned++ == 0) firstTurned = sides[i].triangle;
-        i = last;
-    }
-    if (open > 0)
-        throw MeshFault(fmt::format("the mesh is not closed, so that it has no inside: {} edges have faces on one side "
-                                    "only, the first of them at this face; fill its holes, and merge vertices that "
-                                    "lie on each other",
-                                    open),
-                        firstOpen);
-    if (turned > 0)
-        throw MeshFault(fmt::format("faces that share an edge are turned against each other, at {} edges, the first "
-                                    "of them at this face; let all fronts look outwards",
-                                    turned),
-                        firstTurned);
 }
 
 // The parts of a mesh: of each triangle the lowest vertex that hangs together with it.
@@ -453,13 +416,7 @@ dvec3 boxCells(std::span<const dvec3> positions, double side) {
 }
 
 Lattice meshLattice(std::span<const dvec3> positions, std::span<const Triangle> triangles, double side) {
-    checkClosed(triangles);
-    double volume = 0.0;
-    for (const Triangle& t : triangles) volume += sixfoldVolume(positions, t) / 6.0;
-    if (!(volume > 0.0))
-        throw MeshFault(volume < 0.0 ? "the mesh is inside out: its faces look inwards; turn them over"
-                                     : "the mesh is flat, and has no inside",
-                        -1);
+    expectClosed(positions, triangles);
     const Box box = boxOf(positions);
     Lattice lattice;
     const Grid grid = gridOf(box, side);

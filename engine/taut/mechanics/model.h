@@ -122,6 +122,7 @@ struct Model {
     std::vector<double> dragRates;       // γ/m [1/s] >= 0
     std::vector<bool> held;              // inverse mass 0
     std::vector<glm::dvec2> uv;          // [m] along the material; (0, 0) where it has none
+    int innerPoints = 0;                 // the first points touch nothing: a rigid body's (rigid.h)
 
     std::vector<Spring> springs;
     std::vector<std::array<int, 3>> triangles;  // the surface, counter-clockwise seen from its front; empty for ropes

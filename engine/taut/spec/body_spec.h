@@ -19,6 +19,7 @@
 namespace taut::world {
 
 struct Body;
+struct IslandPlan;
 struct SceneSpec;
 class BodyDrawing;
 
@@ -110,6 +111,10 @@ struct BodySpec {
 
     // At rest and free; for arrays, one copy. Throws core::Error(badContent) with file, line and column.
     virtual mechanics::Model build(const SceneSpec& scene) const = 0;
+    // Adds what holds its points together besides springs to the plan, which has them already.
+    virtual void constrain(IslandPlan&, const Body&) const {}
+    // Whether its points keep their distances, so that what presses one presses all.
+    virtual bool isRigid() const { return false; }
     virtual PlasticitySpec plasticityIn(const SceneSpec&) const { return {}; }
     // The material from which it takes numbers; empty: none.
     virtual std::string_view materialName() const { return {}; }
@@ -119,7 +124,7 @@ struct BodySpec {
     // The number of its points, springs and cells. By default it builds the body and counts them.
     virtual BodyOutline outline(const SceneSpec& scene) const;
     // Whether not its points alone but its faces meet other bodies, or colliders.
-    bool facesMeetColliders() const { return collide && (meetsFaces || meetsFigures || touch != Touch::nothing); }
+    bool facesMeetColliders() const { return collide && (meetsFaces || meetsFigures || isRigid() || touch != Touch::nothing); }
     bool facesMeet() const { return touch != Touch::nothing || facesMeetColliders(); }
 
     // The mesh file from which it is made, or null.

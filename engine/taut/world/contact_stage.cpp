@@ -57,7 +57,7 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     if (model.triangles.empty())
         for (const mechanics::Spring& s : model.springs)
             if (s.kind == mechanics::SpringKind::structural) surface.lines.push_back({at(s.a), at(s.b)});
-    for (int i = 0; i < model.pointCount(); ++i)
+    for (int i = model.innerPoints; i < model.pointCount(); ++i)
         if (isOutside[static_cast<std::size_t>(i)]) surface.points.push_back(at(i));
     return surface;
 }
@@ -76,6 +76,13 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         for (const Body* body : island->plan().bodies) {
             if (!body->spec->facesMeet()) continue;
             surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
+            if (body->spec->isRigid()) {
+                SolidPart& solid = solids_.emplace_back();
+                solid.part = parts_.size();
+                solid.surface = static_cast<int>(bodies_.size());
+                for (int i : body->pointOf) solid.points.push_back(offset + i);
+                std::sort(solid.points.begin(), solid.points.end());
+            }
             bodies_.push_back(body);
             for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
                 const int point = offset + body->pointOf[i];
@@ -93,6 +100,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     damage_.assign(bodies_.size(), 0);
     contact::ContactOptions options;
     options.friction = spec.friction;
+    options.solver.restitution = spec.restitution;
     group_ = std::make_unique<contact::ContactGroup>(std::move(surfaces), std::move(rest), options);
     for (const Part& part : parts_)
         for (const JointTie& tie : part.island->plan().ties)
@@ -178,8 +186,7 @@ int ContactStage::commonSubsteps() const {
 int ContactStage::instantsFor(std::span<const int> surfaces) const {
     int needed = 1;
     for (int s : surfaces)
-        if (isOfBody(s) && !bodyOf(s).island->isStill())
-            needed = std::max(needed, bodyOf(s).island->instantsToPress());
+        if (isOfBody(s) && !bodyOf(s).island->isStill()) needed = std::max(needed, bodyOf(s).island->instantsToPress());
     return needed;
 }
 
@@ -208,7 +215,8 @@ int ContactStage::takeInstants(const TickTime& time, int needed, std::span<const
 // The number of instants of the tick. Negative: for a trial, in which nothing should touch.
 int ContactStage::chooseInstants(const TickTime& time) {
     if (spec_.instants) return takeInstants(time, *spec_.instants);
-    const contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
+    contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
+    if (!solids_.empty()) foreseeSolids(forecast);
     // Doubles instants until a motion of that speed goes at most `way` in one.
     const auto enough = [&](int instants, double speed, double way) {
         while (instants < mostInstantsForSpeed && tickSeconds_ * speed > instants * way) instants *= 2;
@@ -234,6 +242,7 @@ void ContactStage::takeMasses() {
                 moves ? 1.0 / plan.points[static_cast<std::size_t>(own)].mass : 0.0;
         }
     }
+    if (!solids_.empty()) takeSolids();
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         const int surface = static_cast<int>(s);
         const bool isAsleep = bodies_[s]->island->isAsleep();
@@ -243,6 +252,80 @@ void ContactStage::takeMasses() {
     }
 }
 
+// A free point of a solid weighs what all of the solid does. A held one is so heavy that the solid turns about it.
+void ContactStage::takeSolids() {
+    constexpr double heldOver = 1e9;
+    std::vector<contact::Solid> solids;
+    for (const SolidPart& part : solids_) {
+        contact::Solid& solid = solids.emplace_back();
+        solid.points = part.points;
+        double mass = 0;
+        for (int i : part.points)
+            if (const double inverse = inverseMass_[static_cast<std::size_t>(i)]; inverse > 0) mass += 1.0 / inverse;
+        solid.moves = mass > 0;
+        for (int i : part.points) {
+            double& inverse = inverseMass_[static_cast<std::size_t>(i)];
+            solid.masses.push_back(inverse > 0 ? 1.0 / inverse : heldOver * mass);
+            if (inverse > 0) inverse = 1.0 / mass;
+        }
+    }
+    group_->setSolids(std::move(solids));
+}
+
+// Calls each(point, spec, surface) for the points of solids that are, or might be `seconds` [s] later, in contact with
+// a collider, where they and it are now.
+template <class Each>
+void ContactStage::forEachNearSolid(double seconds, const Each& each) const {
+    constexpr double nearShare = 0.05;  // of the thickness
+    std::vector<collision::Colliders::Surface> found;
+    for (const SolidPart& solid : solids_) {
+        const Island& island = *parts_[solid.part].island;
+        const BodySpec& spec = *bodies_[static_cast<std::size_t>(solid.surface)]->spec;
+        if (!spec.collide || island.isStill()) continue;
+        for (int i : elements().surface(solid.surface).points) {
+            const auto k = static_cast<std::size_t>(i);
+            const double way = seconds * std::sqrt(glm::dot(v_[k], v_[k]));
+            found.clear();
+            island.colliders().findNear(x1_[k], (1.0 + nearShare) * spec.thickness + way, island.step(), found);
+            for (const auto& surface : found) each(i, spec, surface);
+        }
+    }
+}
+
+// The contacts of solids with colliders at the end of an instant h [s] long -> kinematic_.
+void ContactStage::addSolidContacts(double h) {
+    forEachNearSolid(
+        0.0,
+        [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
+            const auto k = static_cast<std::size_t>(i);
+            contact::KinematicContact& contact = kinematic_.emplace_back();
+            contact.point = i;
+            contact.normal = surface.away;
+            contact.carried = surface.velocity;
+            contact.speed = glm::dot(surface.away, surface.velocity);
+            contact.friction = surface.material.friction * spec.friction;
+            contact.thickness = spec.thickness;
+            contact.restitution = surface.material.restitution;
+            // Where it came from, so that what it goes in this instant is no overlap.
+            contact.gap =
+                surface.distance - spec.thickness - glm::dot(surface.away, x1_[k] - x0_[k]) + h * contact.speed;
+        });
+    std::stable_sort(kinematic_.begin(), kinematic_.end(),
+                     [](const auto& a, const auto& b) { return a.point < b.point; });
+}
+
+// Solids turn and roll, and meet colliders, in no fewer instants than bodies that press each other.
+void ContactStage::foreseeSolids(contact::Forecast& forecast) const {
+    forecast.isInContact = forecast.isInContact ||
+                           std::any_of(solids_.begin(), solids_.end(),
+                                       [&](const SolidPart& solid) { return !parts_[solid.part].island->isStill(); });
+    forEachNearSolid(tickSeconds_, [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
+        const dvec3 velocity = v_[static_cast<std::size_t>(i)] - surface.velocity;
+        forecast.closing = std::max(forecast.closing, -glm::dot(surface.away, velocity));
+        forecast.leastThickness = std::min(forecast.leastThickness, spec.thickness);
+    });
+}
+
 // Updates damage, masses, colliders and places.
 void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotion> moving) {
     for (Island* island : islands_) {
@@ -250,6 +333,11 @@ void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotio
         island->beginTick(time);
     }
     areCrossingsKnown_ = false;
+    weight_ = 0;
+    for (const Island* island : islands_) {
+        const dvec3 gravity = island->dynamics().gravity(time.start());
+        weight_ = std::max(weight_, std::sqrt(glm::dot(gravity, gravity)));
+    }
     takeDamage();
     takeMasses();
     hasJumped_ = colliders_.move(moving, time.end(), tickSeconds_, group_->elements(), v_) || hasJumped_;
@@ -417,7 +505,8 @@ bool ContactStage::crosses(const Island& island) const {
 }
 
 bool ContactStage::anySleeps() const {
-    return std::any_of(islands_.begin(), islands_.end(), [](const Island* island) { return island->isAsleep(); });
+    return std::any_of(
+        islands_.begin(), islands_.end(), [](const Island* island) { return island->isAsleep(); });
 }
 
 bool ContactStage::movesAny() const {
@@ -432,8 +521,9 @@ int ContactStage::instantsToFollow() const {
     return wanted < most ? static_cast<int>(wanted) : most;
 }
 
-// Whether an instant was too long for its result: in a trial any impulse, else a shift that works against stiff springs,
-// or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the same.
+// Whether an instant was too long for its result: in a trial any impulse, else a shift that works against stiff
+// springs, or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the
+// same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
     if ((isTrial && result_.impulses > 0) || instants_ < instantsToFollow()) return true;
@@ -495,10 +585,11 @@ double ContactStage::turnOf(const Part& part, double h) const {
 void ContactStage::resolveInstant(double h) {
     kinematic_.clear();
     for (const Part& part : parts_)
-        for (const collision::Contact& c : part.island->isStill() ? std::span<const collision::Contact>{}
-                                                                  : part.island->contacts())
+        for (const collision::Contact& c :
+             part.island->isStill() ? std::span<const collision::Contact>{} : part.island->contacts())
             kinematic_.push_back(
                 {part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
+    if (!solids_.empty()) addSolidContacts(h);
     contact::Instant instant;
     instant.h = h;
     instant.x0 = x0_;
@@ -506,6 +597,7 @@ void ContactStage::resolveInstant(double h) {
     instant.v = v_;
     instant.inverseMass = inverseMass_;
     instant.kinematic = kinematic_;
+    instant.restSpeed = 2.0 * weight_ * h;  // as with colliders
     // Islands place the points that contact moved and return where these came to be.
     instant.place = [&](std::span<const int> points) {
         std::vector<int> own;

@@ -5,7 +5,8 @@
     KIND(clothKind)       \
     KIND(ropeKind)        \
     KIND(blockKind)       \
-    KIND(netKind)
+    KIND(netKind)         \
+    KIND(solidKind)
 #define TAUT_JOINTS(KIND) \
     KIND(weldKind)        \
     KIND(springKind)      \

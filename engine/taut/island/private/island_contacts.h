@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "taut/collision/colliders.h"
-#include "taut/mechanics/mass_spring_system.h"
-#include "taut/ode/method.h"
 #include "taut/bodies/joints/constraint.h"
+#include "taut/collision/colliders.h"
 #include "taut/island/private/contact_watch.h"
 #include "taut/island/private/planar.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/ode/method.h"
 
 namespace taut::world {
 
@@ -176,7 +176,8 @@ class IslandContacts {
         colliding_.clear();
         const Real* inverseMass = inverseMasses();
         for (const Body* body : plan_.bodies) {
-            if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
+            // What is rigid meets colliders as a whole, in contact with other bodies.
+            if (!body->spec->collide || body->spec->isRigid() || body->lastPoint == body->firstPoint) continue;
             collision::MovingPoints<Real>& points = colliding_.emplace_back();
             points.first = body->firstPoint;
             points.last = body->lastPoint;

@@ -33,8 +33,8 @@
 #include "taut/contact/contact_group.h"
 #include "taut/island/private/island.h"
 #include "taut/spec/spec.h"
-#include "taut/world/private/collider_surfaces.h"
 #include "taut/world/contact_info.h"
+#include "taut/world/private/collider_surfaces.h"
 
 namespace taut::world {
 
@@ -84,10 +84,10 @@ class ContactStage {
     int instants() const { return instants_; }
     const contact::InstantResult& result() const { return result_; }
     ContactInfo info() const;
-    std::vector<int> squeezed() const;  // points of the group that were squeezed in its last instant
-    std::vector<contact::ContactPoint> contacts() const;         // at its end
+    std::vector<int> squeezed() const;                    // points of the group that were squeezed in its last instant
+    std::vector<contact::ContactPoint> contacts() const;  // at its end
     std::span<const contact::Crossing> crossingsBefore() const;  // at its start
-    bool hadImpulse() const { return hadImpulse_; }        // whether any pair had an impulse, in any tick
+    bool hadImpulse() const { return hadImpulse_; }              // whether any pair had an impulse, in any tick
     const std::vector<contact::Crossing>& crossings();           // at present
     dvec3 position(int point) const {
         return x1_[static_cast<std::size_t>(point)];
@@ -103,7 +103,8 @@ class ContactStage {
     // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
     // rigid collider sticks out of a face, which is no crossing.
     std::optional<std::pair<int, int>> sidesOf(const contact::Crossing& crossing) const;
-    double depthOf(const contact::Crossing& crossing) const;  // [m] of the edge's closer end behind the triangle's plane
+    double depthOf(
+        const contact::Crossing& crossing) const;  // [m] of the edge's closer end behind the triangle's plane
     // How far colliders stick out of triangles of wanted bodies, between two ticks: edges of rigid ones as
     // penetrationOf() measures it, and figures as depthOf() does.
     struct Penetration {
@@ -121,6 +122,11 @@ class ContactStage {
     void beginTick(const TickTime& time, std::span<const ColliderMotion> moving);
     void takeDamage();
     void takeMasses();
+    void takeSolids();
+    void addSolidContacts(double h);
+    void foreseeSolids(contact::Forecast& forecast) const;
+    template <class Each>
+    void forEachNearSolid(double seconds, const Each& each) const;
     void wake(const TickTime& time, std::span<const std::int64_t> companies);
     void wakeCrossed(const TickTime& time);
     void addReached(int surfaceA, int surfaceB);
@@ -151,6 +157,12 @@ class ContactStage {
     std::vector<Island*> islands_;
     std::vector<Part> parts_;          // (islands)
     std::vector<const Body*> bodies_;  // (surfaces)
+    struct SolidPart {
+        std::size_t part;
+        int surface;
+        std::vector<int> points;  // of the group, ascending
+    };
+    std::vector<SolidPart> solids_;
     std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements
     ColliderSurfaces colliders_;
     std::unique_ptr<contact::ContactGroup> group_;
@@ -158,10 +170,10 @@ class ContactStage {
     bool hadImpulse_ = false;
     bool areCrossingsKnown_ = false;
     std::vector<contact::Crossing> crossings_;
-    std::vector<dvec3> x0_, x1_, v_;   // (points)
+    std::vector<dvec3> x0_, x1_, v_;        // (points)
     std::vector<dvec3> xBefore_, vBefore_;  // (points) before the last instant of contact
     double turn_ = 0;                       // [rad] largest turnOf() in the last instant
-    std::vector<double> inverseMass_;  // (points)
+    std::vector<double> inverseMass_;       // (points)
     std::vector<contact::KinematicContact> kinematic_;
     // What contact did with a point in a tick, summed over pairs and instants.
     struct Press {
@@ -171,6 +183,7 @@ class ContactStage {
     std::vector<Press> presses_;                                     // (points) empty: nobody asked
     std::vector<std::pair<const Island*, const Island*>> pressing_;  // likewise
     std::vector<std::int64_t> reached_;                              // companies, in this try
+    double weight_ = 0;  // [m/s²] largest acceleration by uniform fields, at the start of the tick
     int instants_ = 0;
     int room_ = 1;  // instants for which the substeps of this tick have room
     contact::InstantResult result_;

@@ -1,0 +1,34 @@
+// A rigid body.
+#pragma once
+
+#include "taut/spec/body_spec.h"
+#include "taut/spec/specs.h"
+
+namespace taut::world {
+
+// Sharp edges are rounded by the thickness as it touches: what is drawn is what others keep from.
+struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
+    static constexpr const char* kindName = "solid";
+    std::string shape = "box";   // box, sphere, capsule, mesh
+    dvec3 size{0.5, 0.5, 0.5};   // [m] of a box
+    double radius = 0.25;        // [m]
+    double height = 0.5;         // [m] of a capsule, between the centres of its half spheres
+    double scale = 1.0;          // of a mesh
+    dvec3 position{0.0};         // [m] of its origin
+    dvec3 rotation{0.0};         // [rad]
+    double density = 500.0;      // [kg/m³]
+    std::optional<double> mass;  // [kg]; none: by its density
+    double drag = 0.0;           // [1/s]
+    double edge = 0.0;           // [m] rounding of a drawn box's edges
+
+    SolidSpec() { touch = Touch::others, thickness = 0.002; }
+    bool isRound() const { return shape == "sphere" || shape == "capsule"; }
+    static fields::Section section();
+    mechanics::Model build(const SceneSpec& scene) const override;
+    void constrain(IslandPlan& plan, const Body& body) const override;
+    bool isRigid() const override { return true; }
+    std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
+    const MeshSource* meshSource() const override { return this; }
+};
+
+}  // namespace taut::world

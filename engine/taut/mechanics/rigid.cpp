@@ -1,0 +1,181 @@
+#include "taut/mechanics/rigid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include "taut/core/error.h"
+#include "taut/core/private/rigid_motion.h"
+
+namespace taut::mechanics {
+namespace {
+
+// Share of the mass at points that touch: the more, the less spread is left for the inner ones, which needs to be some.
+constexpr double touchingShare = 0.05;
+
+dmat3 outer(const dvec3& a, const dvec3& b) {
+    return glm::outerProduct(a, b);
+}
+
+// L of S = L Lᵀ, lower. Returns whether S is positive definite.
+bool factor(const dmat3& s, dmat3& l) {
+    l = dmat3(0.0);
+    for (int j = 0; j < 3; ++j)
+        for (int i = j; i < 3; ++i) {
+            double sum = s[j][i];
+            for (int k = 0; k < j; ++k) sum -= l[k][i] * l[k][j];
+            if (i == j && !(sum > 1e-12 * s[j][j])) return false;
+            l[j][i] = i == j ? std::sqrt(sum) : sum / l[j][j];
+        }
+    return true;
+}
+
+dmat3 turnedBy(const dvec3& angle) {
+    const double w = 1.0 / std::sqrt(1.0 + 0.25 * glm::dot(angle, angle));
+    const dvec3 q = (0.5 * w) * angle;
+    const dmat3 across(0, q.z, -q.y, -q.z, 0, q.x, q.y, -q.x, 0);
+    return dmat3(1.0) + 2.0 * (w * across + across * across);
+}
+
+dvec3 centreOf(std::span<const double> masses, std::span<const dvec3> x, double& mass) {
+    dvec3 sum(0.0);
+    mass = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        sum += masses[i] * x[i];
+        mass += masses[i];
+    }
+    return sum / mass;
+}
+
+}  // namespace
+
+// Tetrahedra from one corner: ∫ x xᵀ of one is det / 120 (a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a + b + c.
+MassProperties massPropertiesOf(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles) {
+    MassProperties all;
+    const dvec3 origin = positions[0];
+    dmat3 spread(0.0);
+    dvec3 moment(0.0);
+    for (const std::array<int, 3>& t : triangles) {
+        const dvec3 a = positions[static_cast<std::size_t>(t[0])] - origin;
+        const dvec3 b = positions[static_cast<std::size_t>(t[1])] - origin;
+        const dvec3 c = positions[static_cast<std::size_t>(t[2])] - origin;
+        const dvec3 s = a + b + c;
+        const double det = glm::dot(a, glm::cross(b, c));
+        all.volume += det / 6;
+        moment += (det / 24) * s;
+        spread += (det / 120) * (outer(a, a) + outer(b, b) + outer(c, c) + outer(s, s));
+    }
+    if (!(all.volume > 0)) return all;
+    const dvec3 centre = moment / all.volume;
+    all.centre = origin + centre;
+    all.spread = spread - all.volume * outer(centre, centre);
+    return all;
+}
+
+MassProperties massPropertiesOfBall(double radius) {
+    return massPropertiesOfCapsule(radius, 0.0);
+}
+
+// A cylinder and two half balls, each of which has 3/8 r between its middle and its centre of mass.
+MassProperties massPropertiesOfCapsule(double radius, double height) {
+    const double square = radius * radius, cylinder = glm::pi<double>() * square * height;
+    const double ball = 4.0 / 3.0 * glm::pi<double>() * square * radius, h = 0.5 * height;
+    const double across = cylinder * square / 4 + ball * square / 5;
+    const double along = cylinder * h * h / 3 + ball * (square / 5 + h * h + 0.75 * h * radius);
+    return {cylinder + ball, dvec3(0.0), dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
+}
+
+Model buildRigid(const RigidShape& shape) {
+    const std::size_t count = shape.positions.size();
+    const double density = shape.mass / shape.properties.volume;
+    const dvec3& centre = shape.properties.centre;
+    // What the inner points have to make up for: the touching ones draw centre and spread towards them.
+    dmat3 axes(0.0);
+    dvec3 innerCentre(0.0);
+    double share = touchingShare;
+    for (;; share *= 0.5) {
+        TAUT_EXPECTS(share > 1e-9);
+        const double each = share * shape.mass / static_cast<double>(count);
+        dvec3 moment(0.0);
+        dmat3 spread = density * shape.properties.spread;
+        for (const dvec3& x : shape.positions) {
+            moment += each * (x - centre);
+            spread -= each * outer(x - centre, x - centre);
+        }
+        const double inner = (1.0 - share) * shape.mass;
+        innerCentre = -moment / inner;
+        spread -= inner * outer(innerCentre, innerCentre);
+        if (factor(spread * (3.0 / inner), axes)) break;
+    }
+
+    Model model;
+    const auto add = [&](const dvec3& x, double mass) {
+        model.positions.push_back(shape.place + shape.axes * x);
+        model.masses.push_back(mass);
+    };
+    for (int i = 0; i < innerPoints; ++i) {
+        const dvec3 arm = (i % 2 == 0 ? 1.0 : -1.0) * axes[i / 2];
+        add(centre + innerCentre + arm, (1.0 - share) * shape.mass / innerPoints);
+    }
+    for (const dvec3& x : shape.positions) add(x, share * shape.mass / static_cast<double>(count));
+    const std::size_t all = model.positions.size();
+    model.velocities.assign(all, dvec3(0.0));
+    model.dragRates.assign(all, shape.dragRate);
+    model.held.assign(all, false);
+    model.uv.assign(all, glm::dvec2(0.0));
+    for (std::array<int, 3> t : shape.triangles) {
+        for (int& i : t) i += innerPoints;
+        model.triangles.push_back(t);
+    }
+    for (const std::array<int, 2>& line : shape.lines)
+        model.springs.push_back({.a = line[0] + innerPoints,
+                                 .b = line[1] + innerPoints,
+                                 .restLength = glm::length(shape.positions[static_cast<std::size_t>(line[1])] -
+                                                           shape.positions[static_cast<std::size_t>(line[0])])});
+    for (int i = 0; i < model.pointCount(); ++i) model.groups["all"].push_back(i);
+    for (int i = 0; i < innerPoints; ++i) model.groups["inner"].push_back(i);
+    model.innerPoints = innerPoints;
+    return model;
+}
+
+dmat3 rotationBetween(const std::array<dvec3, 3>& rest, const std::array<dvec3, 3>& now) {
+    const auto triad = [](const std::array<dvec3, 3>& p) {
+        const dvec3 u = glm::normalize(p[1] - p[0]), w = glm::normalize(glm::cross(u, p[2] - p[0]));
+        return dmat3(u, glm::cross(w, u), w);
+    };
+    return triad(now) * glm::transpose(triad(rest));
+}
+
+void placeRigidly(std::span<const double> masses, std::span<const dvec3> rest, std::span<const dvec3> from,
+                  std::span<dvec3> x) {
+    constexpr int mostRounds = 30;
+    constexpr double settled = 1e-15;  // [rad]
+    double mass = 0;
+    const dvec3 restCentre = centreOf(masses, rest, mass), oldCentre = centreOf(masses, from, mass);
+    const dvec3 centre = centreOf(masses, std::span<const dvec3>(x), mass);
+    // b(Q) = Σ m from × Q rest has to become b0 = Σ m from × x. Newton's method over rotations.
+    dmat3 mixed(0.0);  // Σ m rest fromᵀ
+    dvec3 wanted(0.0);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const dvec3 old = from[i] - oldCentre;
+        mixed += outer(masses[i] * (rest[i] - restCentre), old);
+        wanted += masses[i] * glm::cross(old, x[i] - centre);
+    }
+    dmat3 turn = rotationBetween({rest[0], rest[2], rest[4]}, {x[0], x[2], x[4]});
+    for (int round = 0; round < mostRounds; ++round) {
+        const dmat3 b = turn * mixed;  // b[j][i] = Σ m (Q rest)_i from_j
+        const dvec3 now(b[2][1] - b[1][2], b[0][2] - b[2][0], b[1][0] - b[0][1]);
+        const dvec3 angle = glm::inverse(core::inertiaOf(b)) * (wanted + now);
+        turn = turnedBy(angle) * turn;
+        if (glm::dot(angle, angle) < settled * settled) break;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = centre + turn * (rest[i] - restCentre);
+}
+
+void moveRigidly(std::span<const double> masses, std::span<const dvec3> x, std::span<dvec3> v) {
+    const core::RigidMotion motion = core::rigidMotionOf(masses, x, v);
+    for (std::size_t i = 0; i < x.size(); ++i) v[i] = motion.velocityAt(x[i]);
+}
+
+}  // namespace taut::mechanics

@@ -1,0 +1,58 @@
+// A rigid body made of point masses: its mass properties, the model that has them, and the places and velocities of a
+// rigid motion that keep the momenta of free points.
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <span>
+#include <vector>
+
+#include "taut/mechanics/model.h"
+
+namespace taut::mechanics {
+
+using glm::dmat3;
+using glm::dvec3;
+
+// Of a body of density 1.
+struct MassProperties {
+    double volume = 0;  // [m³]
+    dvec3 centre{0.0};  // [m] of mass
+    dmat3 spread{0.0};  // [m⁵] ∫ r rᵀ dV about the centre
+};
+// Exact for a closed polyhedron with outward triangles; volume <= 0 if they face inward.
+MassProperties massPropertiesOf(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles);
+MassProperties massPropertiesOfBall(double radius);
+// Axis y; `height` between the centres of its half balls.
+MassProperties massPropertiesOfCapsule(double radius, double height);
+
+struct RigidShape {
+    std::vector<dvec3> positions;  // [m] of what touches, in the body's own axes
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<std::array<int, 2>> lines;  // a capsule's
+    MassProperties properties;
+    double mass = 1;      // [kg]
+    dmat3 axes{1.0};      // columns: the body's axes in the scene
+    dvec3 place{0.0};     // [m] of its origin
+    double dragRate = 0;  // [1/s]
+};
+// The points of a rigid model come after six inner ones that touch nothing: they have nearly all of the mass, stand in
+// pairs on both sides of the centre, and make mass, centre and inertia those of the body.
+inline constexpr int innerPoints = 6;
+// Expects positions that are not all far outside of the body.
+Model buildRigid(const RigidShape& shape);
+
+// The rotation, as orthonormal columns, in which three points with places `now` stand that have places `rest` in the
+// body's axes, nearly.
+dmat3 rotationBetween(const std::array<dvec3, 3>& rest, const std::array<dvec3, 3>& now);
+
+// Moves x to the rigid placement of `rest` that has the same sums of m x and of m from × x: so what held the points
+// together added no momentum (Σ m Δ = 0) and no angular momentum (Σ m from × Δ = 0). After a step of leap-frog this is
+// the discrete rigid body of Moser and Veselov 1991, which is symplectic and keeps angular momentum; McLachlan and
+// Zanna 2005 show that it is SHAKE for any set of points. All arrays (points).
+void placeRigidly(std::span<const double> masses, std::span<const dvec3> rest, std::span<const dvec3> from,
+                  std::span<dvec3> x);
+// Makes v [m/s] the velocities of a rigid motion with the same momentum and angular momentum.
+void moveRigidly(std::span<const double> masses, std::span<const dvec3> x, std::span<dvec3> v);
+
+}  // namespace taut::mechanics

@@ -1,0 +1,187 @@
+// Rigid bodies on slopes, in piles and on cloth, against theory.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/piercings.h"
+#include "taut/bodies/solid.h"
+#include "taut/core/private/rigid_motion.h"
+#include "touching_scenes.h"
+
+namespace taut::test::touching {
+namespace {
+
+using world::SolidSpec;
+using world::World;
+
+SolidSpec ball(const std::string& name, const dvec3& position, double radius = 0.1) {
+    SolidSpec spec;
+    spec.name = name;
+    spec.shape = "sphere";
+    spec.radius = spec.thickness = radius;
+    spec.position = position;
+    return spec;
+}
+
+SolidSpec box(const std::string& name, const dvec3& position, const dvec3& size) {
+    SolidSpec spec;
+    spec.name = name;
+    spec.size = size;
+    spec.position = position;
+    return spec;
+}
+
+core::RigidMotion motionOf(World& world, const std::string& name) {
+    const world::PointsNow points = world.points(name);
+    return core::rigidMotionOf(points.mass, points.x, points.v);
+}
+
+// A plane through the origin that goes down towards x.
+world::ColliderSpec slope(double angle, double friction) {
+    world::ColliderSpec plane = ground(0.0, friction);
+    plane.normal = {std::sin(angle), std::cos(angle), 0.0};
+    return plane;
+}
+
+void advanceBy(World& world, double seconds) {
+    for (int i = static_cast<int>(std::lround(seconds / world.tickSeconds())); i > 0; --i)
+        ASSERT_FALSE(world.advance());
+}
+
+// It rolls at 5/7 g sin θ where friction is at least 2/7 tan θ, and slides at g (sin θ - μ cos θ) where it is less.
+TEST(SolidBall, RollsAndSlidesDownASlope) {
+    const double angle = 0.35;
+    for (const double friction : {0.3, 0.05}) {
+        world::SceneSpec spec = scene();
+        spec.colliders = {slope(angle, friction)};
+        spec.bodies.add(ball("ball", 0.1 * dvec3(std::sin(angle), std::cos(angle), 0.0)));
+        World world(spec);
+        advanceBy(world, 0.5);
+        const double way =
+            glm::dot(motionOf(world, "solid.ball").centre, dvec3(std::cos(angle), -std::sin(angle), 0.0));
+        const double roll = 5.0 / 7.0 * g * std::sin(angle), slide = g * (std::sin(angle) - friction * std::cos(angle));
+        EXPECT_NEAR(way / (0.5 * std::max(roll, slide) * 0.25), 1.0, 0.01) << friction;
+    }
+}
+
+// Thrown along the ground it slows down by μ g, and rolls from 5/7 of its speed on.
+TEST(SolidBall, SlidesAndThenRolls) {
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0, 0.2)};
+    SolidSpec thrown = ball("ball", {0.0, 0.1, 0.0});
+    thrown.velocity = {3.0, 0.0, 0.0};
+    spec.bodies.add(thrown);
+    World world(spec);
+    advanceBy(world, 0.25);
+    EXPECT_NEAR(motionOf(world, "solid.ball").velocity.x, 3.0 - 0.2 * g * 0.25, 1e-3);
+    advanceBy(world, 1.75);
+    const core::RigidMotion end = motionOf(world, "solid.ball");
+    EXPECT_NEAR(end.velocity.x / (3.0 * 5 / 7), 1.0, 1e-3);
+    EXPECT_NEAR(-0.1 * end.spin.z / end.velocity.x, 1.0, 1e-3);
+    EXPECT_NEAR(end.centre.y, 0.1, 1e-5);
+}
+
+// A brick with edges rounded by r tips over where tan θ is above (b/2 - r) / (h/2).
+TEST(SolidBox, TipsOverAtItsAngle) {
+    for (const double beside : {-0.005, 0.005}) {  // [rad]
+        SolidSpec brick = box("brick", dvec3(0.0), {0.1, 0.2, 0.1});
+        brick.thickness = 0.001;
+        const double angle = std::atan((0.05 - 0.001) / 0.1) + beside;
+        brick.position = 0.1 * dvec3(std::sin(angle), std::cos(angle), 0.0);
+        brick.rotation.z = -angle;
+        world::SceneSpec spec = scene();
+        spec.colliders = {slope(angle, 2.0)};
+        spec.bodies.add(brick);
+        World world(spec);
+        advanceBy(world, 1.5);
+        const double height = glm::dot(motionOf(world, "solid.brick").centre, spec.colliders[0].normal);
+        EXPECT_NEAR(height, beside < 0 ? 0.1 : 0.05, 0.002);
+    }
+}
+
+// What comes in leaves at the other end: a row of five that touch, without loss.
+TEST(SolidBall, PassesItsMomentumOnThroughARow) {
+    world::SceneSpec spec = scene();
+    spec.world.gravity = dvec3(0.0);
+    spec.contact.restitution = 1.0;
+    SolidSpec first = ball("0", {-0.3, 0.0, 0.0});
+    first.velocity = {2.0, 0.0, 0.0};
+    spec.bodies.add(first);
+    for (int i = 1; i < 5; ++i) spec.bodies.add(ball(std::to_string(i), {0.2 * i, 0.0, 0.0}));
+    World world(spec);
+    advanceBy(world, 0.5);
+    for (int i = 0; i < 4; ++i)
+        EXPECT_LT(glm::length(motionOf(world, "solid." + std::to_string(i)).velocity), 1e-9) << i;
+    EXPECT_NEAR(motionOf(world, "solid.4").velocity.x, 2.0, 1e-9);
+}
+
+// A ball and a box fall on a free cloth in free space: nothing is lost of both momenta, nothing crosses.
+TEST(Solid, KeepsMomentaWithACloth) {
+    world::SceneSpec spec = scene(0.5);
+    spec.world.gravity = dvec3(0.0);
+    spec.bodies.add(sheet("cloth", {-0.2, 0.0, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 10));
+    SolidSpec thrown = ball("ball", {0.05, 0.15, 0.02}, 0.05);
+    thrown.velocity = {0.3, -1.5, 0.0};
+    thrown.spin = {0.0, 0.0, 10.0};
+    SolidSpec crate = box("crate", {-0.05, -0.15, -0.03}, dvec3(0.08));
+    crate.rotation = {0.3, 0.2, 0.5};
+    crate.velocity = {0.0, 1.5, 0.1};
+    spec.bodies.add(thrown);
+    spec.bodies.add(crate);
+    World world(spec);
+    const PiercingWitness witness(spec, {"cloth.cloth", "solid.crate"});
+    const auto momenta = [&] {
+        dvec3 sum(0.0), turning(0.0);
+        for (const char* name : {"cloth.cloth", "solid.ball", "solid.crate"}) {
+            const world::PointsNow points = world.points(name);
+            for (std::size_t i = 0; i < points.x.size(); ++i) {
+                sum += points.mass[i] * points.v[i];
+                turning += points.mass[i] * glm::cross(points.x[i], points.v[i]);
+            }
+        }
+        return std::pair{sum, turning};
+    };
+    const auto start = momenta();
+    for (int i = 0; i < 40; ++i) {
+        ASSERT_FALSE(world.advance());
+        ASSERT_EQ(witness.count(world), 0) << i;
+    }
+    const auto end = momenta();
+    const double size = 0.26 * 1.5;                             // [N s] of the ball
+    EXPECT_GT(motionOf(world, "solid.ball").velocity.y, -1.3);  // they have met
+    EXPECT_LT(glm::length(end.first - start.first) / size, 1e-9);  // rounding of springs: 4e-12 a tick
+    // Friction acts on points of the cloth, half a thickness off where it acts on the solids.
+    EXPECT_LT(glm::length(end.second - start.second) / (size * 0.1), 0.02);
+}
+
+// A plate that two of its corners hold swings as a physical pendulum, T = 2π √(I / m g d).
+TEST(SolidBox, SwingsAboutHeldPoints) {
+    SolidSpec plate = box("plate", dvec3(0.0), {0.3, 0.4, 0.2});
+    plate.thickness = 0.01;
+    plate.collide = false;
+    plate.touch = world::Touch::nothing;
+    plate.hold = {"#8", "#12"};  // the upper corners at the left
+    plate.rotation.z = 0.02 - std::atan2(0.14, 0.19);
+    world::SceneSpec spec = exactScene(1.0 / 600);
+    spec.bodies.add(plate);
+    World world(spec);
+    const std::vector<dvec3> start = world.points("solid.plate").x;
+    const dvec3 axis = 0.5 * (start[8] + start[12]);
+    const double mass = 500 * 0.3 * 0.4 * 0.2, arm = std::hypot(0.14, 0.19);
+    const double period =
+        2 * 3.14159265358979 * std::sqrt((mass * (0.09 + 0.16) / 12 + mass * arm * arm) / (mass * g * arm));
+    std::vector<double> turns;
+    double before = 0;
+    for (int i = 0; i < 2400; ++i) {
+        ASSERT_FALSE(world.advance());
+        const double now = motionOf(world, "solid.plate").centre.x - axis.x;
+        if (i > 0 && before < 0 && now >= 0) turns.push_back((i + before / (before - now)) / 600);
+        before = now;
+    }
+    ASSERT_GE(turns.size(), 3U);
+    EXPECT_NEAR((turns.back() - turns.front()) / static_cast<double>(turns.size() - 1) / period, 1.0, 1e-3);
+    EXPECT_EQ(world.points("solid.plate").x[8], start[8]);
+}
+
+}  // namespace
+}  // namespace taut::test::touching

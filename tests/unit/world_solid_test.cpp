@@ -1,0 +1,132 @@
+// Rigid bodies in a world: what else a body does besides moving (tests/physics/solid_test.cpp).
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "scene_support.h"
+#include "support/timelines.h"
+#include "taut/scene/load.h"
+#include "taut/world/world.h"
+
+namespace taut::world {
+namespace {
+
+class Solids : public ::testing::Test {
+  protected:
+    World load(const std::string& text, Options options = {}) {
+        folder_.write("s.toml", "schema = 1\n" + text);
+        return World(scene::loadScene(folder_ / "s.toml", {}).spec, options);
+    }
+    std::string complaint(const std::string& text) {
+        try {
+            load(text);
+        } catch (const core::Error& error) {
+            const std::string what = error.what();
+            return what.substr(what.find("s.toml"));
+        }
+        return "";
+    }
+    scene::AssetFolder folder_;
+};
+
+const char* const heap = R"([contact]
+restitution = 0.3
+[material.linen]
+[cloth.sheet]
+material = "linen"
+cells = [8, 8]
+size = [0.6, 0.6]
+origin = [-0.3, 0.3, -0.3]
+down = [0, 0, 1]
+hold = ["corners"]
+touch = "others"
+[solid.stone]
+shape = "box"
+size = [0.1, 0.15, 0.1]
+rotation_deg = [10, 20, 30]
+position = [0.05, 0.45, 0]
+density_kg_per_m3 = 300
+array = { count = [1, 3, 1], step_y = [0.03, 0.2, 0.02] }
+[solid.pill]
+shape = "capsule"
+radius = 0.04
+height = 0.1
+position = [-0.1, 0.4, 0]
+density_kg_per_m3 = 300
+[collider.ground]
+shape = "plane"
+)";
+
+TEST_F(Solids, GoOnAsTheyWereSavedAndWithAnyNumberOfThreads) {
+    World world = load(heap), threaded = load(heap, {.threads = 3}), other = load(heap);
+    support::run(world, 30);
+    support::run(threaded, 60);
+    other.restore(world.save());
+    support::run(world, 30);
+    support::run(other, 30);
+    EXPECT_EQ(world.stateHash(), other.stateHash());
+    EXPECT_EQ(world.stateHash(), threaded.stateHash());
+    EXPECT_TRUE(world.hasTouched());
+}
+
+// A weld to the corner of a box hangs it up by that corner, below which its middle comes to rest.
+TEST_F(Solids, HangByACornerThatIsWelded) {
+    World world = load(R"([rope.line]
+ends = [[0, 1, 0], [0, 0.5, 0]]
+segments = 5
+mass_kg = 0.05
+stretch_N = 5000
+damping_time_s = 0.01
+hold = ["start"]
+[solid.box]
+shape = "box"
+size = [0.2, 0.1, 0.1]
+density_kg_per_m3 = 200
+drag_per_s = 4
+position = [0.098, 0.452, 0.048]
+[[joint]]
+kind = "weld"
+a = "rope.line@end"
+b = "solid.box@#8"
+)");
+    support::run(world, 360);
+    const PointsNow box = world.points("solid.box");
+    glm::dvec3 centre(0.0);
+    double mass = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+        centre += box.mass[i] * box.x[i];
+        mass += box.mass[i];
+    }
+    centre /= mass;
+    EXPECT_NEAR(glm::distance(box.x[8], world.points("rope.line@end").x[0]), 0.0, 1e-9);
+    EXPECT_NEAR(centre.y, box.x[8].y - glm::length(glm::dvec3(0.098, 0.048, 0.048)), 2e-3);
+}
+
+TEST_F(Solids, AreDrawnWhereTheyAre) {
+    World world = load(
+        "[solid.box]\nshape = \"box\"\nposition = [1, 2, 3]\nrotation_deg = [0, 0, 90]\n"
+        "array = { count = [2, 1, 1], step_x = [2, 0, 0] }\n");
+    const auto surfaces = world.view(false).surfaces;
+    ASSERT_EQ(surfaces.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const glm::mat4& at = surfaces[k].transform;
+        EXPECT_LT(glm::distance(glm::vec3(at[3]), glm::vec3(1.0F + 2.0F * static_cast<float>(k), 2.0F, 3.0F)), 1e-6F);
+        EXPECT_LT(glm::distance(glm::vec3(at[0]), glm::vec3(0.0F, 1.0F, 0.0F)), 1e-6F);
+    }
+}
+
+TEST_F(Solids, WhatCannotBeOneIsRefused) {
+    EXPECT_EQ(complaint("[solid.ball]\nshape = \"sphere\"\nthickness = 0.1\n"),
+              "s.toml:4:13: error: the thickness of a sphere is its radius\n  thickness = 0.1\n              ^ leave "
+              "thickness out");
+    EXPECT_EQ(complaint("[solid.box]\nshape = \"box\"\nsize = [1, 0.2, 1]\nthickness = 0.1\n"),
+              "s.toml:5:13: error: the thickness goes into the box from all sides: it must be less than half of its "
+              "least edge, 0.1 m\n  thickness = 0.1\n              ^");
+    folder_.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+    EXPECT_NE(complaint("[solid.stone]\nshape = \"mesh\"\nmesh = \"open.obj\"\n")
+                  .find("open.obj:5: error: the mesh is not closed, so that it has no inside: 3 edges"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace taut::world

@@ -1,12 +1,12 @@
 #!/bin/sh
-# Builds taut and cuts a film of 20 s with titles from the shipped scenes: out/film/taut.mp4. `film.sh stills` makes the
-# pictures of scenes in the README and that of the fabrics in the manual instead. TAUT_SIZE=1280x720 makes film and
-# pictures smaller.
+# Builds taut and cuts a minute of film with titles from the shipped scenes: out/film/taut.mp4. `film.sh demo` cuts its
+# first 15 s, out/demo/taut.mp4, and keeps the frames of every shot. `film.sh stills` makes the pictures of scenes in the
+# README and that of the fabrics in the manual. TAUT_SIZE=1280x720 makes film and pictures smaller.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 case ${1-film} in
-    film | stills) ;;
-    *) echo "Usage: sh game/film.sh [film | stills]" >&2; exit 2 ;;
+    film | demo | stills) ;;
+    *) echo "Usage: sh game/film.sh [film | demo | stills]" >&2; exit 2 ;;
 esac
 . "$root/game/build.sh"
 taut_build
@@ -26,9 +26,10 @@ if [ "${1-film}" = stills ]; then
     "$taut" render "$root/assets/pictures/fabrics.toml" -o "$out/fabrics.png" --at 2.5 --size 1400x680 --samples 16 \
         -y --quiet
     ffmpeg -v error -y -i "$out/fabrics.png" -q:v 3 "$root/assets/pictures/fabrics.jpg"
-    # Scene and moment, eight of them side by side; the last one as its springs.
+    # Scene and moment, twelve of them side by side; the last one as its springs.
     inputs= n=0
-    for still in bridge:2 cradle:1 curtain:1.5 twist:3.8 jelly:1 poncho:1.2 drape:1.7 drape:1.7:--debug; do
+    for still in bear:4.4 domino:1.75 balloon:1.35 dress:10.9 bridge:2 cradle:1 curtain:1.5 twist:3.8 jelly:1 \
+        poncho:1.2 drape:1.7 drape:1.7:--debug; do
         scene=${still%%:*} rest=${still#*:}
         moment=${rest%%:*} flag=${rest#"$moment"}
         # shellcheck disable=SC2086  # a word or none
@@ -38,23 +39,40 @@ if [ "${1-film}" = stills ]; then
     done
     # shellcheck disable=SC2086  # many words
     ffmpeg -v error -y $inputs -filter_complex \
-        "xstack=inputs=8:layout=0_0|w0_0|w0+w0_0|w0+w0+w0_0|0_h0|w0_h0|w0+w0_h0|w0+w0+w0_h0" -q:v 3 \
+        "xstack=inputs=12:grid=4x3" -q:v 3 \
         "$root/assets/pictures/scenes.jpg"
     echo "Stills: $root/assets/pictures/*-still.jpg, fabrics.jpg, scenes.jpg"
     exit 0
 fi
 
-# At 60 frames a second: scene, first and last frame, title. 1200 frames in all.
-shots='show 10 177 taut: ropes, cloth and soft bodies
-flag 120 239 Wind on every triangle
-laundry 186 305 Cloth on cloth
-dress 12 131 Sewn on who then dances
-twist 216 323 Wrung four turns, and let go
-knot 120 215 A rope through its own loop
-tower 76 189 Soft blocks, stiff and stiffer
+# At 60 frames a second: scene, first and last frame, title. 3600 frames in all, 900 of them up to the line.
+shots='show 10 249 taut: ropes, cloth, soft and rigid bodies
+bear 10 279 A soft body of any mesh
+domino 30 239 Rigid bodies
+balloon 0 179 Air inside
+---
+dress 12 131 Panels are sewn on
+dress 400 639 Who wears them dances
+flag 120 359 Wind on every triangle
+laundry 180 359 Cloth on cloth
+dance 240 449 Wool, as measured
+twist 216 359 Wrung four turns, and let go
+cape 90 269 Held at the neck
+knot 120 275 A rope through its own loop
+tower 76 225 Soft blocks, stiff and stiffer
+jelly 90 239 Down the stairs
+drape 30 209 A tablecloth
+curtain 40 219 A ball through a curtain
 hammock 72 191 A guest in the hammock
-assets/scenarios/torn-banner.toml 66 179 Torn by a storm
-methods 150 269 Ten integrators, one step'
+net 60 209 A net catches a ball
+assets/scenarios/torn-banner.toml 66 215 Torn by a storm
+methods 150 299 Ten integrators, one step'
+if [ "${1-film}" = demo ]; then
+    shots=${shots%%---*}
+    out=$root/out/demo
+    size=${TAUT_SIZE:-1280x720}
+    mkdir -p "$out"
+fi
 
 # Of a picture's height: the size of the letters and how far they are from the edge.
 text="fontfile=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf:fontcolor=white:fontsize=h/22:x=h/16:y=h-h/16-th"
@@ -62,9 +80,13 @@ shade="shadowcolor=black@0.6:shadowx=2:shadowy=2"
 cd "$out"
 inputs= graph= joined= n=0
 while read -r scene first last title; do
+    [ "$title" ] || continue # the line
     echo "Shot $n: $title"
     case $scene in *.toml) scene=$root/$scene ;; esac
-    "$taut" render "$scene" -o "shot-$n.mp4" --frames "$first-$last" --size "$size" -y --quiet </dev/null
+    to="-o shot-$n.mp4"
+    [ "${1-film}" != demo ] || to="-o $n-$scene/frame_######.png --video shot-$n.mp4 --metrics"
+    # shellcheck disable=SC2086  # many words
+    "$taut" render "$scene" $to --frames "$first-$last" --size "$size" -y --quiet </dev/null
     end=$(((last - first + 1) * 100 / 60)) # hundredths of a second
     fade="alpha='min(1,min(t/0.3,($end/100-t)/0.3))'"
     printf '%s' "$title" >"title-$n.txt"
@@ -75,6 +97,7 @@ while read -r scene first last title; do
 done <<END
 $shots
 END
-ffmpeg -v error -y $inputs -filter_complex "$graph${joined}concat=n=$n[v]" -map "[v]" -c:v libx264 -preset slow -crf 18 \
+ffmpeg -v error -y $inputs -filter_complex "$graph${joined}concat=n=$n[v]" -map "[v]" -c:v libx264 -preset fast -crf 18 \
     -pix_fmt yuv420p -movflags +faststart taut.mp4
-echo "Film: $out/taut.mp4"
+[ "${1-film}" != demo ] || echo "Frames: $out/0-show/frame_000010.png and so on"
+echo "Film:   $out/taut.mp4"

@@ -154,6 +154,32 @@ TEST(Solid, KeepsMomentaWithACloth) {
     EXPECT_LT(glm::length(end.second - start.second) / (size * 0.1), 0.02);
 }
 
+// A crate stands on a cloth that is pulled away: as long as the cloth is faster, the crate gains μ g.
+TEST(SolidBox, IsDraggedByAClothThatIsPulledAway) {
+    world::SceneSpec spec = scene();
+    spec.materials["linen"].stretch = 2000.0;  // so that it does not stick and slip
+    spec.colliders = {ground(0.0, 0.2)};
+    world::ColliderSpec bar;
+    bar.name = "bar";
+    bar.shape = "box";
+    bar.size = {0.02, 0.02, 0.4};
+    bar.keys = {{.t = 0.0, .position = {-0.6, 0.02, 0.0}}, {.t = 0.3, .position = {-1.5, 0.02, 0.0}}};
+    spec.colliders.push_back(bar);
+    world::ClothSpec cloth = sheet("cloth", {-0.55, keep / 2, -0.15}, {1.2, 0, 0}, {0, 0, 0.3}, 36);
+    cloth.hold = {"left"};
+    cloth.holdOn = "collider.bar";
+    spec.bodies.add(cloth);
+    SolidSpec crate = box("crate", {-0.1, 0.0, 0.0}, {0.16, 0.12, 0.16});
+    crate.thickness = keep / 2;
+    crate.position.y = keep + 0.06;
+    spec.bodies.add(crate);
+    World world(spec);
+    advanceBy(world, 0.05);
+    const double before = motionOf(world, "solid.crate").velocity.x;
+    advanceBy(world, 0.1);
+    EXPECT_NEAR((before - motionOf(world, "solid.crate").velocity.x) / (spec.contact.friction * g * 0.1), 1.0, 0.05);
+}
+
 // A plate that two of its corners hold swings as a physical pendulum, T = 2π √(I / m g d).
 TEST(SolidBox, SwingsAboutHeldPoints) {
     SolidSpec plate = box("plate", dvec3(0.0), {0.3, 0.4, 0.2});

@@ -11,6 +11,7 @@
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/messages.h"
+#include "game/scene_file.h"
 #include "game/suggestion.h"
 #include "game/usage.h"
 #include "taut/core/whole_file.h"
@@ -59,6 +60,7 @@ int compareWithReality(const RealityFlags& flags) {
         return reality::compare({.rows = flags.rows,
                                  .isLong = flags.isLong,
                                  .cells = flags.cells,
+                                 .assetFolders = loadOptions().assetFolders,
                                  .stop = &interruption.flag(),
                                  .progress = [&](double done, const std::string& doing) { line.show(done, doing); }});
     }();

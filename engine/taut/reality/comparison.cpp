@@ -26,6 +26,7 @@ std::span<const Row> rows() {
         {"R14", "measured fabrics drape over a disc", true, holdDrape},
         {"R15", "strips of measured fabrics droop", false, holdFabrics},
         {"R16", "a clamped disc is blown up", false, holdDisc},
+        {"R17", "a ball is blown up", false, holdBall},
     };
     return all;
 }

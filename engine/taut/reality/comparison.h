@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -74,6 +75,7 @@ struct Settings {
     bool isLong = false;            // the dear ones too; those that `rows` names are always played
     int cells = 0;                  // along the length instead of each row's own; 0: those
     bool draws = true;              // plays what the chart shows besides
+    std::vector<std::filesystem::path> assetFolders{};  // with models
     const std::atomic<bool>* stop = nullptr;
     std::function<void(double done, const std::string& doing)> progress{};
 };

@@ -19,8 +19,9 @@ void holdStanding(Bench& bench);
 void holdLateral(Bench& bench);
 void holdStickSlip(Bench& bench);
 void holdFriction(Bench& bench);
-// A sheet that a pressure blows up.
+// Sheets that a pressure blows up.
 void holdDisc(Bench& bench);
+void holdBall(Bench& bench);
 // In motion.
 void holdStripModes(Bench& bench);
 void holdChainModes(Bench& bench);

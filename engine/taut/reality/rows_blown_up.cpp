@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 
 #include "taut/core/trig.h"
 #include "taut/reality/bench.h"
@@ -12,6 +13,8 @@ namespace {
 
 constexpr double radius = 0.5, stretch = 1000.0;  // [m], [N/m] of an isotropic sheet, whose ν is ⅓
 constexpr double modulus = 4.0 / 3.0 * stretch;   // E h [N/m]
+
+constexpr int ballCells = 8;  // edges of the mesh along an edge of its icosahedron
 
 // A disc as a polygon of its area, clamped on its rim; a lid that is held everywhere closes it. Both lie flat.
 std::string discScene(int cells, double pressure) {
@@ -64,6 +67,41 @@ target = [0, 0, 0]
                        stretch, outline, radius / cells, pressure);
 }
 
+// A ball of triangles with radius 1 m in free space.
+std::string ballScene(double pressure) {
+    return fmt::format(R"(schema = 1
+
+[run]
+fps = 60
+seconds = 4
+
+[world]
+gravity = [0, 0, 0]
+
+[solver]
+precision = "double"
+
+[material.sheet]
+density_kg_per_m2 = 0.2
+stretch_N_per_m = {}
+bend_N_per_m = 0
+drag_per_s = 15
+
+[cloth.ball]
+mesh = "ball.obj"
+material = "sheet"
+
+[filling.air]
+in = ["cloth.ball"]
+pressure_Pa = {}
+
+[camera.main]
+eye = [1, 1.5, 4]
+target = [0, 0, 0]
+)",
+                       stretch, pressure);
+}
+
 }  // namespace
 
 // Hencky (1915): the middle rises by w₀ = 0.64478 a (q a / E h)^⅓ for ν = ⅓, as long as that is much less than a.
@@ -81,6 +119,27 @@ void holdDisc(Bench& bench) {
         for (const glm::dvec3& x : world.positions(world.select("cloth.disc")))
             highest = std::max(highest, std::abs(x.z));
         bench.line(quantity, "Hencky 1915", expected, highest / radius, 0.01, cells);
+    }
+}
+
+// Laplace: p R = 2 T. The tension of springs is 2 k ε for each metre at rest, which is (1 + ε) m long then, so that
+// p R₀ (1 + ε)² = 4 k ε, a quadratic equation.
+void holdBall(Bench& bench) {
+    for (const double load : {0.02, 0.4}) {  // p R₀ / k
+        const double half = 2.0 - load, expected = (half - std::sqrt(half * half - load * load)) / load;
+        world::World world = bench.load("ball", ballScene(load * stretch));
+        const auto radius = [&] {
+            double sum = 0;
+            const std::vector<glm::dvec3> x = world.positions(world.select("cloth.ball"));
+            for (const glm::dvec3& place : x) sum += std::sqrt(glm::dot(place, place));
+            return sum / static_cast<double>(x.size());
+        };
+        const double rest = radius();
+        const std::string quantity = fmt::format("stretch of a ball at pR/k = {}", load);
+        if (bench.settle(world, "cloth.ball", 1.0))
+            bench.line(quantity, "Laplace", expected, radius() / rest - 1.0, 0.01, ballCells);
+        else
+            bench.missing(quantity, "Laplace", expected, 0.01, ballCells, "does not come to rest");
     }
 }
 

@@ -154,6 +154,23 @@ TEST(Solid, KeepsMomentaWithACloth) {
     EXPECT_LT(glm::length(end.second - start.second) / (size * 0.1), 0.02);
 }
 
+// What starts within another comes apart, no faster than crossings do, and neither gains more momentum than the other.
+TEST(SolidBox, ComesOutOfOneThatItStartsIn) {
+    for (const dvec3& offset : {dvec3(0.0), dvec3(0.05, 0.03, 0.02)}) {
+        world::SceneSpec spec = scene();
+        spec.world.gravity = dvec3(0.0);
+        spec.bodies.add(box("one", dvec3(0.0), dvec3(0.2)));
+        spec.bodies.add(box("other", offset, dvec3(0.2)));
+        World world(spec);
+        for (int i = 0; i < 60; ++i) {
+            ASSERT_FALSE(world.advance());
+            const core::RigidMotion one = motionOf(world, "solid.one"), other = motionOf(world, "solid.other");
+            EXPECT_LT(glm::length(one.velocity), 1.0);
+            EXPECT_LT(glm::length(one.velocity + other.velocity), 1e-9);
+        }
+    }
+}
+
 // A crate stands on a cloth that is pulled away: as long as the cloth is faster, the crate gains μ g.
 TEST(SolidBox, IsDraggedByAClothThatIsPulledAway) {
     world::SceneSpec spec = scene();

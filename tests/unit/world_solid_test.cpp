@@ -122,6 +122,9 @@ TEST_F(Solids, WhatCannotBeOneIsRefused) {
     EXPECT_EQ(complaint("[solid.box]\nshape = \"box\"\nsize = [1, 0.2, 1]\nthickness = 0.1\n"),
               "s.toml:5:13: error: the thickness goes into the box from all sides: it must be less than half of its "
               "least edge, 0.1 m\n  thickness = 0.1\n              ^");
+    EXPECT_EQ(complaint("[solid.ball]\nshape = \"sphere\"\nmass_kg = 2\ndensity_kg_per_m3 = 900\n"),
+              "s.toml:4:11: error: a solid has either mass_kg or density_kg_per_m3\n  mass_kg = 2\n            ^ leave "
+              "one out");
     folder_.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
     EXPECT_NE(complaint("[solid.stone]\nshape = \"mesh\"\nmesh = \"open.obj\"\n")
                   .find("open.obj:5: error: the mesh is not closed, so that it has no inside: 3 edges"),

@@ -112,6 +112,9 @@ Section SolidSpec::section() {
             .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& solid = *static_cast<SolidSpec*>(target);
+        if (input.table.find("mass_kg") != nullptr && input.table.find("density_kg_per_m3") != nullptr)
+            input.problems.addError(input.at("mass_kg"), "a solid has either mass_kg or density_kg_per_m3",
+                                    "leave one out");
         if (solid.isRound()) {
             solid.thickness = solid.radius;
             if (input.table.find("thickness") != nullptr)

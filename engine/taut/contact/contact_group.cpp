@@ -309,26 +309,32 @@ std::vector<int> ContactGroup::changeAsSolids(std::span<const dvec3> x, std::spa
         for (int i : solid.points)
             for (const auto& field : {a, b}) before.push_back(field[static_cast<std::size_t>(i)]);
     change();
+    struct Change {
+        const Solid* solid;
+        std::span<dvec3> field;
+        core::RigidMotion motion;
+    };
+    std::vector<Change> all;
     std::vector<int> moved;
     std::vector<dvec3> places, changes;
+    double share = 1;
     for (std::size_t first = 0, s = 0; s < solids_.size(); first += 2 * solids_[s++].points.size()) {
         const Solid& solid = solids_[s];
-        bool isSame = true;
+        const std::size_t count = all.size();
         for (std::size_t part = 0; part < 2; ++part) {
             const std::span<dvec3> field = part == 0 ? a : b;
             places.clear();
             changes.clear();
-            bool changesAny = false;
+            double wanted = 0;
             for (std::size_t n = 0; n < solid.points.size(); ++n) {
                 const auto i = static_cast<std::size_t>(solid.points[n]);
                 dvec3& own = field[i];
                 places.push_back(x[i]);
                 changes.push_back(own - before[first + 2 * n + part]);
-                changesAny = changesAny || changes.back() != dvec3(0.0);
+                wanted = std::max(wanted, glm::dot(changes.back(), changes.back()));
                 own -= changes.back();
             }
-            if (!changesAny || !solid.moves) continue;
-            isSame = false;
+            if (!(wanted > 0) || !solid.moves) continue;
             // A point was moved as if it had the mass of all.
             core::RigidMotion motion = core::rigidMotionOf(solid.masses, places, changes);
             dvec3 moment(0.0);
@@ -338,11 +344,22 @@ std::vector<int> ContactGroup::changeAsSolids(std::span<const dvec3> x, std::spa
                 moment += glm::cross(places[n] - motion.centre, motion.mass * changes[n]);
             }
             motion.spin = motion.inverseInertia * moment;
-            for (std::size_t n = 0; n < places.size(); ++n)
-                field[static_cast<std::size_t>(solid.points[n])] += motion.velocityAt(places[n]);
+            double most = 0;
+            for (const dvec3& place : places) {
+                const dvec3 own = motion.velocityAt(place);
+                most = std::max(most, glm::dot(own, own));
+            }
+            if (most > wanted) share = std::min(share, std::sqrt(wanted / most));
+            all.push_back({&solid, field, motion});
         }
-        if (!isSame) moved.insert(moved.end(), solid.points.begin(), solid.points.end());
+        if (all.size() > count) moved.insert(moved.end(), solid.points.begin(), solid.points.end());
     }
+    // Many points that want the same move their solid once, and as far. All go by one share, which keeps momenta.
+    for (const Change& own : all)
+        for (int i : own.solid->points) {
+            const auto k = static_cast<std::size_t>(i);
+            own.field[k] += share * own.motion.velocityAt(x[k]);
+        }
     return moved;
 }
 

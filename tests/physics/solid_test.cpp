@@ -171,6 +171,44 @@ TEST(SolidBox, ComesOutOfOneThatItStartsIn) {
     }
 }
 
+// A ball is a point that keeps its radius from what it meets, from cords too: it lies on four of them.
+TEST(SolidBall, LiesOnCords) {
+    world::SceneSpec spec = scene();
+    std::vector<std::string> cords;
+    for (const double side : {-0.03, 0.03})
+        for (const bool isAlong : {false, true}) {
+            world::RopeSpec cord;
+            cord.name = std::to_string(cords.size());
+            const double height = isAlong ? 0.0 : -2.0 * keep;
+            cord.start = isAlong ? dvec3(-0.4, height, side) : dvec3(side, height, -0.4);
+            cord.end = isAlong ? dvec3(0.4, height, side) : dvec3(side, height, 0.4);
+            cord.segments = 16;
+            cord.mass = 0.05;
+            cord.hold = {"ends"};
+            cord.thickness = keep / 2;
+            cord.touch = world::Touch::others;
+            spec.bodies.add(cord);
+            cords.push_back("rope." + cord.name);
+        }
+    SolidSpec light = ball("ball", {0.01, 0.1, -0.005}, 0.08);
+    light.density = 100;
+    spec.bodies.add(light);
+    World world(spec);
+    for (int i = 0; i < 90; ++i) {
+        ASSERT_FALSE(world.advance());
+        const dvec3 centre = motionOf(world, "solid.ball").centre;
+        EXPECT_GT(centre.y, 0.0);
+        for (const std::string& name : cords) {
+            const std::vector<dvec3> x = positionsOf(world, name);
+            for (std::size_t k = 1; k < x.size(); ++k) {
+                const dvec3 way = x[k] - x[k - 1], from = centre - x[k - 1];
+                const double share = glm::clamp(glm::dot(from, way) / glm::dot(way, way), 0.0, 1.0);
+                EXPECT_GT(glm::length(from - share * way), 0.08 + 0.95 * keep / 2) << name << ' ' << i;
+            }
+        }
+    }
+}
+
 // A crate stands on a cloth that is pulled away: as long as the cloth is faster, the crate gains μ g.
 TEST(SolidBox, IsDraggedByAClothThatIsPulledAway) {
     world::SceneSpec spec = scene();

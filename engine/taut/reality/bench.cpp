@@ -51,7 +51,8 @@ world::World Bench::load(const std::string& name, const std::string& scene) {
         study_.scenes.emplace_back(name, scene);
     else
         same->second = scene;
-    return world::World(scene::loadSceneText(scene, name + ".toml", {.assetFolders = settings_.assetFolders}).spec, {.threads = 1});
+    return world::World(scene::loadSceneText(scene, name + ".toml", {.assetFolders = settings_.assetFolders}).spec,
+                        {.threads = 1});
 }
 
 void Bench::play(world::World& world, double seconds, const std::function<void()>& look) {

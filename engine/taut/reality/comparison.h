@@ -71,10 +71,10 @@ struct Comparison {
 };
 
 struct Settings {
-    std::vector<std::string> rows;  // none: all
-    bool isLong = false;            // the dear ones too; those that `rows` names are always played
-    int cells = 0;                  // along the length instead of each row's own; 0: those
-    bool draws = true;              // plays what the chart shows besides
+    std::vector<std::string> rows;                      // none: all
+    bool isLong = false;                                // the dear ones too; those that `rows` names are always played
+    int cells = 0;                                      // along the length instead of each row's own; 0: those
+    bool draws = true;                                  // plays what the chart shows besides
     std::vector<std::filesystem::path> assetFolders{};  // with models
     const std::atomic<bool>* stop = nullptr;
     std::function<void(double done, const std::string& doing)> progress{};

@@ -60,10 +60,7 @@ class Thickness {
         for (int z = a.z; z <= b.z; ++z)
             for (int y = a.y; y <= b.y; ++y)
                 for (int i = a.x; i <= b.x; ++i)
-                    visit(static_cast<std::size_t>(i) +
-                          static_cast<std::size_t>(counts_.x) *
-                              (static_cast<std::size_t>(y) +
-                               static_cast<std::size_t>(counts_.y) * static_cast<std::size_t>(z)));
+                    visit(mechanics::indexIn(counts_, {i, y, z}));
     }
 
     double alongTo(std::size_t t, const dvec3& from, const dvec3& way) const {

@@ -12,9 +12,9 @@ namespace taut::contact {
 namespace {
 
 constexpr int mostSlides = 8, mostZones = 12;
-constexpr double apartSpeed = 0.3;      // [m/s] at which crossings come apart
-constexpr int mostSqueezes = 3;         // rounds of letting through
-constexpr double oneSided = 0.5;        // share of impulses that does not cancel
+constexpr double apartSpeed = 0.3;  // [m/s] at which crossings come apart
+constexpr int mostSqueezes = 3;  // rounds of letting through
+constexpr double oneSided = 0.5;  // share of impulses that does not cancel
 constexpr double squeezedShare = 3e-4;  // of the thickness, by which soft pairs of squeezed points yield in an instant
 
 // Sorts, and removes duplicates. Usually there is nothing to do.
@@ -129,7 +129,8 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
     selectActive(instant);
     if (!active_.empty() || !crossings_.empty() || !solids_.empty()) {
         solveActive(instant);
-        if (options_.untangles) changeAsSolids(instant.x0, u_, v_, [&] { untangle(instant); });
+        if (options_.untangles && !crossings_.empty())
+            changeAsSolids(instant.x0, u_, v_, [&] { untangle(instant); });
         handOver(instant, applyVelocities(instant));
     }
 
@@ -215,10 +216,10 @@ void ContactGroup::solveActive(const Instant& instant) {
     result_.sweeps = solver_.sweeps();
 }
 
-// Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw
-// it out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others
-// may go through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster
-// than its softness explains. Returns whether any is, beyond those known.
+// Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw it
+// out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others may go
+// through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster than its
+// softness explains. Returns whether any is, beyond those known.
 bool ContactGroup::findSqueezed(const Instant& instant) {
     struct Pressed {
         dvec3 sum{0.0};   // [N s] of impulses
@@ -234,8 +235,7 @@ bool ContactGroup::findSqueezed(const Instant& instant) {
         if (!(impulse > 0)) continue;
         double inverse = 0;
         for (std::size_t k = 0; k < 4; ++k)
-            inverse +=
-                pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
+            inverse += pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
         const bool yields = pair.softness * inverse * impulse * instant.h > squeezedShare * pair.thickness;
         for (std::size_t k = 0; k < 4; ++k) {
             Pressed& own = pressed[pair.points[k]];

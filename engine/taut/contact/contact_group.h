@@ -18,9 +18,9 @@
 // finds the time of impact).
 //
 // No memory beyond a tick. The solver starts from the impulses of the last instant of the same tick, and a tick's first
-// instant from 0: begin() and rewind() forget them. The broad phase keeps lists from instant to instant, but a list
-// only says what to measure, and never leaves out what matters (broad_phase.h). So the result of a tick depends on its
-// start alone. A restored world that has no lists yet goes on with the same bits.
+// instant from 0: begin() and rewind() forget them. The broad phase keeps lists from instant to instant, but a list only
+// says what to measure, and never leaves out what matters (broad_phase.h). So the result of a tick depends on its start
+// alone. A restored world that has no lists yet goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
 // (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as impact zones

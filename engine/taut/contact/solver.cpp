@@ -495,11 +495,9 @@ int ContactSolver::solveCluster(const Cluster& cluster, const Problem& problem) 
         correctPositions(rows, cluster, problem);
         solveStored(rows, cluster, problem);
     } else {
-        core::parallelFor(
-            2,
-            [&](int which) {
-                which == 0 ? correctPositions(rows, cluster, problem) : solveStored(rows, cluster, problem);
-            });
+        core::parallelFor(2, [&](int which) {
+            which == 0 ? correctPositions(rows, cluster, problem) : solveStored(rows, cluster, problem);
+        });
     }
     return sweeps;
 }

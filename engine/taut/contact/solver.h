@@ -31,8 +31,8 @@
 // A collider that holds a point is one more row, between the point and a velocity that nothing changes. So is each
 // fixed point of a pair: it has a slot of its own, and passes nothing on.
 //
-// Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft:
-// they yield by a hundredth of the velocity that they take, which the position correction makes up for.
+// Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft: they
+// yield by a hundredth of the velocity that they take, which the position correction makes up for.
 //
 // The impulses of the last instant are where the next one starts, as most contacts last longer than an instant. They
 // are forgotten as a tick begins, so that what outlives a tick is the state of the islands alone.
@@ -96,7 +96,7 @@ class ContactSolver {
     std::span<const int> points() const { return touched_; }         // of the pairs, and of their solids, ascending
     std::span<const double> impulses() const { return impulses_; }   // (pairs) [N s] along the normal
     std::span<const dvec3> frictions() const { return frictions_; }  // (pairs) [N s] tangential, on the first side
-    int sweeps() const { return mostSweeps_; }                       // of the cluster that took most
+    int sweeps() const { return mostSweeps_; }                      // of the cluster that took most
     int clusters() const { return static_cast<int>(clusters_.size()); }
 
   private:
@@ -145,8 +145,8 @@ class ContactSolver {
     int root(int point);
 
     // A source is a pair, or after all pairs a contact with a collider.
-    std::vector<Row> rows_;            // cluster by cluster, contacts with colliders after the pairs
-    std::vector<std::uint64_t> keys_;  // (rows) the same for the same contact in every instant
+    std::vector<Row> rows_;                    // cluster by cluster, contacts with colliders after the pairs
+    std::vector<std::uint64_t> keys_;          // (rows) the same for the same contact in every instant
     std::vector<Cluster> clusters_;
     std::vector<int> parent_;          // (points) union-find; -1: in no pair
     std::vector<int> touched_;         // points of pairs, ascending

@@ -75,11 +75,7 @@ class LatticeBuilder {
     }
 
   private:
-    std::size_t indexOf(ivec3 p) const {
-        return static_cast<std::size_t>(p.x) +
-               static_cast<std::size_t>(n_.x + 1) *
-                   (static_cast<std::size_t>(p.y) + static_cast<std::size_t>(n_.y + 1) * static_cast<std::size_t>(p.z));
-    }
+    std::size_t indexOf(ivec3 p) const { return indexIn(n_ + 1, p); }
     int at(ivec3 p) const { return numbers_[indexOf(p)]; }
     // What the cell at a place has at a corner.
     double share(ivec3 cell, ivec3 corner) const {

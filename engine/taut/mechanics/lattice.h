@@ -19,6 +19,13 @@
 
 namespace taut::mechanics {
 
+// The number of a place in a box of so many, x fastest, then y, then z.
+inline std::size_t indexIn(glm::ivec3 counts, glm::ivec3 place) {
+    return static_cast<std::size_t>(place.x) +
+           static_cast<std::size_t>(counts.x) * (static_cast<std::size_t>(place.y) +
+                                                 static_cast<std::size_t>(counts.y) * static_cast<std::size_t>(place.z));
+}
+
 // Corners as those of VolumeCell: corner c is at the far end of axis 0, 1, 2 if bit 0, 1, 2 of c is set.
 struct LatticeCell {
     glm::ivec3 at{0};
@@ -43,12 +50,7 @@ struct Lattice {
     std::vector<int> carriers;       // (cells of the box) the cell that carries what is there; -1: none
     bool isFilledTwice = false;      // parts of the mesh fill the same place
 
-    std::size_t indexOf(glm::ivec3 place) const {
-        return static_cast<std::size_t>(place.x) +
-               static_cast<std::size_t>(counts.x) *
-                   (static_cast<std::size_t>(place.y) +
-                    static_cast<std::size_t>(counts.y) * static_cast<std::size_t>(place.z));
-    }
+    std::size_t indexOf(glm::ivec3 place) const { return indexIn(counts, place); }
     // The cell at a place; -1: none.
     int cellAt(glm::ivec3 place) const;
     // The cell that carries what is at x, counted in cells from the low corner of the box: that in which it is, or the

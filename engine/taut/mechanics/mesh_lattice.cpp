@@ -157,12 +157,7 @@ class Filler {
     }
 
   private:
-    std::size_t indexOf(ivec3 p) const {
-        return static_cast<std::size_t>(p.x) +
-               static_cast<std::size_t>(counts_.x) *
-                   (static_cast<std::size_t>(p.y) +
-                    static_cast<std::size_t>(counts_.y) * static_cast<std::size_t>(p.z));
-    }
+    std::size_t indexOf(ivec3 p) const { return indexIn(counts_, p); }
 
     ivec3 counts_;
     std::array<GaussPoint, 7> nodes_ = gaussPoints();
@@ -291,24 +286,19 @@ void tidy(std::array<double, 8>& shares) {
 // Fills in the numbers of the cells' corners.
 void numberPoints(Lattice& lattice) {
     const ivec3 n = lattice.counts + 1;
-    const auto indexOf = [&](ivec3 p) {
-        return static_cast<std::size_t>(p.x) +
-               static_cast<std::size_t>(n.x) *
-                   (static_cast<std::size_t>(p.y) + static_cast<std::size_t>(n.y) * static_cast<std::size_t>(p.z));
-    };
     std::vector<int> numbers(
         static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z), -1);
     for (const LatticeCell& cell : lattice.cells)
-        for (std::size_t c = 0; c < 8; ++c) numbers[indexOf(cell.at + bitsOf(c))] = 0;
+        for (std::size_t c = 0; c < 8; ++c) numbers[indexIn(n, cell.at + bitsOf(c))] = 0;
     for (int z = 0; z < n.z; ++z)
         for (int y = 0; y < n.y; ++y)
             for (int x = 0; x < n.x; ++x)
-                if (int& number = numbers[indexOf({x, y, z})]; number == 0) {
+                if (int& number = numbers[indexIn(n, {x, y, z})]; number == 0) {
                     number = static_cast<int>(lattice.points.size());
                     lattice.points.emplace_back(x, y, z);
                 }
     for (LatticeCell& cell : lattice.cells)
-        for (std::size_t c = 0; c < 8; ++c) cell.points[c] = numbers[indexOf(cell.at + bitsOf(c))];
+        for (std::size_t c = 0; c < 8; ++c) cell.points[c] = numbers[indexIn(n, cell.at + bitsOf(c))];
 }
 
 struct Box {

@@ -16,14 +16,8 @@ constexpr double modulus = 4.0 / 3.0 * stretch;   // E h [N/m]
 
 constexpr int ballCells = 8;  // edges of the mesh along an edge of its icosahedron
 
-// A disc as a polygon of its area, clamped on its rim; a lid that is held everywhere closes it. Both lie flat.
-std::string discScene(int cells, double pressure) {
-    const int corners = static_cast<int>(std::lround(2 * core::pi * cells));
-    const double angle = 2 * core::pi / corners;
-    const double around = radius * std::sqrt(angle / std::sin(angle));
-    std::string outline;
-    for (int i = 0; i < corners; ++i)
-        outline += fmt::format("[{}, {}], ", around * std::cos(angle * i), around * std::sin(angle * i));
+// A sheet without gravity, with the bodies that it is told of, and a filling in these.
+std::string sheetScene(const std::string& bodies, const std::string& in, double pressure) {
     return fmt::format(R"(schema = 1
 
 [run]
@@ -41,7 +35,27 @@ density_kg_per_m2 = 0.2
 stretch_N_per_m = {}
 bend_N_per_m = 0
 drag_per_s = 15
+{}
+[filling.air]
+in = [{}]
+pressure_Pa = {}
 
+[camera.main]
+eye = [1, 1.5, 4]
+target = [0, 0, 0]
+)",
+                       stretch, bodies, in, pressure);
+}
+
+// A disc as a polygon of its area, clamped on its rim; a lid that is held everywhere closes it. Both lie flat.
+std::string discScene(int cells, double pressure) {
+    const int corners = static_cast<int>(std::lround(2 * core::pi * cells));
+    const double angle = 2 * core::pi / corners;
+    const double around = radius * std::sqrt(angle / std::sin(angle));
+    std::string outline;
+    for (int i = 0; i < corners; ++i)
+        outline += fmt::format("[{}, {}], ", around * std::cos(angle * i), around * std::sin(angle * i));
+    const std::string bodies = fmt::format(R"(
 [cloth.disc]
 material = "sheet"
 outline = [{}]
@@ -55,51 +69,14 @@ hold = ["all"]
 [[joint]]
 a = "cloth.disc@boundary"
 b = "cloth.lid@boundary"
-
-[filling.air]
-in = ["cloth.disc", "cloth.lid"]
-pressure_Pa = {}
-
-[camera.main]
-eye = [1, 0.5, 1.5]
-target = [0, 0, 0]
 )",
-                       stretch, outline, radius / cells, pressure);
+                                           outline, radius / cells);
+    return sheetScene(bodies, "\"cloth.disc\", \"cloth.lid\"", pressure);
 }
 
-// A ball of triangles with radius 1 m in free space.
+// A ball of triangles with a radius of 1 m.
 std::string ballScene(double pressure) {
-    return fmt::format(R"(schema = 1
-
-[run]
-fps = 60
-seconds = 4
-
-[world]
-gravity = [0, 0, 0]
-
-[solver]
-precision = "double"
-
-[material.sheet]
-density_kg_per_m2 = 0.2
-stretch_N_per_m = {}
-bend_N_per_m = 0
-drag_per_s = 15
-
-[cloth.ball]
-mesh = "ball.obj"
-material = "sheet"
-
-[filling.air]
-in = ["cloth.ball"]
-pressure_Pa = {}
-
-[camera.main]
-eye = [1, 1.5, 4]
-target = [0, 0, 0]
-)",
-                       stretch, pressure);
+    return sheetScene("\n[cloth.ball]\nmesh = \"ball.obj\"\nmaterial = \"sheet\"\n", "\"cloth.ball\"", pressure);
 }
 
 }  // namespace

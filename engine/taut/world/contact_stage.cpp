@@ -8,6 +8,7 @@
 #include "taut/bodies/private/bare_faces.h"
 #include "taut/contact/penetration.h"
 #include "taut/core/private/parallel.h"
+#include "taut/core/private/rigid_motion.h"
 
 namespace taut::world {
 namespace {
@@ -186,7 +187,8 @@ int ContactStage::commonSubsteps() const {
 int ContactStage::instantsFor(std::span<const int> surfaces) const {
     int needed = 1;
     for (int s : surfaces)
-        if (isOfBody(s) && !bodyOf(s).island->isStill()) needed = std::max(needed, bodyOf(s).island->instantsToPress());
+        if (isOfBody(s) && !bodyOf(s).island->isStill())
+            needed = std::max(needed, bodyOf(s).island->instantsToPress());
     return needed;
 }
 
@@ -254,20 +256,17 @@ void ContactStage::takeMasses() {
 
 // A free point of a solid weighs what all of the solid does. A held one is so heavy that the solid turns about it.
 void ContactStage::takeSolids() {
-    constexpr double heldOver = 1e9;
     std::vector<contact::Solid> solids;
+    std::vector<double> inverses;
     for (const SolidPart& part : solids_) {
         contact::Solid& solid = solids.emplace_back();
         solid.points = part.points;
-        double mass = 0;
-        for (int i : part.points)
-            if (const double inverse = inverseMass_[static_cast<std::size_t>(i)]; inverse > 0) mass += 1.0 / inverse;
+        inverses.clear();
+        for (int i : part.points) inverses.push_back(inverseMass_[static_cast<std::size_t>(i)]);
+        const double mass = core::massesOf(inverses, solid.masses);
         solid.moves = mass > 0;
-        for (int i : part.points) {
-            double& inverse = inverseMass_[static_cast<std::size_t>(i)];
-            solid.masses.push_back(inverse > 0 ? 1.0 / inverse : heldOver * mass);
-            if (inverse > 0) inverse = 1.0 / mass;
-        }
+        for (int i : part.points)
+            if (double& inverse = inverseMass_[static_cast<std::size_t>(i)]; inverse > 0) inverse = 1.0 / mass;
     }
     group_->setSolids(std::move(solids));
 }
@@ -505,8 +504,7 @@ bool ContactStage::crosses(const Island& island) const {
 }
 
 bool ContactStage::anySleeps() const {
-    return std::any_of(
-        islands_.begin(), islands_.end(), [](const Island* island) { return island->isAsleep(); });
+    return std::any_of(islands_.begin(), islands_.end(), [](const Island* island) { return island->isAsleep(); });
 }
 
 bool ContactStage::movesAny() const {
@@ -521,9 +519,8 @@ int ContactStage::instantsToFollow() const {
     return wanted < most ? static_cast<int>(wanted) : most;
 }
 
-// Whether an instant was too long for its result: in a trial any impulse, else a shift that works against stiff
-// springs, or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the
-// same.
+// Whether an instant was too long for its result: in a trial any impulse, else a shift that works against stiff springs,
+// or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
     if ((isTrial && result_.impulses > 0) || instants_ < instantsToFollow()) return true;
@@ -585,8 +582,8 @@ double ContactStage::turnOf(const Part& part, double h) const {
 void ContactStage::resolveInstant(double h) {
     kinematic_.clear();
     for (const Part& part : parts_)
-        for (const collision::Contact& c :
-             part.island->isStill() ? std::span<const collision::Contact>{} : part.island->contacts())
+        for (const collision::Contact& c : part.island->isStill() ? std::span<const collision::Contact>{}
+                                                                  : part.island->contacts())
             kinematic_.push_back(
                 {part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
     if (!solids_.empty()) addSolidContacts(h);

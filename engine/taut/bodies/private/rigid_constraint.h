@@ -17,8 +17,6 @@ class RigidConstraint final : public ConstraintOf<RigidConstraint> {
     bool projectVelocities(const Moment& moment) override;
 
   private:
-    bool weigh(std::span<const double> inverseMass);  // -> masses_; whether anything moves
-
     std::vector<int> points_;
     std::vector<dvec3> rest_;
     std::vector<double> masses_;  // [kg] scratch

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 namespace taut::core {
 
@@ -14,6 +15,18 @@ struct RigidMotion {
 
     glm::dvec3 velocityAt(const glm::dvec3& x) const { return velocity + glm::cross(spin, x - centre); }
 };
+
+// Masses of the points of a rigid body [kg], of which those that do not move (0) are so heavy that it turns about them.
+// Returns the mass of the others; 0: it is fixed.
+inline double massesOf(std::span<const double> inverseMass, std::vector<double>& masses) {
+    constexpr double heldOver = 1e9;
+    double free = 0;
+    for (const double w : inverseMass)
+        if (w > 0) free += 1.0 / w;
+    masses.clear();
+    for (const double w : inverseMass) masses.push_back(w > 0 ? 1.0 / w : heldOver * free);
+    return free;
+}
 
 // tr(S) 1 - S: the inertia of points whose Σ m r rᵀ is S.
 inline glm::dmat3 inertiaOf(const glm::dmat3& spread) {

@@ -84,10 +84,10 @@ class ContactStage {
     int instants() const { return instants_; }
     const contact::InstantResult& result() const { return result_; }
     ContactInfo info() const;
-    std::vector<int> squeezed() const;                    // points of the group that were squeezed in its last instant
-    std::vector<contact::ContactPoint> contacts() const;  // at its end
+    std::vector<int> squeezed() const;  // points of the group that were squeezed in its last instant
+    std::vector<contact::ContactPoint> contacts() const;         // at its end
     std::span<const contact::Crossing> crossingsBefore() const;  // at its start
-    bool hadImpulse() const { return hadImpulse_; }              // whether any pair had an impulse, in any tick
+    bool hadImpulse() const { return hadImpulse_; }        // whether any pair had an impulse, in any tick
     const std::vector<contact::Crossing>& crossings();           // at present
     dvec3 position(int point) const {
         return x1_[static_cast<std::size_t>(point)];
@@ -103,8 +103,7 @@ class ContactStage {
     // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
     // rigid collider sticks out of a face, which is no crossing.
     std::optional<std::pair<int, int>> sidesOf(const contact::Crossing& crossing) const;
-    double depthOf(
-        const contact::Crossing& crossing) const;  // [m] of the edge's closer end behind the triangle's plane
+    double depthOf(const contact::Crossing& crossing) const;  // [m] of the edge's closer end behind the triangle's plane
     // How far colliders stick out of triangles of wanted bodies, between two ticks: edges of rigid ones as
     // penetrationOf() measures it, and figures as depthOf() does.
     struct Penetration {
@@ -170,10 +169,10 @@ class ContactStage {
     bool hadImpulse_ = false;
     bool areCrossingsKnown_ = false;
     std::vector<contact::Crossing> crossings_;
-    std::vector<dvec3> x0_, x1_, v_;        // (points)
+    std::vector<dvec3> x0_, x1_, v_;   // (points)
     std::vector<dvec3> xBefore_, vBefore_;  // (points) before the last instant of contact
     double turn_ = 0;                       // [rad] largest turnOf() in the last instant
-    std::vector<double> inverseMass_;       // (points)
+    std::vector<double> inverseMass_;  // (points)
     std::vector<contact::KinematicContact> kinematic_;
     // What contact did with a point in a tick, summed over pairs and instants.
     struct Press {

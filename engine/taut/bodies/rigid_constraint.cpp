@@ -6,7 +6,7 @@
 namespace taut::world {
 namespace {
 
-constexpr double unmovedShare = 1e-14;  // of a coordinate
+constexpr double unmovedSquare = 1e-29;  // of a coordinate squared
 
 // Takes `to` over where points move. Returns whether any changed by more than rounding.
 bool take(std::span<const dvec3> to, std::span<const double> inverseMass, std::span<dvec3> x) {
@@ -14,7 +14,7 @@ bool take(std::span<const dvec3> to, std::span<const double> inverseMass, std::s
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (!(inverseMass[i] > 0)) continue;
         const dvec3 way = to[i] - x[i];
-        changes = changes || glm::dot(way, way) > unmovedShare * roundingShare * (1.0 + glm::dot(x[i], x[i]));
+        changes = changes || glm::dot(way, way) > unmovedSquare * (1.0 + glm::dot(x[i], x[i]));
         x[i] = to[i];
     }
     return changes;

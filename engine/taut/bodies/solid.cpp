@@ -15,6 +15,7 @@
 #include "taut/mechanics/rigid.h"
 #include "taut/spec/common_rows.h"
 #include "taut/spec/private/rotation.h"
+#include "taut/spec/spec.h"
 
 namespace taut::world {
 
@@ -83,8 +84,8 @@ Section SolidSpec::section() {
     Section section;
     section.help = "A rigid body.";
     section.variant = [](const fields::Node& table) -> std::string {
-        const fields::Member* shape = table.find("shape");
-        return shape != nullptr && shape->value.kind == fields::NodeKind::text ? shape->value.text : "";
+        const fields::Member* named = table.find("shape");
+        return named != nullptr && named->value.kind == fields::NodeKind::text ? named->value.text : "";
     };
     section.variantKey = "shape";
     section.fields =

@@ -105,16 +105,16 @@ void holdBall(Bench& bench) {
     for (const double load : {0.02, 0.4}) {  // p R₀ / k
         const double half = 2.0 - load, expected = (half - std::sqrt(half * half - load * load)) / load;
         world::World world = bench.load("ball", ballScene(load * stretch));
-        const auto radius = [&] {
+        const auto meanRadius = [&] {
             double sum = 0;
             const std::vector<glm::dvec3> x = world.positions(world.select("cloth.ball"));
             for (const glm::dvec3& place : x) sum += std::sqrt(glm::dot(place, place));
             return sum / static_cast<double>(x.size());
         };
-        const double rest = radius();
+        const double rest = meanRadius();
         const std::string quantity = fmt::format("stretch of a ball at pR/k = {}", load);
         if (bench.settle(world, "cloth.ball", 1.0))
-            bench.line(quantity, "Laplace", expected, radius() / rest - 1.0, 0.01, ballCells);
+            bench.line(quantity, "Laplace", expected, meanRadius() / rest - 1.0, 0.01, ballCells);
         else
             bench.missing(quantity, "Laplace", expected, 0.01, ballCells, "does not come to rest");
     }

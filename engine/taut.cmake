@@ -31,8 +31,8 @@ if(TAUT_UNITY GREATER 1)
   target_compile_options(taut_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-shadow>)
 endif()
 
-# The folders where a scene's time goes.
-set(TAUT_COMPUTES core ode mechanics collision contact bodies forces island world image geometry)
+# The folders where a scene's time goes. The others are compiled with -O1, which takes a quarter less.
+set(TAUT_COMPUTES core ode mechanics collision contact bodies forces island world image geometry render)
 
 # Those whose own loops take time too; of the others what is downloaded may be as small as can be.
 set(TAUT_LOOPS core ode mechanics collision contact)
@@ -49,6 +49,8 @@ function(taut_library name)
     PUBLIC taut_headers ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:taut_options> ${ARG_PRIVATE_LINK})
   if(name IN_LIST TAUT_COMPUTES)
     target_compile_options(taut_${name} PRIVATE $<$<CONFIG:Asan>:-O1>)
+  else()
+    target_compile_options(taut_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   if(EMSCRIPTEN AND NOT name IN_LIST TAUT_LOOPS)
     target_compile_options(taut_${name} PRIVATE -Oz)

@@ -125,6 +125,12 @@ class ContactGroup {
         for (std::size_t p = 0; p < active_.size() && p < solver_.impulses().size(); ++p)
             if (solver_.impulses()[p] > 0) each(active_[p], solver_.impulses()[p], solver_.frictions()[p]);
     }
+    // Likewise each(number of the instant's contact with a collider, normal impulse, friction).
+    template <class Each>
+    void forEachCarried(Each&& each) const {
+        for (std::size_t p = active_.size(); p < solver_.impulses().size(); ++p)
+            if (solver_.impulses()[p] > 0) each(p - active_.size(), solver_.impulses()[p], solver_.frictions()[p]);
+    }
     // Points that parts of driven surfaces closed upon in the last instant, ascending; with them what still presses.
     const std::map<int, int>& squeezed() const { return squeezed_; }
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate

@@ -58,7 +58,7 @@ void putInto(Pack& pack, int lane, const Row& row, int number) {
 }  // namespace
 
 int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
-                         std::span<const Turn> turns) {
+                         std::span<const Turn> turns, Start start) {
     thread_local Scratch scratch;
     const int count = static_cast<int>(rows.size());
     const int levels = findLevels(rows, velocities.size(), scratch);
@@ -86,7 +86,7 @@ int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std:
     }
     scratch.perRow.assign(rows.size() + 1, 0.0);
     const Sweeps batch{scratch.packs.data(), packCount,    count,  scratch.perRow.data(),
-                       velocities.data(),    turns.data(), sweeps, tolerance};
+                       velocities.data(),    turns.data(), sweeps, tolerance, start};
     const int taken = TAUT_IN_USE(sweep)(batch);
     for (const Pack& pack : scratch.packs)
         for (int lane = 0; lane < 4; ++lane)

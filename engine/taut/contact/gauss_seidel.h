@@ -51,10 +51,13 @@ struct Row {
     int source = 0;          // for its owner
 };
 
+// What impulses that rows have already are at the start: a guess, or in the velocities.
+enum class Start { guessed, applied };
+
 // Changes the velocities (slots) [m/s], last 0, by the impulses. It ends after `sweeps`, or when a sweep changes no
 // velocity by `tolerance` [m/s]. Returns the number of sweeps.
 int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
-                         std::span<const Turn> turns = {});
+                         std::span<const Turn> turns = {}, Start start = Start::guessed);
 
 // What the kernel gets: rows lane by lane. A lane without a row is all 0, and has the first lane's slots.
 struct Pack {
@@ -76,6 +79,7 @@ struct Sweeps {
     const Turn* turns;
     int most;
     double tolerance;  // [m/s]
+    Start start;
 };
 
 }  // namespace taut::contact

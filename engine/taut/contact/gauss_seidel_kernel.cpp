@@ -180,7 +180,7 @@ inline void start(const Sweeps& batch) {
 }  // namespace
 
 int sweep(const Sweeps& batch) {
-    start(batch);
+    if (batch.start == Start::guessed) start(batch);
     double squareBefore = 0;
     for (int sweep = 1;; ++sweep) {
         // A sweep. It records the largest squared change of a velocity [(m/s)²], and the squared changes of impulses

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "taut/contact/rigid_step.h"
+#include "taut/contact/row_arithmetic.h"
 #include "taut/core/private/parallel.h"
 
 namespace taut::contact {
@@ -19,43 +21,6 @@ constexpr int mostColours = 64;
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
 constexpr int sweepsForSolids = 3;        // times as many
 constexpr double settledForSolids = 0.1;  // of the change that ends them
-
-Four four(const dvec3& v) {
-    return {{v.x, v.y, v.z, 0}};
-}
-dvec3 vectorOf(const Four& v) {
-    return {v.of[0], v.of[1], v.of[2]};
-}
-
-dvec3 relativeVelocity(const Row& row, std::span<const Four> velocities, std::span<const Turn> turns) {
-    dvec3 sum(0.0);
-    for (std::size_t k = 0; k < 4; ++k) {
-        sum += row.weights[k] * vectorOf(velocities[static_cast<std::size_t>(row.slots[k])]);
-        if (row.turns < 0) continue;
-        const Turn& turn = turns[static_cast<std::size_t>(row.turns) + k];
-        if (turn.slot < 0) continue;
-        sum += glm::cross(vectorOf(velocities[static_cast<std::size_t>(turn.slot)]),
-                          dvec3(turn.arm[0], turn.arm[1], turn.arm[2]));
-    }
-    return sum;
-}
-
-void push(const Row& row, const dvec3& impulse, std::span<Four> velocities, std::span<const Turn> turns) {
-    const auto add = [&](int slot, const dvec3& change) {
-        for (int i = 0; i < 3; ++i) velocities[static_cast<std::size_t>(slot)].of[i] += change[i];
-    };
-    for (std::size_t k = 0; k < 4; ++k) {
-        add(row.slots[k], row.gains[k] * impulse);
-        if (row.turns < 0) continue;
-        const Turn& turn = turns[static_cast<std::size_t>(row.turns) + k];
-        if (turn.slot < 0) continue;
-        const dvec3 moment = glm::cross(dvec3(turn.arm[0], turn.arm[1], turn.arm[2]), impulse);
-        dvec3 change(0.0);
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) change[i] += turn.gain[3 * i + j] * moment[j];
-        add(turn.slot, change);
-    }
-}
 
 // Of the same contact in every instant.
 std::uint64_t keyOf(const ContactConstraint& pair) {
@@ -80,6 +45,9 @@ const Solid* ContactSolver::solidOf(int point) const {
     const int solid = solidAt_.empty() ? -1 : solidAt_[static_cast<std::size_t>(point)];
     return solid >= 0 && solids_[static_cast<std::size_t>(solid)].moves ? &solids_[static_cast<std::size_t>(solid)]
                                                                         : nullptr;
+}
+bool ContactSolver::isTouched(const Solid& solid) const {
+    return solid.moves && parent_[static_cast<std::size_t>(solid.points.front())] >= 0;
 }
 bool ContactSolver::isFixed(int point, const Problem& problem) const {
     return !(problem.inverseMass[static_cast<std::size_t>(point)] > 0) && solidOf(point) == nullptr;
@@ -170,7 +138,7 @@ void ContactSolver::findClusters(const Problem& problem) {
     clusters_.clear();
     std::vector<int> sources;
     for (std::size_t k = 0; k < order_.size();) {
-        Cluster cluster{rows_.size(), 0, 1e300, 0};
+        Cluster cluster{rows_.size(), 0, 1e300, 0, {}};
         sources.clear();
         std::size_t next = k;
         for (; next < order_.size() && order_[next].first == order_[k].first; ++next) {
@@ -190,8 +158,11 @@ void ContactSolver::findClusters(const Problem& problem) {
                         [](const Row& row) { return row.turns >= 0; })) {
             cluster.sweeps *= sweepsForSolids;
             cluster.tolerance *= settledForSolids;
+            for (std::size_t s = 0; s < solids_.size(); ++s)
+                if (const int leader = solids_[s].points.front(); isTouched(solids_[s]) && root(leader) == order_[k].first)
+                    cluster.solids.push_back({bodies_[s].slot, bodies_[s].u.mass, glm::inverse(bodies_[s].u.inverseInertia)});
         }
-        clusters_.push_back(cluster);
+        clusters_.push_back(std::move(cluster));
         k = next;
     }
     shift_.assign(u_.size(), Four{});
@@ -235,7 +206,7 @@ void ContactSolver::loadSolids(const Problem& problem) {
     thread_local std::vector<dvec3> x, u, v;
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const Solid& solid = solids_[s];
-        if (!solid.moves || parent_[static_cast<std::size_t>(solid.points.front())] < 0) continue;
+        if (!isTouched(solid)) continue;
         x.clear();
         u.clear();
         v.clear();
@@ -258,7 +229,7 @@ void ContactSolver::loadSolids(const Problem& problem) {
 void ContactSolver::storeSolids(const Problem& problem) {
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const Solid& solid = solids_[s];
-        if (!solid.moves || parent_[static_cast<std::size_t>(solid.points.front())] < 0) continue;
+        if (!isTouched(solid)) continue;
         const Body& body = bodies_[s];
         const auto at = [&](const std::vector<Four>& field, int more) {
             return vectorOf(field[static_cast<std::size_t>(body.slot + more)]);
@@ -406,6 +377,21 @@ void ContactSolver::addRow(int source, const Problem& problem) {
     row.impulse = {{friction.x, friction.y, friction.z, last->impulse.of[3]}};
 }
 
+// Sweeps, with steps for all solids at once in between if there are several. Returns the number of sweeps.
+int ContactSolver::solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance,
+                             std::span<Four> velocities) const {
+    const std::span<const RigidSlots> solids(cluster.solids);
+    if (solids.size() < 2) return projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, turns_);
+    constexpr int sweepsBetween = 5;
+    int most = 1, sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, turns_), taken = sweeps;
+    for (bool helps = true; sweeps == most && taken < cluster.sweeps; taken += sweeps) {
+        helps = helps && stepRigidly(rows, solids, turns_, velocities);
+        most = helps ? std::min(sweepsBetween, cluster.sweeps - taken) : cluster.sweeps - taken;
+        sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, turns_, Start::applied);
+    }
+    return taken;
+}
+
 // Solves v by the same rule, for the rows that got an impulse.
 void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster, const Problem& problem) {
     thread_local std::vector<Row> rows;
@@ -417,7 +403,7 @@ void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster
         Row& own = rows.emplace_back(row);
         if (isPair || isOfSolid) own.closing = std::max(own.closing, 0.0);
     }
-    projectedGaussSeidel(rows, cluster.sweeps, cluster.tolerance, v_, turns_);
+    solveRows(rows, cluster, cluster.tolerance, v_);
 }
 
 // Bounces: one row after the other, the fastest first, gives back its share of the speed with which it closes, until
@@ -479,7 +465,7 @@ void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cl
         own.friction = 0;
         own.closing = -target;
     }
-    if (overlaps) projectedGaussSeidel(rows, cluster.sweeps, cluster.tolerance * problem.h, shift_, turns_);
+    if (overlaps) solveRows(rows, cluster, cluster.tolerance * problem.h, shift_);
 }
 
 // Solves u, then v and the position correction. Both need the impulses of u, but not each other. Returns the number of
@@ -490,7 +476,7 @@ int ContactSolver::solveCluster(const Cluster& cluster, const Problem& problem) 
         bounce(rows, problem, u_, std::span(bounces_).subspan(cluster.first, rows.size()));
         bounce(rows, problem, v_, {});
     }
-    const int sweeps = projectedGaussSeidel(rows, cluster.sweeps, cluster.tolerance, u_, turns_);
+    const int sweeps = solveRows(rows, cluster, cluster.tolerance, u_);
     if (rows.size() < parallelRows) {
         correctPositions(rows, cluster, problem);
         solveStored(rows, cluster, problem);
@@ -503,17 +489,16 @@ int ContactSolver::solveCluster(const Cluster& cluster, const Problem& problem) 
 }
 
 // Keeps the impulses for the next instant -> last_, impulses_.
-void ContactSolver::remember(std::size_t pairCount) {
+void ContactSolver::remember(std::size_t sourceCount) {
     last_.clear();
-    impulses_.assign(pairCount, 0.0);
-    frictions_.assign(pairCount, dvec3(0.0));
+    impulses_.assign(sourceCount, 0.0);
+    frictions_.assign(sourceCount, dvec3(0.0));
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const Row& row = rows_[r];
         const auto source = static_cast<std::size_t>(row.source);
-        if (!bounces_.empty() && source < pairCount) impulses_[source] += bounces_[r];
+        if (!bounces_.empty()) impulses_[source] += bounces_[r];
         if (!(row.impulse.of[3] > 0)) continue;
         last_.push_back({keys_[r], row.impulse});
-        if (source >= pairCount) continue;
         impulses_[source] += row.impulse.of[3];
         frictions_[source] = vectorOf(row.impulse);
     }
@@ -553,7 +538,7 @@ void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<co
         v[k] = vectorOf(v_[slot]);
         shift[k] = vectorOf(shift_[slot]);
     }
-    remember(pairs.size());
+    remember(pairs.size() + kinematic.size());
 }
 
 }  // namespace taut::contact

@@ -47,6 +47,7 @@
 
 #include "taut/contact/contact_constraint.h"
 #include "taut/contact/gauss_seidel.h"
+#include "taut/contact/rigid_step.h"
 #include "taut/core/private/rigid_motion.h"
 
 namespace taut::contact {
@@ -94,8 +95,9 @@ class ContactSolver {
 
     // After solve().
     std::span<const int> points() const { return touched_; }         // of the pairs, and of their solids, ascending
-    std::span<const double> impulses() const { return impulses_; }   // (pairs) [N s] along the normal
-    std::span<const dvec3> frictions() const { return frictions_; }  // (pairs) [N s] tangential, on the first side
+    // (pairs, then contacts with colliders) [N s] along the normal, and tangential, on the first side or the point.
+    std::span<const double> impulses() const { return impulses_; }
+    std::span<const dvec3> frictions() const { return frictions_; }
     int sweeps() const { return mostSweeps_; }                      // of the cluster that took most
     int clusters() const { return static_cast<int>(clusters_.size()); }
 
@@ -118,12 +120,14 @@ class ContactSolver {
         std::size_t first, last;  // of rows_
         double tolerance;         // [m/s] smaller changes end the sweeps
         int sweeps;               // at most
+        std::vector<RigidSlots> solids;
     };
     struct LastImpulse {
         std::uint64_t key;
         Four impulse;
     };
     const Solid* solidOf(int point) const;  // that moves; null: none
+    bool isTouched(const Solid& solid) const;
     bool isFixed(int point, const Problem& problem) const;
     int leaderOf(int point) const;  // the lowest point that moves with it
     void loadSolids(const Problem& problem);
@@ -139,9 +143,10 @@ class ContactSolver {
     int solveCluster(const Cluster& cluster, const Problem& problem);
     void bounce(std::span<const Row> rows, const Problem& problem, std::span<Four> velocities,
                 std::span<double> sizes) const;
+    int solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance, std::span<Four> velocities) const;
     void solveStored(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
     void correctPositions(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
-    void remember(std::size_t pairCount);
+    void remember(std::size_t sourceCount);
     int root(int point);
 
     // A source is a pair, or after all pairs a contact with a collider.
@@ -160,8 +165,8 @@ class ContactSolver {
     std::vector<std::uint64_t> taken_;        // (slots) scratch: colours
     std::vector<LastImpulse> last_;           // ascending by key
     std::vector<double> bounces_;             // (rows) [N s]; empty: nothing bounces
-    std::vector<double> impulses_;            // (pairs)
-    std::vector<dvec3> frictions_;            // (pairs)
+    std::vector<double> impulses_;            // (pairs, contacts with colliders)
+    std::vector<dvec3> frictions_;            // likewise
     int mostSweeps_ = 0;
 };
 

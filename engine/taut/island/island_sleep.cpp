@@ -7,6 +7,36 @@
 #include "taut/island/private/rest_bound.h"
 
 namespace taut::world {
+namespace {
+
+constexpr double stillShare = 0.01;  // of the error: how far a point may go in a window that friction holds
+
+bool isOneSolid(const IslandPlan& plan) {
+    return plan.bodies.size() == 1 && plan.bodies[0]->spec->isRigid() && plan.constraints.size() == 1;
+}
+
+// Whether a rigid body cannot turn if these places of it stay: they are not on one line. Their spread across it is held
+// against the size of the body.
+bool holdRigidly(std::span<const dvec3> footholds, std::span<const dvec3> x) {
+    constexpr double leastShare = 0.05;
+    const auto furthest = [](std::span<const dvec3> from, auto&& distance) {
+        double most = 0;
+        dvec3 place(0.0);
+        for (const dvec3& p : from)
+            if (const double own = distance(p); own > most) most = own, place = p;
+        return std::pair(most, place);
+    };
+    if (footholds.empty()) return false;
+    const dvec3 a = footholds[0];
+    const double size = furthest(x, [&](const dvec3& p) { return glm::distance(p, x[0]); }).first;
+    const auto [length, b] = furthest(footholds, [&](const dvec3& p) { return glm::distance(p, a); });
+    if (!(length > leastShare * size)) return false;
+    const dvec3 line = (b - a) / length;
+    const double width = furthest(footholds, [&](const dvec3& p) { return glm::length(glm::cross(line, p - a)); }).first;
+    return width > leastShare * size;
+}
+
+}  // namespace
 
 void Island::beginRestWindow(std::int64_t number) {
     dynamics_->positions(x_);
@@ -19,18 +49,23 @@ void Island::watchRest(bool isMiddle) {
     rest_.look(x_, plan_.solver.sleepError / 3, isMiddle);
 }
 
-// What constraints hold has no stiffness, so their islands stay awake. So does what a hand or a collider moves.
+// What constraints hold has no stiffness, so their islands stay awake, but for a solid by itself. So does what a hand or
+// a collider moves.
 bool Island::isCalm() {
     const auto moves = [](const Grip& grip) { return grip.path.moves(); };
-    return rest_.isCalm() && plan_.constraints.empty() && now_.inside.empty() && !isOpen_ &&
+    return rest_.isCalm() && (plan_.constraints.empty() || isOneSolid(plan_)) && now_.inside.empty() && !isOpen_ &&
            std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) && dynamics_->isSteady(forces_);
 }
 
-bool Island::rests(double seconds, std::vector<Support> supports) {
-    constexpr double stillShare = 0.01;  // of the error: how far a point may go in a window that friction holds
+bool Island::rests(double seconds, std::vector<Support> supports, std::span<const dvec3> footholds) {
     const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
     const std::size_t n = plan_.points.size();
     dynamics_->positions(x_);
+    if (isOneSolid(plan_)) {
+        for (std::size_t i = 0; i < n; ++i)
+            if (const dvec3 v = rest_.velocity(i, x_[i], seconds); !(glm::dot(v, v) <= still * still)) return false;
+        return holdRigidly(footholds, x_);
+    }
     supports.resize(n);
     for (const collision::Contact& contact : now_.contacts) {
         Support& support = supports[static_cast<std::size_t>(contact.point)];

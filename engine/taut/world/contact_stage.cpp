@@ -18,6 +18,7 @@ constexpr int mostInstantsForSpeed = 64;   // in a tick, for fast motion
 // In one instant, as shares of the thickness:
 constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tick without contact
 constexpr double mostClosing = 0.35;     // closing of a pair
+constexpr double stickingShare = 0.9;    // of Coulomb's limit: up to there friction may hold what sleeps
 
 using Clock = std::chrono::steady_clock;  // for reports only
 
@@ -373,6 +374,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         instants_ = std::abs(instants);
         presses_.assign(watchesFriction ? x1_.size() : 0, {});
         pressing_.clear();
+        footholds_.clear();
         reached_.clear();
         const bool isCoarse = tryTick(time, moving, instants_, faults, isTrial);
         std::vector<TickVerdict> verdicts(islands_.size(), TickVerdict::stands);
@@ -479,14 +481,39 @@ void ContactStage::addPresses() {
     });
 }
 
+void ContactStage::addFootholds() {
+    const auto holds = [](double coefficient, double normal, const dvec3& friction) {
+        const double most = stickingShare * coefficient * normal;
+        return most > 0 && glm::dot(friction, friction) <= most * most;
+    };
+    group_->forEachPressing([&](const contact::ContactConstraint& pair, double normal, const dvec3& friction) {
+        if (!holds(pair.friction, normal, friction)) return;
+        for (const int from : {0, pair.firstSide()}) {
+            const int surface = elements().surfaceOf(pair.points[static_cast<std::size_t>(from)]);
+            if (!isOfBody(surface) || !bodyOf(surface).spec->isRigid()) continue;
+            dvec3 place(0.0);
+            for (int k = from; k < (from == 0 ? pair.firstSide() : 4); ++k) {
+                const auto own = static_cast<std::size_t>(k);
+                place += std::abs(pair.weights[own]) * x1_[static_cast<std::size_t>(pair.points[own])];
+            }
+            footholds_.push_back({bodyOf(surface).island, place, false});
+        }
+    });
+    group_->forEachCarried([&](std::size_t k, double normal, const dvec3& friction) {
+        const contact::KinematicContact& contact = kinematic_[k];
+        const Body& body = bodyOf(elements().surfaceOf(contact.point));
+        if (body.spec->isRigid() && holds(contact.friction, normal, friction))
+            footholds_.push_back({body.island, x1_[static_cast<std::size_t>(contact.point)], true});
+    });
+}
+
 std::vector<Island::Support> ContactStage::supports(const Island& island) const {
-    constexpr double inside = 0.9;  // of the cone of friction
     std::vector<Island::Support> supports(island.plan().points.size());
     for (const Part& part : parts_) {
         if (part.island != &island || presses_.empty()) continue;
         for (int i = part.first; i < part.last; ++i) {
             const auto& [limit, push, friction] = presses_[static_cast<std::size_t>(i)];
-            const double most = inside * limit;
+            const double most = stickingShare * limit;
             supports[static_cast<std::size_t>(i - part.first)] = {
                 push, limit > 0 && glm::dot(friction, friction) <= most * most};
         }
@@ -551,6 +578,7 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
         settle();
         if (findFaults(time.at(c + 1, instants), faults)) return false;
         if (!presses_.empty()) addPresses();
+        if (!presses_.empty() && !solids_.empty()) addFootholds();
         if (anySleeps() && findReached()) return true;
         if (isTooCoarse(isTrial)) return true;
     }

@@ -64,7 +64,7 @@ class ContactStage {
         Island* island = nullptr;
         Fault fault;
     };
-    // watchesFriction: for supports() and pressing(), which tell of this tick.
+    // watchesFriction: for supports(), footholds() and pressing(), which tell of this tick.
     std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving, bool watchesFriction);
 
     // Sleep. All islands are still, and some sleep: a tick does nothing.
@@ -72,6 +72,13 @@ class ContactStage {
     // (points of the island) by other bodies, and by edges of colliders. Friction may hold a point if it used at most
     // 0.9 of what Coulomb allows.
     std::vector<Island::Support> supports(const Island& island) const;
+    // Where a solid was pressed so that friction may hold it, by the same rule.
+    struct Foothold {
+        const Island* island;
+        dvec3 place;  // [m]
+        bool isOnCollider;
+    };
+    std::span<const Foothold> footholds() const { return footholds_; }
     // Islands that pressed each other, each two once.
     std::span<const std::pair<const Island*, const Island*>> pressing() const { return pressing_; }
     // Whether anything of the island crossed, or was crossed by, anything at the start of the last tick.
@@ -131,6 +138,7 @@ class ContactStage {
     void addReached(int surfaceA, int surfaceB);
     bool findReached();
     void addPresses();
+    void addFootholds();
     bool anySleeps() const;
     void readAll();
     int mostInstants() const;
@@ -181,6 +189,7 @@ class ContactStage {
     };
     std::vector<Press> presses_;                                     // (points) empty: nobody asked
     std::vector<std::pair<const Island*, const Island*>> pressing_;  // likewise
+    std::vector<Foothold> footholds_;                                // likewise
     std::vector<std::int64_t> reached_;                              // companies, in this try
     double weight_ = 0;  // [m/s²] largest acceleration by uniform fields, at the start of the tick
     int instants_ = 0;

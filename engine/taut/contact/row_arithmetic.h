@@ -1,0 +1,51 @@
+// What a row sees of the velocities and does to them, for one row at a time; gauss_seidel_kernel.cpp does so for four.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "taut/contact/gauss_seidel.h"
+
+namespace taut::contact {
+
+using glm::dvec3;
+
+inline Four four(const dvec3& v) {
+    return {{v.x, v.y, v.z, 0}};
+}
+inline dvec3 vectorOf(const Four& v) {
+    return {v.of[0], v.of[1], v.of[2]};
+}
+
+// [m/s] of the first side from the second.
+inline dvec3 relativeVelocity(const Row& row, std::span<const Four> velocities, std::span<const Turn> turns) {
+    dvec3 sum(0.0);
+    for (std::size_t k = 0; k < 4; ++k) {
+        sum += row.weights[k] * vectorOf(velocities[static_cast<std::size_t>(row.slots[k])]);
+        if (row.turns < 0) continue;
+        const Turn& turn = turns[static_cast<std::size_t>(row.turns) + k];
+        if (turn.slot < 0) continue;
+        sum += glm::cross(vectorOf(velocities[static_cast<std::size_t>(turn.slot)]),
+                          dvec3(turn.arm[0], turn.arm[1], turn.arm[2]));
+    }
+    return sum;
+}
+
+// Gives the row an impulse [N s].
+inline void push(const Row& row, const dvec3& impulse, std::span<Four> velocities, std::span<const Turn> turns) {
+    const auto add = [&](int slot, const dvec3& change) {
+        for (int i = 0; i < 3; ++i) velocities[static_cast<std::size_t>(slot)].of[i] += change[i];
+    };
+    for (std::size_t k = 0; k < 4; ++k) {
+        add(row.slots[k], row.gains[k] * impulse);
+        if (row.turns < 0) continue;
+        const Turn& turn = turns[static_cast<std::size_t>(row.turns) + k];
+        if (turn.slot < 0) continue;
+        const dvec3 moment = glm::cross(dvec3(turn.arm[0], turn.arm[1], turn.arm[2]), impulse);
+        dvec3 change(0.0);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) change[i] += turn.gain[3 * i + j] * moment[j];
+        add(turn.slot, change);
+    }
+}
+
+}  // namespace taut::contact

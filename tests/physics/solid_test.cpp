@@ -215,6 +215,45 @@ TEST(SolidBox, ComesOutOfOneThatItStartsIn) {
     }
 }
 
+// Ten boxes of 0.1 m, each turned and a little aside, under which friction holds every one. They lean by less than what
+// they may, and then sleep. A ball that is dropped on them wakes all within its tick.
+TEST(SolidBox, StandsInAStackAndSleeps) {
+    constexpr int count = 10;
+    world::SceneSpec spec = scene();
+    spec.solver.sleepError = 1e-3;
+    spec.colliders = {ground(0.0, 0.6)};
+    for (int k = 0; k < count; ++k) {
+        SolidSpec crate = box("box" + std::to_string(k), {0.002 * (k % 3), 0.05 + 0.1001 * k, 0.001 * (k % 2)},
+                              dvec3(0.1));
+        crate.rotation = {0.0, 0.05 * k, 0.0};
+        crate.thickness = 0.01;
+        spec.bodies.add(crate);
+    }
+    World world(spec);
+    advanceBy(world, 0.25);
+    std::vector<dvec3> settled;
+    for (int k = 0; k < count; ++k) settled.push_back(motionOf(world, "solid.box" + std::to_string(k)).centre);
+    advanceBy(world, 1.25);
+    EXPECT_EQ(world.asleepShare(), 1.0);
+    for (int k = 0; k < count; ++k) {
+        const dvec3 centre = motionOf(world, "solid.box" + std::to_string(k)).centre;
+        EXPECT_LT(glm::distance(centre, settled[static_cast<std::size_t>(k)]), 2e-5) << k;
+    }
+
+    SolidSpec dropped = ball("ball", {0.03, 0.1 * count + 0.15, 0.0}, 0.05);
+    dropped.touch = world::Touch::others;
+    world.spawn(dropped);
+    double before = -1.0;
+    for (int i = 0; i < 20 && before < 0; ++i) {
+        EXPECT_EQ(world.metrics("solid.box*").kinetic, 0.0);
+        ASSERT_FALSE(world.advance());
+        const double speed = motionOf(world, "solid.ball").velocity.y;
+        if (i > 0 && speed > before) break;
+        before = speed;
+    }
+    EXPECT_EQ(world.metrics("solid.box*").asleep, 0);
+}
+
 // A ball is a point that keeps its radius from what it meets, from cords too: it lies on four of them.
 TEST(SolidBall, LiesOnCords) {
     world::SceneSpec spec = scene();

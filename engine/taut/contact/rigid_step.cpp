@@ -11,17 +11,10 @@
 namespace taut::contact {
 namespace {
 
-using glm::dmat3;
-
-// Newton's steps: k over the effective mass, and how many. The first are enough where the same rows press as before.
-// Where they are not, soft rows find out which press.
-struct Stage {
-    double overMass;
-    int steps;
-};
-constexpr std::array<Stage, 4> stages{{{1e7, 6}, {1e3, 6}, {1e5, 6}, {1e7, 6}}};
-constexpr int mostRounds = 4;  // of letting go what does not press
-constexpr double mostWork = 2e6;     // multiplications to factor: what is dearer than its sweeps is left to them
+constexpr double overMass = 1e6;  // k over the effective mass
+constexpr int mostSteps = 16;     // of Newton in a round
+constexpr int mostRounds = 4;     // of letting go what does not stick
+constexpr double mostWork = 2e6;  // multiplications of a Newton step
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 // A row, as the solids see it: u = Σ weight v + spin × arm of up to two of them.
@@ -30,12 +23,12 @@ struct Equation {
     std::array<std::size_t, 2> solids{none, none};
     std::array<double, 2> weights{};
     std::array<dvec3, 2> arms{};
-    std::array<dvec3, 3> axes{};            // unit: its normal, and two across
-    dvec3 now{0.0}, next{0.0};              // [N s] its impulse
-    dvec3 kept{0.0};                        // [N s] of it, what the energy does not speak of: friction while it slides
-    dvec3 velocity{0.0}, change{0.0};       // [m/s] along the axes, with what it may close; by one Newton step
-    bool presses = true;                    // the first axis is in the energy
-    bool sticks = true;                     // so are the others
+    std::array<dvec3, 3> axes{};       // unit: its normal, and two across
+    dvec3 now{0.0}, next{0.0};         // [N s] its impulse
+    dvec3 kept{0.0};                   // [N s] of it, what the energy does not speak of: friction of what slides
+    dvec3 velocity{0.0}, change{0.0};  // [m/s] along the axes, with what it may close; by one Newton step
+    bool presses = true;               // the first axis is in the energy
+    bool sticks = true;                // so are the others
 
     bool has(std::size_t axis) const { return axis == 0 ? presses : sticks; }
     // (6) of solid `side`: what its velocity and spin give along an axis.
@@ -94,9 +87,10 @@ class RigidStep {
 
     bool run() {
         if (equations_.empty() || !order()) return false;
-        begin();
+        total_.assign(first_.size(), 0.0);
+        leaveToEnergy([](const Equation& equation) { return equation.now - equation.kept; });
         for (int round = 0; round < mostRounds; ++round) {
-            if (!minimise(round == 0 ? stages : std::span(stages).first(1))) return false;
+            if (!minimise()) return false;
             if (!letGo()) break;
         }
         return apply();
@@ -120,16 +114,18 @@ class RigidStep {
             equation.weights[side] += row.weights[k];
             equation.arms[side] += dvec3(turn.arm[0], turn.arm[1], turn.arm[2]);
         }
-        const double closing = glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities_, turns_)) + row.closing;
-        if (!(row.impulse.of[3] > 0) && !(closing < 0)) return;
-        const double limit = row.friction * row.impulse.of[3];
-        const dvec3 friction = vectorOf(row.impulse);
-        equation.now = friction + row.impulse.of[3] * vectorOf(row.normal);
-        const dvec3 normal = vectorOf(row.normal), aside = std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+        const dvec3 normal = vectorOf(row.normal), friction = vectorOf(row.impulse);
+        const dvec3 aside = std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
         const dvec3 across = glm::normalize(glm::cross(normal, aside));
         equation.axes = {normal, across, glm::cross(normal, across)};
-        equation.presses = row.impulse.of[3] > 0;
-        equation.sticks = row.friction > 0 && equation.presses && glm::dot(friction, friction) < stickingShare * limit * limit;
+        const dvec3 velocity = wrong(equation);
+        for (std::size_t k = 0; k < 3; ++k)
+            equation.velocity[static_cast<int>(k)] = glm::dot(velocity, equation.axes[k]);
+        const double pressing = row.impulse.of[3], limit = insideCone * row.friction * pressing;
+        equation.presses = pressing > 0;
+        if (!equation.presses && equation.velocity.x >= 0) return;
+        equation.sticks = glm::dot(friction, friction) < limit * limit;
+        equation.now = friction + pressing * normal;
         if (!equation.sticks) equation.kept = friction;
         equations_.push_back(equation);
     }
@@ -184,7 +180,7 @@ class RigidStep {
     }
 
     void give(const Equation& equation, const dvec3& impulse) { push(*equation.row, impulse, velocities_, turns_); }
-    double stiffnessOf(const Equation& equation) const { return overMass_ * equation.row->mass; }
+    static double stiffnessOf(const Equation& equation) { return overMass * equation.row->mass; }
     // [m/s] what is wrong with a row.
     dvec3 wrong(const Equation& equation) const {
         return relativeVelocity(*equation.row, velocities_, turns_) + equation.row->closing * equation.axes[0];
@@ -209,58 +205,48 @@ class RigidStep {
         return product;
     }
 
-    void begin() {
-        for (Equation& equation : equations_) {
-            const dvec3 own = wrong(equation);
-            for (std::size_t k = 0; k < 3; ++k) equation.velocity[static_cast<int>(k)] = glm::dot(own, equation.axes[k]);
-        }
-        total_.assign(first_.size(), 0.0);
-        leaveToEnergy([](const Equation& equation) { return equation.now - equation.kept; });
-    }
-    // total_ is the change of velocities by all impulses that the energy speaks of. Adds what impulseOf() of each has done.
+    // Adds to total_ what impulseOf() each has done to the velocities.
     template <class ImpulseOf>
     void leaveToEnergy(const ImpulseOf& impulseOf) {
-        const auto addVelocities = [&](double sign) {
+        const auto addMotion = [&](double sign) {
             for (std::size_t s = 0; s < solids_.size(); ++s)
                 for (std::size_t i = 0; i < 6; ++i)
                     total_[6 * place_[s] + i] +=
                         sign * velocities_[static_cast<std::size_t>(solids_[s].slot) + i / 3].of[i % 3];
         };
-        addVelocities(1.0);
+        addMotion(1.0);
         for (const Equation& equation : equations_) give(equation, -impulseOf(equation));
-        addVelocities(-1.0);
+        addMotion(-1.0);
         for (const Equation& equation : equations_) give(equation, impulseOf(equation));
     }
 
     // Newton's method. Returns whether it can be done.
-    bool minimise(std::span<const Stage> each) {
-        for (const Stage& stage : each) {
-            overMass_ = stage.overMass;
-            bool isDone = false;
-            for (int step = 0; step < stage.steps && !isDone; ++step) {
-                if (!findStep()) return false;
-                const double share = shareOfStep();
-                isDone = goOn(share) && share == 1.0;
-            }
-            if (isDone && stage.overMass == stages[0].overMass) break;
+    bool minimise() {
+        bool isDone = false;
+        for (int step = 0; step < mostSteps && !isDone; ++step) {
+            if (!findStep()) return false;
+            const double share = shareOfStep();
+            isDone = goOn(share) && share == 1.0;
         }
         return true;
     }
     // [N s] with what the rows see.
-    double pressingOf(const Equation& equation) const { return stiffnessOf(equation) * std::max(-equation.velocity.x, 0.0); }
-    dvec3 frictionOf(const Equation& equation) const {
+    static double pressingOf(const Equation& equation) {
+        return stiffnessOf(equation) * std::max(-equation.velocity.x, 0.0);
+    }
+    static dvec3 frictionOf(const Equation& equation) {
         const dvec3& v = equation.velocity;
         return equation.sticks ? -stiffnessOf(equation) * (v.y * equation.axes[1] + v.z * equation.axes[2])
                                : equation.kept;
     }
-    // Within the cone of friction: what does not press does not rub, and what is beyond slides. Returns whether there was
-    // any.
+    // What is beyond the cone of friction slides. Returns whether there was any.
     bool letGo() {
         constexpr double nearly = 1.001;
         bool isAny = false;
         for (Equation& equation : equations_) {
             const dvec3 friction = frictionOf(equation);
-            const double limit = equation.row->friction * pressingOf(equation), size = std::sqrt(glm::dot(friction, friction));
+            const double limit = equation.row->friction * pressingOf(equation),
+                         size = std::sqrt(glm::dot(friction, friction));
             equation.next = equation.kept;  // as it was
             if (size <= (equation.sticks ? 1.0 : nearly) * limit) continue;
             equation.sticks = false;
@@ -351,7 +337,7 @@ class RigidStep {
         return isSame;
     }
 
-    // (change of λ) · (u + closing n), summed: the slope of the energy along the change.
+    // (change of λ) · (u + closing n), summed: the slope of the energy of the motion along the change.
     double slope() const {
         double sum = 0;
         for (const Equation& equation : equations_) sum += glm::dot(equation.next - equation.now, wrong(equation));
@@ -361,6 +347,8 @@ class RigidStep {
         for (const Equation& equation : equations_) give(equation, share * (equation.next - equation.now));
     }
 
+    // Takes the impulses, within the cone of friction, as far as the energy of the motion falls. Returns whether it
+    // does.
     bool apply() {
         for (Equation& equation : equations_) {
             const double pressing = pressingOf(equation);
@@ -384,16 +372,15 @@ class RigidStep {
         return share > 0;
     }
 
-    static constexpr double stickingShare = 0.998;  // of the square of the limit
+    static constexpr double insideCone = 0.999;  // up to there it sticks
 
     std::span<const RigidSlots> solids_;
     std::span<const Turn> turns_;
     std::span<Four> velocities_;
     std::vector<Equation> equations_;
-    double overMass_ = 0;
-    std::vector<std::size_t> place_;  // (solids) in the matrix
-    std::vector<std::size_t> first_;  // (six rows a solid) see Envelope
-    std::vector<double> total_, step_;  // (six rows a solid) [m/s, rad/s]
+    std::vector<std::size_t> place_;    // (solids) in the matrix
+    std::vector<std::size_t> first_;    // (six rows a solid) see Envelope
+    std::vector<double> total_, step_;  // (six rows a solid) [m/s, rad/s] δ, and Newton's step
 };
 
 }  // namespace

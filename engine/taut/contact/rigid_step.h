@@ -1,14 +1,18 @@
-// A step for all solids of a cluster at once, where sweeps pass an impulse on by one layer of a pile each.
+// A step for all solids of a cluster at once. Sweeps pass an impulse on by one layer of a pile each; what they leave of
+// a pile at rest, it leans by. The impulses between solids, and between them and what nothing moves, become those with
+// which the energy
 //
-// Rows that press between solids, or between a solid and what nothing moves, are taken as equations: they close no
-// further, and where friction is inside its cone they do not slide. Their impulses change by
+//     ½ δ·M δ + ½ Σ k min(n·u, 0)² + ½ Σ k |t·u|²         u = J (velocities without these impulses + δ) + closing n
 //
-//     Δλ = -k (J (u + δ) + c),   (M + Jᵀ k J) δ = -Jᵀ k (J u + c)         k: 1e5 effective masses of the row
+// of the change δ of their velocities is least: λ = -k u, with k a million effective masses of the row, so that rows
+// that say the same twice share their impulse. The second sum goes over rows that stick. It is least after some steps
+// of Newton's method, each along the least of the energy (six unknowns a solid, ordered after Cuthill and McKee 1969,
+// by Cholesky's method within the envelope). Rows that then do not press, or are beyond the cone of friction, slide:
+// they keep the friction at its edge, and the rest is done again.
 //
-// for the change δ of the solids' velocities: six unknowns a solid, ordered after Cuthill and McKee 1969, solved by
-// Cholesky's method within the envelope. As k is finite, rows that say the same twice share their impulse. Rows that would
-// pull are left out and the rest is solved again. Of the whole change that share is applied for which the energy of
-// the motion is least, so that a step lowers it or does nothing, as sweeps do.
+// Of the whole change that share is applied for which the energy of the motion is least (solver.h), so that a step
+// lowers it or does nothing, as sweeps do. It knows nothing of points that are no solid's: rows with them stay as they
+// are.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -25,8 +29,8 @@ struct RigidSlots {
     glm::dmat3 inertia;  // [kg m²]
 };
 
-// Changes impulses of rows and velocities. solids: that move and are in a row, ascending by slot. Returns whether it
-// lowered the energy.
+// Changes impulses of rows, and velocities. solids: all that are in rows, ascending by slot. Returns whether it did so:
+// not if that would be dearer than many sweeps.
 bool stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, std::span<const Turn> turns,
                  std::span<Four> velocities);
 

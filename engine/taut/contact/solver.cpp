@@ -21,6 +21,7 @@ constexpr int mostColours = 64;
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
 constexpr int sweepsForSolids = 3;        // times as many
 constexpr double settledForSolids = 0.1;  // of the change that ends them
+constexpr double nearRest = 4.0;          // times the speed below which nothing bounces
 
 // Of the same contact in every instant.
 std::uint64_t keyOf(const ContactConstraint& pair) {
@@ -136,9 +137,9 @@ void ContactSolver::findClusters(const Problem& problem) {
     turns_.clear();
     keys_.clear();
     clusters_.clear();
-    std::vector<int> sources;
+    std::vector<int> sources, roots;
     for (std::size_t k = 0; k < order_.size();) {
-        Cluster cluster{rows_.size(), 0, 1e300, 0, {}};
+        Cluster cluster{rows_.size(), 0, 1e300, 0, false, {}};
         sources.clear();
         std::size_t next = k;
         for (; next < order_.size() && order_[next].first == order_[k].first; ++next) {
@@ -158,14 +159,30 @@ void ContactSolver::findClusters(const Problem& problem) {
                         [](const Row& row) { return row.turns >= 0; })) {
             cluster.sweeps *= sweepsForSolids;
             cluster.tolerance *= settledForSolids;
-            for (std::size_t s = 0; s < solids_.size(); ++s)
-                if (const int leader = solids_[s].points.front(); isTouched(solids_[s]) && root(leader) == order_[k].first)
-                    cluster.solids.push_back({bodies_[s].slot, bodies_[s].u.mass, glm::inverse(bodies_[s].u.inverseInertia)});
         }
         clusters_.push_back(std::move(cluster));
+        roots.push_back(order_[k].first);
         k = next;
     }
+    // Which solids are at rest, nearly, with all that they touch: sweeps are good enough for what moves.
+    for (Cluster& cluster : clusters_) cluster.isSlow = isSlow(cluster, nearRest * problem.options.restSpeed);
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        if (!isTouched(solids_[s])) continue;
+        const auto at = std::lower_bound(roots.begin(), roots.end(), root(solids_[s].points.front()));
+        Cluster& cluster = clusters_[static_cast<std::size_t>(at - roots.begin())];
+        if (!cluster.isSlow) continue;
+        const core::RigidMotion& own = bodies_[s].u;
+        cluster.solids.push_back({bodies_[s].slot, own.mass, glm::inverse(own.inverseInertia)});
+    }
     shift_.assign(u_.size(), Four{});
+}
+
+bool ContactSolver::isSlow(const Cluster& cluster, double most) const {
+    return std::none_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first),
+                        rows_.begin() + static_cast<std::ptrdiff_t>(cluster.last), [&](const Row& row) {
+                            const dvec3 velocity = relativeVelocity(row, u_, turns_);
+                            return !(glm::dot(velocity, velocity) <= most * most);
+                        });
 }
 
 // Sorts the pairs of a large cluster by colour. A pair gets the first colour that none of its points has yet.

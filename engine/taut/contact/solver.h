@@ -120,7 +120,8 @@ class ContactSolver {
         std::size_t first, last;  // of rows_
         double tolerance;         // [m/s] smaller changes end the sweeps
         int sweeps;               // at most
-        std::vector<RigidSlots> solids;
+        bool isSlow;
+        std::vector<RigidSlots> solids;  // of a slow one
     };
     struct LastImpulse {
         std::uint64_t key;
@@ -136,6 +137,7 @@ class ContactSolver {
     void weigh(Row& row, const std::array<double, 4>& inverseMass) const;
     void joinPoints(const Problem& problem);
     void findClusters(const Problem& problem);
+    bool isSlow(const Cluster& cluster, double most) const;
     void colour(std::span<int> sources, const Problem& problem);
     void addRow(int source, const Problem& problem);
     int slotOf(int point, const Problem& problem);

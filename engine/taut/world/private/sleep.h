@@ -8,6 +8,8 @@
 // - it rests if in addition no point could go further than another third: see rest_bound.h. What friction holds counts
 //   as held: at colliders the points that it did not let go in the window, between bodies those whose friction in the
 //   last tick was below 0.9 of what Coulomb allows, if anything of the company is held or rubs on a collider;
+// - a solid rests if friction holds it so at three places or more that are not on one line, and none of its points went
+//   further than a hundredth of the error in the window;
 // - islands that press each other fall asleep together, as a company, once all of them rest.
 //
 // Waking, the whole company at once: any change of an island, of its forces or its grips, and a moving collider near

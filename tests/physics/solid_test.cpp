@@ -118,6 +118,35 @@ TEST(SolidBall, PassesItsMomentumOnThroughARow) {
     EXPECT_NEAR(motionOf(world, "solid.4").velocity.x, 2.0, 1e-9);
 }
 
+// Without gravity: a ball and a point of a net against a wall, and two balls head on. What two bodies or a body and a
+// collider give back is the product of what stands for both.
+TEST(Solid, BouncesByTheFactorsOfBothSides) {
+    world::SceneSpec spec = scene();
+    spec.world.gravity = dvec3(0.0);
+    spec.contact.restitution = 0.9;
+    spec.colliders = {ground(0.0)};
+    spec.colliders[0].restitution = 0.8;
+    for (int k = 0; k < 3; ++k) {
+        SolidSpec one = ball("ball" + std::to_string(k), {0.0, k == 0 ? 0.3 : 1.0 + 0.5 * k, 0.0});
+        one.velocity = {0.0, k == 1 ? 1.0 : -1.0, 0.0};
+        one.restitution = k == 2 ? 1.0 : 0.5;
+        spec.bodies.add(one);
+    }
+    world::NetSpec net;
+    net.name = "net";
+    net.points = {{"only", {2.0, 0.3, 0.0}, 0.05, false, {}}};
+    net.velocity = {0.0, -1.0, 0.0};
+    net.drag = 0.0;
+    net.restitution = 0.25;
+    spec.bodies.add(net);
+    World world(spec);
+    advanceBy(world, 0.5);
+    EXPECT_NEAR(motionOf(world, "solid.ball0").velocity.y, 0.8 * 0.5, 1e-9);
+    EXPECT_NEAR(motionOf(world, "solid.ball2").velocity.y - motionOf(world, "solid.ball1").velocity.y,
+                2.0 * 0.9 * 0.5, 1e-9);
+    EXPECT_NEAR(world.points("net.net").v[0].y, 0.8 * 0.25, 1e-9);
+}
+
 // A ball and a box fall on a free cloth in free space: nothing is lost of both momenta, nothing crosses.
 TEST(Solid, KeepsMomentaWithACloth) {
     world::SceneSpec spec = scene(0.5);

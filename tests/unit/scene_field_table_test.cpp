@@ -54,7 +54,7 @@ std::string standIn(const std::string& path) {
     const std::string rest = path.substr(path.find('.') + 1);
     const std::string key = rest.substr(0, rest.find('.'));
     for (const char* common : {"hold", "clamp", "hold_on", "velocity", "spin_rad_per_s", "jitter_m", "seed", "friction",
-                               "thickness", "collide", "touch", "finish", "solver", "array"})
+                               "restitution", "thickness", "collide", "touch", "finish", "solver", "array"})
         if (key == common && !path.starts_with("wind.")) return "cloth." + rest;
     return path;
 }

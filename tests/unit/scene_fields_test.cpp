@@ -127,6 +127,7 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
     EXPECT_EQ(body.jitter, 0.001);
     EXPECT_EQ(body.seed, 9);
     EXPECT_EQ(body.friction, 0.9);
+    EXPECT_EQ(body.restitution, 0.6);
     EXPECT_EQ(body.thickness, 0.01);
     EXPECT_FALSE(body.collide);
     EXPECT_EQ(body.finish.colour, dvec3(0.1, 0.2, 0.3));
@@ -259,7 +260,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 146);
+    EXPECT_EQ(net.points[1].source.line, 147);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");

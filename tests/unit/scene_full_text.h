@@ -91,6 +91,7 @@ spin_rad_per_s = [4, 5, 6]
 jitter_m = 0.001
 seed = 9
 friction = 0.9
+restitution = 0.6
 thickness = 0.01
 collide = false
 touch = "others"

@@ -143,7 +143,7 @@ TEST(SceneErrors, KeysAndTablesOutOfPlaceAreReportedWithARemedy) {
          "  zzzzzz = 1\n"
          "  ^ it has material, size, cells, origin, across, down, grain_deg, round, hold, clamp, hold_on, velocity, "
          "spin_rad_per_s, "
-         "jitter_m, seed, friction, thickness, collide, touch, finish, solver, array, like"},
+         "jitter_m, seed, friction, restitution, thickness, collide, touch, finish, solver, array, like"},
         {"a timeline below a table",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"

@@ -49,6 +49,7 @@ struct MovingPoints {
     const Real* inverseMass = nullptr;  // (stride) [1/kg]; 0 is a held point, which is left alone
     double thickness = 0.0;             // [m] distance that the points keep from a surface
     double friction = 1.0;              // factor on the collider's friction [-]
+    double restitution = 1.0;           // factor on its restitution [-]
     double gravity = 9.81;              // [m/s²] size of the acceleration by uniform fields
 };
 

@@ -212,6 +212,7 @@ class Resolver {
     }
 
     double frictionOn(const Solid& solid) const { return solid.material.friction * points_.friction; }
+    double restitutionOn(const Solid& solid) const { return solid.material.restitution * points_.restitution; }
 
     static KernelFrame frameFor(const Frame& frame) {
         KernelFrame plain;
@@ -251,7 +252,7 @@ class Resolver {
         args.thickness = points_.thickness;
         args.skinPerMetre = skinPerMetre<Real>;
         args.friction = frictionOn(solid);
-        args.restitution = solid.material.restitution;
+        args.restitution = restitutionOn(solid);
         args.h = h_;
         args.restSpeed = restSpeed_;
         args.fastest = fastestSurface;
@@ -321,7 +322,7 @@ class Resolver {
         }
         const dvec3 onSurface = vectorOf(placeUnder(of(world.to), of(touch.normal), touch.offset, world.thickness));
         const dvec3 carried = still ? dvec3(0.0) : velocityAt(solid, onSurface);
-        const Surface surface{still, frictionOn(solid), solid.material.restitution, restSpeed_};
+        const Surface surface{still, frictionOn(solid), restitutionOn(solid), restSpeed_};
         const Touch<double> met{of(world.from), of(point.x), of(point.v), of(touch.normal),
                                 touch.offset,   world.skin,  of(carried)};
         const Response<double> response = respond(surface, met);

@@ -19,6 +19,7 @@ struct ContactSurface {
     std::vector<std::array<int, 2>> wings;
     double thickness = 0.005;  // [m] two surfaces keep a distance of the sum of theirs
     double friction = 1.0;     // factor on the friction of the group [-]
+    double restitution = 1.0;  // likewise
     bool meetsItself = true;
     bool meetsOthers = true;
     bool meetsRigid = true;  // touches surfaces of colliders

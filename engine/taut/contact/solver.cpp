@@ -437,7 +437,7 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
             const auto source = static_cast<std::size_t>(row.source);
             const bool isPair = source < pairCount;
             const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - pairCount];
-            const double own = isPair ? problem.options.restitution : contact->restitution;
+            const double own = isPair ? problem.pairs[source].restitution : contact->restitution;
             if (!(own > 0) || (!isPair && row.turns < 0)) continue;
             const double closing = -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, turns_));
             const double gap = isPair ? problem.pairs[source].gap() : contact->gap;

@@ -92,6 +92,7 @@ struct BodySpec {
     double jitter = 0.0;             // [m] random offset of free points at the start; breaks symmetry
     std::int64_t seed = 1;           // of the jitter
     double friction = 1.0;           // factor on the collider's friction
+    double restitution = 1.0;        // factor on the restitution of colliders, and of bodies that touch
     double thickness = 0.005;        // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
     bool collide = true;
     bool meetsFaces = false;    // its faces meet colliders even if it touches nothing

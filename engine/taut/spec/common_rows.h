@@ -81,6 +81,8 @@ std::vector<fields::Field> bodyRows() {
                 "Random offset of the free points at the start, to break symmetry.")
         .whole("seed", &Spec::seed, "", Range{0.0, 1e12}, "Seed of the offsets.")
         .number("friction", &Spec::friction, "", Range{0.0, 100.0}, "Factor on the collider's friction.")
+        .number("restitution", &Spec::restitution, "", Range{0.0, 1.0},
+                "Factor on the collider's restitution, and on that of bodies that touch.")
         .number(
             "thickness", &Spec::thickness, "m", Range{0.0, 10.0},
             "Distance kept from colliders; bodies that touch keep the sum of theirs. Of a rope or net its radius if "

@@ -44,6 +44,7 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     contact::ContactSurface surface;
     surface.thickness = body.spec->thickness;
     surface.friction = body.spec->friction;
+    surface.restitution = body.spec->restitution;
     surface.meetsItself = body.spec->touch == Touch::all;
     surface.meetsOthers = body.spec->touch != Touch::nothing;
     surface.meetsRigid = body.spec->facesMeetColliders();
@@ -305,7 +306,7 @@ void ContactStage::addSolidContacts(double h) {
             contact.speed = glm::dot(surface.away, surface.velocity);
             contact.friction = surface.material.friction * spec.friction;
             contact.thickness = spec.thickness;
-            contact.restitution = surface.material.restitution;
+            contact.restitution = surface.material.restitution * spec.restitution;
             // Where it came from, so that what it goes in this instant is no overlap.
             contact.gap =
                 surface.distance - spec.thickness - glm::dot(surface.away, x1_[k] - x0_[k]) + h * contact.speed;

@@ -188,6 +188,7 @@ class IslandContacts {
             points.inverseMass = inverseMass;
             points.thickness = body->spec->thickness;
             points.friction = body->spec->friction;
+            points.restitution = body->spec->restitution;
             points.gravity = gravity;
         }
     }

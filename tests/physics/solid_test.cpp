@@ -118,6 +118,27 @@ TEST(SolidBall, PassesItsMomentumOnThroughARow) {
     EXPECT_NEAR(motionOf(world, "solid.4").velocity.x, 2.0, 1e-9);
 }
 
+// The hull around the corners of a box and a point within it, in a file without faces, is that box.
+TEST(SolidHull, OfABoxIsTheBox) {
+    SolidSpec crate = box("box", {0.3, 0.2, 0.1}, {0.4, 0.2, 0.6}), hull = crate;
+    hull.shape = "hull";
+    const auto mesh = std::make_shared<world::MeshData>();
+    for (int i = 0; i < 8; ++i)
+        mesh->positions.push_back(0.5 * crate.size *
+                                  dvec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1));
+    mesh->positions.emplace_back(0.01, 0.02, 0.03);
+    hull.meshData = mesh;
+    const mechanics::Model a = crate.build({}), b = hull.build({});
+    ASSERT_EQ(b.pointCount(), a.pointCount());
+    EXPECT_EQ(b.triangles.size(), a.triangles.size());
+    const std::vector<dvec3> still(a.masses.size(), dvec3(0.0));
+    const core::RigidMotion one = core::rigidMotionOf(a.masses, a.positions, still);
+    const core::RigidMotion other = core::rigidMotionOf(b.masses, b.positions, still);
+    EXPECT_NEAR(other.mass / one.mass, 1.0, 1e-12);
+    EXPECT_LT(glm::distance(one.centre, other.centre), 1e-12);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(other.inverseInertia[k][k] / one.inverseInertia[k][k], 1.0, 1e-9);
+}
+
 // Without gravity: a ball and a point of a net against a wall, and two balls head on. What two bodies or a body and a
 // collider give back is the product of what stands for both.
 TEST(Solid, BouncesByTheFactorsOfBothSides) {

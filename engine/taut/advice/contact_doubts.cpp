@@ -37,6 +37,7 @@ void doubtThickness(std::span<const Body* const> bodies, std::vector<std::string
     std::set<const BodySpec*> seen;  // copies would repeat the same
     std::size_t count = 0;
     for (const Body* body : bodies) {
+        if (body->spec->isRigid()) continue;  // it has no layers
         const double edge = shortestEdge(*body), thickness = body->spec->thickness;
         if (!(2 * thickness > edge * (1 + 1e-9)) || !seen.insert(body->spec.get()).second || ++count > mostDoubts)
             continue;

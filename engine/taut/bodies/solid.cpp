@@ -9,6 +9,7 @@
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/private/bound_mesh.h"
 #include "taut/bodies/private/rigid_constraint.h"
+#include "taut/collision/private/convex_hull.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/closed_mesh.h"
@@ -29,7 +30,7 @@ namespace {
 
 constexpr float creaseAngle = 0.6F;  // [rad] drawn edges of a mesh that are sharper stay sharp
 
-const std::vector<std::string> solidShapes{"box", "sphere", "capsule", "mesh"};
+const std::vector<std::string> solidShapes{"box", "sphere", "capsule", "mesh", "hull"};
 
 // Corner i is on the positive side of axis k if bit k of i is set.
 void addBox(const dvec3& half, mechanics::RigidShape& shape) {
@@ -43,6 +44,23 @@ void addBox(const dvec3& half, mechanics::RigidShape& shape) {
         shape.triangles.push_back({top, top | u | v, top | v});
         shape.triangles.push_back({0, u | v, u});
         shape.triangles.push_back({0, v, u | v});
+    }
+}
+
+// The least convex body around the points.
+void addHull(std::span<const dvec3> points, mechanics::RigidShape& shape) {
+    const std::vector<std::uint32_t> corners = collision::convexHull(points);
+    if (corners.empty())
+        throw core::Error(core::ErrorKind::badContent, "the points of its hull lie in one plane: it has no volume");
+    std::vector<int> placeOf(points.size(), -1);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        int& place = placeOf[corners[k]];
+        if (place < 0) {
+            place = static_cast<int>(shape.positions.size());
+            shape.positions.push_back(points[corners[k]]);
+        }
+        if (k % 3 == 0) shape.triangles.emplace_back();
+        shape.triangles.back()[k % 3] = place;
     }
 }
 
@@ -100,11 +118,11 @@ Section SolidSpec::section() {
             .only({"sphere", "capsule"})
             .number("height", &SolidSpec::height, "m", lengthRange, "Along y, between the centres of its half spheres.")
             .only({"capsule"})
-            .text("mesh", &SolidSpec::mesh, Role::mesh, "OBJ or glTF file with closed surfaces.")
+            .text("mesh", &SolidSpec::mesh, Role::mesh, "OBJ or glTF file: with closed surfaces, or of any points of a hull.")
             .required()
-            .only({"mesh"})
+            .only({"mesh", "hull"})
             .number("scale", &SolidSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-            .only({"mesh"})
+            .only({"mesh", "hull"})
             .vector("position", &SolidSpec::position, "m", placeRange, "Its centre; of a mesh the origin of its file.")
             .rotation("rotation_deg", &SolidSpec::rotation, "About x, then y, then z.")
             .number("density_kg_per_m3", &SolidSpec::density, "kg/m³", positive, "Mass of a cubic metre.")
@@ -125,7 +143,7 @@ Section SolidSpec::section() {
             return;
         }
         const double least = std::min({solid.size.x, solid.size.y, solid.size.z});
-        if (solid.shape == "box" && !(2.0 * solid.thickness < least)) {
+        if (solid.isBox() && !(2.0 * solid.thickness < least)) {
             if (input.table.find("thickness") != nullptr)
                 input.problems.addError(input.at("thickness"),
                                         fmt::format("the thickness goes into the box from all sides: it must be less "
@@ -147,13 +165,21 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
         made.positions = {{0.0, -0.5 * height, 0.0}, {0.0, 0.5 * height, 0.0}};
         made.lines = {{0, 1}};
         made.properties = mechanics::massPropertiesOfCapsule(radius, height);
-    } else if (shape == "mesh" && meshData != nullptr) {
-        for (const dvec3& x : meshData->positions) made.positions.push_back(scale * x);
-        made.triangles = meshData->triangles;
+    } else if (!isBox() && meshData != nullptr) {
+        std::vector<dvec3> points;
+        for (const dvec3& x : meshData->positions) points.push_back(scale * x);
         try {
-            mechanics::expectClosed(made.positions, made.triangles);
+            if (shape == "hull") {
+                addHull(points, made);
+            } else {
+                made.positions = std::move(points);
+                made.triangles = meshData->triangles;
+                mechanics::expectClosed(made.positions, made.triangles);
+            }
         } catch (const mechanics::MeshFault& fault) {
             throw core::Error(fault.kind(), at(source) + meshFaultText(*this, fault.what(), fault.triangle));
+        } catch (const core::Error& error) {
+            throw core::Error(error.kind(), at(source) + error.what());
         }
         made.properties = mechanics::massPropertiesOf(made.positions, made.triangles);
     } else {
@@ -167,7 +193,7 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
     made.place = position;
     made.dragRate = drag;
     mechanics::Model model = mechanics::buildRigid(made);
-    if (shape != "box") return model;
+    if (!isBox()) return model;
     static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
     for (int i = 0; i < 8; ++i)
         for (int k = 0; k < 3; ++k) model.groups[sides[k][(i >> k) & 1]].push_back(mechanics::innerPoints + i);
@@ -186,7 +212,7 @@ std::unique_ptr<BodyDrawing> SolidSpec::drawing(const Body& body) const {
     if (shape == "sphere") return std::make_unique<SolidDrawing>(body, view::sphereMesh(r));
     if (shape == "capsule")
         return std::make_unique<SolidDrawing>(body, view::capsuleMesh(r, static_cast<float>(height)));
-    if (shape == "box")
+    if (isBox())
         return std::make_unique<SolidDrawing>(body, view::boxMesh(0.5 * size, static_cast<float>(edge)));
     std::vector<glm::vec3> positions;
     for (const dvec3& x : meshData->positions) positions.emplace_back(scale * x);

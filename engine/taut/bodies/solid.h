@@ -9,11 +9,11 @@ namespace taut::world {
 // Sharp edges are rounded by the thickness as it touches: what is drawn is what others keep from.
 struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     static constexpr const char* kindName = "solid";
-    std::string shape = "box";   // box, sphere, capsule, mesh
+    std::string shape = "box";   // box, sphere, capsule, mesh, hull
     dvec3 size{0.5, 0.5, 0.5};   // [m] of a box
     double radius = 0.25;        // [m]
     double height = 0.5;         // [m] of a capsule, between the centres of its half spheres
-    double scale = 1.0;          // of a mesh
+    double scale = 1.0;          // of a mesh or hull
     dvec3 position{0.0};         // [m] of its origin
     dvec3 rotation{0.0};         // [rad]
     double density = 500.0;      // [kg/m³]
@@ -23,6 +23,7 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
 
     SolidSpec() { touch = Touch::others, thickness = 0.002; }
     bool isRound() const { return shape == "sphere" || shape == "capsule"; }
+    bool isBox() const { return shape == "box"; }
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     void constrain(IslandPlan& plan, const Body& body) const override;

@@ -32,7 +32,8 @@ bool holdRigidly(std::span<const dvec3> footholds, std::span<const dvec3> x) {
     const auto [length, b] = furthest(footholds, [&](const dvec3& p) { return glm::distance(p, a); });
     if (!(length > leastShare * size)) return false;
     const dvec3 line = (b - a) / length;
-    const double width = furthest(footholds, [&](const dvec3& p) { return glm::length(glm::cross(line, p - a)); }).first;
+    const auto offLine = [&](const dvec3& p) { return glm::length(glm::cross(line, p - a)); };
+    const double width = furthest(footholds, offLine).first;
     return width > leastShare * size;
 }
 
@@ -49,8 +50,8 @@ void Island::watchRest(bool isMiddle) {
     rest_.look(x_, plan_.solver.sleepError / 3, isMiddle);
 }
 
-// What constraints hold has no stiffness, so their islands stay awake, but for a solid by itself. So does what a hand or
-// a collider moves.
+// What constraints hold has no stiffness, so their islands stay awake, but for a solid by itself. So does what a hand
+// or a collider moves.
 bool Island::isCalm() {
     const auto moves = [](const Grip& grip) { return grip.path.moves(); };
     return rest_.isCalm() && (plan_.constraints.empty() || isOneSolid(plan_)) && now_.inside.empty() && !isOpen_ &&

@@ -140,8 +140,8 @@ SceneSection contactSection() {
                          .number("friction", &ContactSpec::friction, "", Range{0.0, 100.0},
                                  "Coulomb's friction between two bodies, times the factors of both.")
                          .number("restitution", &ContactSpec::restitution, "", Range{0.0, 1.0},
-                                 "Speed of two bodies after they bounce off each other over speed before, times the factors of "
-                                 "both.")
+                                 "Speed of two bodies after they bounce off each other over speed before, times the "
+                                 "factors of both.")
                          .whole("instants", &ContactSpec::instants, "", Range{1, 1024},
                                 "Moments of a tick at which bodies are kept apart, a power of two; as many as their "
                                 "speeds ask for if not given.")

@@ -368,7 +368,8 @@ TEST(ContactImpact, TakesOverlapBackNotIntoWhatHoldsIt) {
 
 // What a method stores need not be the mean of the instant: each bounces as it arrives.
 TEST(ContactImpact, BouncesVelocitiesAsTheyArriveThemselves) {
-    const ContactConstraint pair = restingPair(0, {1, 2, 3});
+    ContactConstraint pair = restingPair(0, {1, 2, 3});
+    pair.restitution = 0.5;
     const std::vector<double> inverseMass{1.0, 0.0, 0.0, 0.0};
     std::vector<dvec3> u(4, dvec3(0.0)), v = u, shift = u;
     u[0] = {0.0, -2.0, 0.0};

@@ -9,6 +9,7 @@
 #include "taut/bodies/block.h"
 #include "taut/contact/bvh.h"
 #include "taut/contact/crossings.h"
+#include "taut/core/aabb.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {
@@ -93,7 +94,11 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
     // What is thinner than a twentieth of a cell is two faces that lie on each other.
     constexpr double worthSaying = 0.02, leastThick = 0.05, mostFaces = 1e4;
     const Triangles& triangles = block.meshData->triangles;
-    const Thickness thickness(x, triangles, block.cell);
+    core::Aabb box;
+    for (const dvec3& p : x) box.add(p);
+    const dvec3 size = box.high - box.low;
+    const double reach = std::min(block.cell, glm::max(size.x, glm::max(size.y, size.z)));
+    const Thickness thickness(x, triangles, reach);
     const auto step = static_cast<std::size_t>(std::ceil(static_cast<double>(triangles.size()) / mostFaces));
     std::vector<std::pair<double, double>> thin;  // [m] and [m²]
     double area = 0.0, thinArea = 0.0;
@@ -101,7 +106,7 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
         const double own = 0.5 * glm::length(thickness.doubleArea(t));
         if (!(own > 0.0)) continue;
         area += own;
-        if (const double under = thickness.under(t); leastThick * block.cell < under && under < 0.999 * block.cell) {
+        if (const double under = thickness.under(t); leastThick * reach < under && under < 0.999 * reach) {
             thin.emplace_back(under, own);
             thinArea += own;
         }
@@ -110,7 +115,7 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
     std::sort(thin.begin(), thin.end());
     double thinner = 0.0, enough = block.cell;
     for (const auto& [under, own] : thin)
-        if ((thinner += own) >= 0.1 * thinArea) {
+        if ((thinner += own) >= worthSaying * area) {
             enough = roundedDown(under);
             break;
         }

@@ -25,15 +25,16 @@ void expectMatchingSides(std::span<const std::array<int, 3>> triangles) {
         }
     const auto rank = [](const Side& s) { return std::array{s.low, s.high, s.triangle}; };
     std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return rank(a) < rank(b); });
-    int open = 0, turned = 0, firstOpen = -1, firstTurned = -1;
+    int open = 0, doubled = 0, turned = 0, firstOpen = -1, firstDoubled = -1, firstTurned = -1;
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t last = i;
         int turns = 0;
         while (last < sides.size() && sides[last].low == sides[i].low && sides[last].high == sides[i].high)
             turns += sides[last++].turn;
-        const bool isOpen = (last - i) % 2 == 1;
+        const bool isOdd = (last - i) % 2 == 1, isOpen = last - i == 1;
         if (isOpen && open++ == 0) firstOpen = sides[i].triangle;
-        if (!isOpen && turns != 0 && turned++ == 0) firstTurned = sides[i].triangle;
+        if (isOdd && !isOpen && doubled++ == 0) firstDoubled = sides[i].triangle;
+        if (!isOdd && turns != 0 && turned++ == 0) firstTurned = sides[i].triangle;
         i = last;
     }
     if (open > 0)
@@ -42,6 +43,12 @@ void expectMatchingSides(std::span<const std::array<int, 3>> triangles) {
                                     "lie on each other",
                                     open),
                         firstOpen);
+    if (doubled > 0)
+        throw MeshFault(fmt::format("the mesh has an inside on one side of some faces only: at {} edges an odd number of "
+                                    "faces meet, three or more, the first of them at this face; take out faces that "
+                                    "are there twice, or lie within",
+                                    doubled),
+                        firstDoubled);
     if (turned > 0)
         throw MeshFault(fmt::format("faces that share an edge are turned against each other, at {} edges, the first "
                                     "of them at this face; let all fronts look outwards",

@@ -26,7 +26,8 @@
 // (gauss_seidel.h).
 //
 // Solids. Points of a rigid body have its two velocities, of the centre and the spin. An impulse acts where the sides
-// meet, a thickness off the points, so that balls roll. Its points get what the body got.
+// meet, a thickness off the points, so that balls roll. Its points get what the body got. Where several are near rest,
+// sweeps take turns with steps for all of them at once (rigid_step.h).
 //
 // A collider that holds a point is one more row, between the point and a velocity that nothing changes. So is each
 // fixed point of a pair: it has a slot of its own, and passes nothing on.

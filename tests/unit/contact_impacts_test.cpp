@@ -33,7 +33,7 @@ TEST(ContactImpact, SharesTheSpeedByMassAndRestitution) {
                 SCOPED_TRACE(std::to_string(areEdges) + ", m2 " + std::to_string(m2) + ", e " + std::to_string(e));
                 const double m1 = 0.2, speed = 3.0;
                 Flight flight = areEdges ? edgeOnEdge(m1, m2, speed) : pointOnTriangle(m1, m2, speed);
-                flight.options.solver.restitution = e;
+                flight.options.restitution = e;
                 flight.options.solver.restSpeed = 1e-3;
                 for (int i = 0; i < 40; ++i) flight.fly(5e-4);  // on the way for 4 ms
                 const std::size_t firstOfSecond = areEdges ? 2 : 1;
@@ -49,7 +49,7 @@ TEST(ContactImpact, SharesTheSpeedByMassAndRestitution) {
 // Slower than restSpeed it stays where it comes: m1/(m1 + m2) v.
 TEST(ContactImpact, OfWhatIsSlowHasNoRestitution) {
     Flight flight = pointOnTriangle(0.2, 0.6, 0.5);
-    flight.options.solver.restitution = 1.0;
+    flight.options.restitution = 1.0;
     flight.options.solver.restSpeed = 1.0;
     for (int i = 0; i < 60; ++i) flight.fly(5e-4);  // on the way for 24 ms
     for (const dvec3& v : flight.v) EXPECT_NEAR(v.y, -0.25 * 0.5, 1e-6);
@@ -68,7 +68,7 @@ TEST(ContactImpact, TurnsATriangleAsTheLeversSay) {
     Flight flight;
     flight.addBall(above, {0.0, -2.0, 0.0}, 0.1, 0.004);
     flight.addTriangle(corners, dvec3(0.0), 0.5, 0.004);
-    flight.options.solver.restitution = 1.0;
+    flight.options.restitution = 1.0;
     flight.options.solver.restSpeed = 1e-3;
     flight.fly(1e-3);
     const double impulse = 2 * 2.0 / inverse;
@@ -375,7 +375,6 @@ TEST(ContactImpact, BouncesVelocitiesAsTheyArriveThemselves) {
     u[0] = {0.0, -2.0, 0.0};
     v[0] = {0.0, -3.0, 0.0};
     SolverOptions options;
-    options.restitution = 0.5;
     ContactSolver pressing;
     pressing.solve(std::span(&pair, 1), {}, inverseMass, 1e-3, options, u, v, shift);
     EXPECT_NEAR(u[0].y, 1.0, 1e-15);

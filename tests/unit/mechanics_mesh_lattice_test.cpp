@@ -239,7 +239,7 @@ TEST(MeshLattice, FaultsOfAMeshAreToldApart) {
     expectSaid(faultOf(open), "not closed, so that it has no inside: 3 edges");
     Mesh doubled = box;
     doubled.triangles.push_back(box.triangles[5]);
-    expectSaid(faultOf(doubled), "5 the mesh has an inside on one side of some faces only: at 3 edges");
+    expectSaid(faultOf(doubled), "5 the mesh has no inside: at 3 edges three faces meet");
     Mesh twisted = box;
     std::swap(twisted.triangles[7][0], twisted.triangles[7][1]);
     expectSaid(faultOf(twisted), "turned against each other, at 3 edges");

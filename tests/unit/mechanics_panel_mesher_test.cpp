@@ -68,6 +68,18 @@ TEST(PanelMesher, FillsThePanelOnce) {
     }
 }
 
+// An edge of several sides may lie at any angle, where rounding puts their ends on either side of each other.
+TEST(PanelMesher, TakesSidesOnOneLineForApart) {
+    for (int turn = 1; turn < 20; ++turn) {
+        const dvec2 along(std::cos(0.3 * turn), std::sin(0.3 * turn)), up(-along.y, along.x);
+        Ring ring;
+        for (int k = 0; k < 6; ++k) ring.push_back((0.17 * k + 0.07) * along + 0.31 * up);
+        ring.push_back(0.92 * along + 0.7 * up);
+        ring.push_back(0.07 * along + 0.7 * up);
+        EXPECT_NO_THROW(meshPanel({{ring}, 0.05})) << turn;
+    }
+}
+
 // V - E + F = 1 less one for each hole; and what is only at one triangle is the way round the rings, in their order.
 TEST(PanelMesher, HasTheOutlineAsItsOnlyBorder) {
     for (const PanelShape& shape : shapes()) {

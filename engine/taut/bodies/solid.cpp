@@ -51,7 +51,7 @@ void addBox(const dvec3& half, mechanics::RigidShape& shape) {
 void addHull(std::span<const dvec3> points, mechanics::RigidShape& shape) {
     const std::vector<std::uint32_t> corners = collision::convexHull(points);
     if (corners.empty())
-        throw core::Error(core::ErrorKind::badContent, "the points of its hull lie in one plane: it has no volume");
+        throw mechanics::MeshFault("the points of the mesh lie in one plane, so that their hull has no inside", -1);
     std::vector<int> placeOf(points.size(), -1);
     for (std::size_t k = 0; k < corners.size(); ++k) {
         int& place = placeOf[corners[k]];
@@ -118,7 +118,7 @@ Section SolidSpec::section() {
             .only({"sphere", "capsule"})
             .number("height", &SolidSpec::height, "m", lengthRange, "Along y, between the centres of its half spheres.")
             .only({"capsule"})
-            .text("mesh", &SolidSpec::mesh, Role::mesh, "OBJ or glTF file: with closed surfaces, or of any points of a hull.")
+            .text("mesh", &SolidSpec::mesh, Role::mesh, "OBJ or glTF file; its surfaces are closed, but for a hull.")
             .required()
             .only({"mesh", "hull"})
             .number("scale", &SolidSpec::scale, "", lengthRange, "Metres of a unit of the file.")
@@ -143,7 +143,7 @@ Section SolidSpec::section() {
             return;
         }
         const double least = std::min({solid.size.x, solid.size.y, solid.size.z});
-        if (solid.isBox() && !(2.0 * solid.thickness < least)) {
+        if (solid.shape == "box" && !(2.0 * solid.thickness < least)) {
             if (input.table.find("thickness") != nullptr)
                 input.problems.addError(input.at("thickness"),
                                         fmt::format("the thickness goes into the box from all sides: it must be less "
@@ -165,7 +165,7 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
         made.positions = {{0.0, -0.5 * height, 0.0}, {0.0, 0.5 * height, 0.0}};
         made.lines = {{0, 1}};
         made.properties = mechanics::massPropertiesOfCapsule(radius, height);
-    } else if (!isBox() && meshData != nullptr) {
+    } else if (shape != "box" && meshData != nullptr) {
         std::vector<dvec3> points;
         for (const dvec3& x : meshData->positions) points.push_back(scale * x);
         try {
@@ -178,8 +178,6 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
             }
         } catch (const mechanics::MeshFault& fault) {
             throw core::Error(fault.kind(), at(source) + meshFaultText(*this, fault.what(), fault.triangle));
-        } catch (const core::Error& error) {
-            throw core::Error(error.kind(), at(source) + error.what());
         }
         made.properties = mechanics::massPropertiesOf(made.positions, made.triangles);
     } else {
@@ -193,7 +191,7 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
     made.place = position;
     made.dragRate = drag;
     mechanics::Model model = mechanics::buildRigid(made);
-    if (!isBox()) return model;
+    if (shape != "box") return model;
     static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
     for (int i = 0; i < 8; ++i)
         for (int k = 0; k < 3; ++k) model.groups[sides[k][(i >> k) & 1]].push_back(mechanics::innerPoints + i);
@@ -212,7 +210,7 @@ std::unique_ptr<BodyDrawing> SolidSpec::drawing(const Body& body) const {
     if (shape == "sphere") return std::make_unique<SolidDrawing>(body, view::sphereMesh(r));
     if (shape == "capsule")
         return std::make_unique<SolidDrawing>(body, view::capsuleMesh(r, static_cast<float>(height)));
-    if (isBox())
+    if (shape == "box")
         return std::make_unique<SolidDrawing>(body, view::boxMesh(0.5 * size, static_cast<float>(edge)));
     std::vector<glm::vec3> positions;
     for (const dvec3& x : meshData->positions) positions.emplace_back(scale * x);

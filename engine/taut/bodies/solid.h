@@ -23,7 +23,6 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
 
     SolidSpec() { touch = Touch::others, thickness = 0.002; }
     bool isRound() const { return shape == "sphere" || shape == "capsule"; }
-    bool isBox() const { return shape == "box"; }
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     void constrain(IslandPlan& plan, const Body& body) const override;

@@ -24,7 +24,7 @@ struct ContactConstraint {
     std::uint64_t leaves = 0;  // the LeafPair that it was found for
     double recovery = 1.0;     // 0 … 1: share by which an overlap is taken back, see convexityOf()
     double firstShare = 0.5;   // of the thickness that is the first side's
-    double restitution = 0.0;  // [-]
+    double restitution = 0.0;  // speed of parting over that of closing [-]
     double softness = 0.0;     // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]

@@ -41,7 +41,8 @@
 namespace taut::contact {
 
 struct ContactOptions {
-    double friction = 0.3;  // Coulomb's μ between two surfaces, times the factors of both [-]
+    double friction = 0.3;     // Coulomb's μ between two surfaces, times the factors of both [-]
+    double restitution = 0.0;  // likewise
     SolverOptions solver{};
     // Tests switch these off to show what each is for.
     bool certifies = true, slides = true, untangles = true;
@@ -125,9 +126,9 @@ class ContactGroup {
         for (std::size_t p = 0; p < active_.size() && p < solver_.impulses().size(); ++p)
             if (solver_.impulses()[p] > 0) each(active_[p], solver_.impulses()[p], solver_.frictions()[p]);
     }
-    // Likewise each(number of the instant's contact with a collider, normal impulse, friction).
+    // Likewise each(number of Instant::kinematic, normal impulse, friction).
     template <class Each>
-    void forEachCarried(Each&& each) const {
+    void forEachOnCollider(Each&& each) const {
         for (std::size_t p = active_.size(); p < solver_.impulses().size(); ++p)
             if (solver_.impulses()[p] > 0) each(p - active_.size(), solver_.impulses()[p], solver_.frictions()[p]);
     }

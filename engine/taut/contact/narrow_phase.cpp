@@ -223,7 +223,7 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     const ContactSurface &a = elements_.surface(isPoint ? elements_.surfaceOf(pair.a) : elements_.edges()[i].surface),
                   &b = elements_.surface(isPoint ? elements_.triangles()[j].surface : elements_.edges()[j].surface);
     pair.friction = (a.isOfCollider() || b.isOfCollider() ? 1.0 : options_.friction) * a.friction * b.friction;
-    pair.restitution = options_.solver.restitution * a.restitution * b.restitution;
+    pair.restitution = options_.restitution * a.restitution * b.restitution;
     if (a.isDriven || b.isDriven) pair.softness = drivenSoftness;
     if (a.thickness + b.thickness > 0) pair.firstShare = a.thickness / (a.thickness + b.thickness);
     pairs.push_back(pair);

@@ -115,8 +115,7 @@ class RigidStep {
             equation.arms[side] += dvec3(turn.arm[0], turn.arm[1], turn.arm[2]);
         }
         const dvec3 normal = vectorOf(row.normal), friction = vectorOf(row.impulse);
-        const dvec3 aside = std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
-        const dvec3 across = glm::normalize(glm::cross(normal, aside));
+        const dvec3 across = acrossOf(normal);
         equation.axes = {normal, across, glm::cross(normal, across)};
         const dvec3 velocity = wrong(equation);
         for (std::size_t k = 0; k < 3; ++k)
@@ -245,12 +244,12 @@ class RigidStep {
         bool isAny = false;
         for (Equation& equation : equations_) {
             const dvec3 friction = frictionOf(equation);
-            const double limit = equation.row->friction * pressingOf(equation),
-                         size = std::sqrt(glm::dot(friction, friction));
+            const double limit = equation.row->friction * pressingOf(equation);
+            const double room = (equation.sticks ? 1.0 : nearly) * limit;
             equation.next = equation.kept;  // as it was
-            if (size <= (equation.sticks ? 1.0 : nearly) * limit) continue;
+            if (glm::dot(friction, friction) <= room * room) continue;
             equation.sticks = false;
-            equation.kept = (limit / size) * friction;
+            equation.kept = withinCone(friction, limit);
             isAny = true;
         }
         if (isAny) leaveToEnergy([](const Equation& equation) { return equation.next - equation.kept; });
@@ -352,10 +351,8 @@ class RigidStep {
     bool apply() {
         for (Equation& equation : equations_) {
             const double pressing = pressingOf(equation);
-            dvec3 friction = frictionOf(equation);
-            const double limit = equation.row->friction * pressing, size = std::sqrt(glm::dot(friction, friction));
-            if (size > limit) friction *= limit / size;
-            equation.next = friction + pressing * equation.axes[0];
+            equation.next =
+                withinCone(frictionOf(equation), equation.row->friction * pressing) + pressing * equation.axes[0];
         }
         const double before = slope();
         giveAll(1.0);

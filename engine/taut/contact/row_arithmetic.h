@@ -1,7 +1,9 @@
 // What a row sees of the velocities and does to them, for one row at a time; gauss_seidel_kernel.cpp does so for four.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "taut/contact/gauss_seidel.h"
 
@@ -14,6 +16,16 @@ inline Four four(const dvec3& v) {
 }
 inline dvec3 vectorOf(const Four& v) {
     return {v.of[0], v.of[1], v.of[2]};
+}
+
+// Of the directions across a normal, one; unit.
+inline dvec3 acrossOf(const dvec3& normal) {
+    return glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+}
+// Friction, no more of it than Coulomb allows.
+inline dvec3 withinCone(const dvec3& friction, double limit) {
+    const double size = std::sqrt(glm::dot(friction, friction));
+    return size > limit ? friction * (limit / size) : friction;
 }
 
 // [m/s] of the first side from the second.

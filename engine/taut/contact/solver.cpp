@@ -139,7 +139,7 @@ void ContactSolver::findClusters(const Problem& problem) {
     clusters_.clear();
     std::vector<int> sources, roots;
     for (std::size_t k = 0; k < order_.size();) {
-        Cluster cluster{rows_.size(), 0, 1e300, 0, false, {}};
+        Cluster cluster{rows_.size(), 0, 1e300, 0, {}};
         sources.clear();
         std::size_t next = k;
         for (; next < order_.size() && order_[next].first == order_[k].first; ++next) {
@@ -164,20 +164,21 @@ void ContactSolver::findClusters(const Problem& problem) {
         roots.push_back(order_[k].first);
         k = next;
     }
-    // Which solids are at rest, nearly, with all that they touch: sweeps are good enough for what moves.
-    for (Cluster& cluster : clusters_) cluster.isSlow = isSlow(cluster, nearRest * problem.options.restSpeed);
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         if (!isTouched(solids_[s])) continue;
         const auto at = std::lower_bound(roots.begin(), roots.end(), root(solids_[s].points.front()));
-        Cluster& cluster = clusters_[static_cast<std::size_t>(at - roots.begin())];
-        if (!cluster.isSlow) continue;
         const core::RigidMotion& own = bodies_[s].u;
-        cluster.solids.push_back({bodies_[s].slot, own.mass, glm::inverse(own.inverseInertia)});
+        clusters_[static_cast<std::size_t>(at - roots.begin())].solids.push_back(
+            {bodies_[s].slot, own.mass, glm::inverse(own.inverseInertia)});
     }
+    // Sweeps are good enough for what moves, and for one alone.
+    for (Cluster& cluster : clusters_)
+        if (cluster.solids.size() < 2 || !isNearRest(cluster, problem)) cluster.solids.clear();
     shift_.assign(u_.size(), Four{});
 }
 
-bool ContactSolver::isSlow(const Cluster& cluster, double most) const {
+bool ContactSolver::isNearRest(const Cluster& cluster, const Problem& problem) const {
+    const double most = nearRest * problem.options.restSpeed;
     return std::none_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first),
                         rows_.begin() + static_cast<std::ptrdiff_t>(cluster.last), [&](const Row& row) {
                             const dvec3 velocity = relativeVelocity(row, u_, turns_);
@@ -304,8 +305,7 @@ void ContactSolver::weigh(Row& row, const std::array<double, 4>& inverseMass) co
         const dmat3 across(0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0);  // arm × p
         inverse -= across * gain * across;
     }
-    const dvec3 normal = vectorOf(row.normal), aside = std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
-    const dvec3 t = glm::normalize(glm::cross(normal, aside)), b = glm::cross(normal, t);
+    const dvec3 normal = vectorOf(row.normal), t = acrossOf(normal), b = glm::cross(normal, t);
     const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
     const double along = glm::dot(normal, inverse * normal), difference = 0.5 * (tt - bb);
     row.mass = 1.0 / along;
@@ -388,21 +388,18 @@ void ContactSolver::addRow(int source, const Problem& problem) {
     // Friction turns with the plane of the contact.
     const dvec3 normal = vectorOf(row.normal);
     dvec3 friction = vectorOf(last->impulse);
-    friction -= glm::dot(friction, normal) * normal;
-    const double limit = row.friction * last->impulse.of[3], size = std::sqrt(glm::dot(friction, friction));
-    if (size > limit) friction *= limit / size;
+    friction = withinCone(friction - glm::dot(friction, normal) * normal, row.friction * last->impulse.of[3]);
     row.impulse = {{friction.x, friction.y, friction.z, last->impulse.of[3]}};
 }
 
-// Sweeps, with steps for all solids at once in between if there are several. Returns the number of sweeps.
+// Sweeps, with steps for all solids at once in between where they are near rest. Returns the number of sweeps.
 int ContactSolver::solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance,
                              std::span<Four> velocities) const {
-    const std::span<const RigidSlots> solids(cluster.solids);
-    if (solids.size() < 2) return projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, turns_);
+    if (cluster.solids.empty()) return projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, turns_);
     constexpr int sweepsBetween = 5;
     int most = 1, sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, turns_), taken = sweeps;
     for (bool helps = true; sweeps == most && taken < cluster.sweeps; taken += sweeps) {
-        helps = helps && stepRigidly(rows, solids, turns_, velocities);
+        helps = helps && stepRigidly(rows, cluster.solids, turns_, velocities);
         most = helps ? std::min(sweepsBetween, cluster.sweeps - taken) : cluster.sweeps - taken;
         sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, turns_, Start::applied);
     }
@@ -450,10 +447,8 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
         const double size = (1.0 + restitution) * fastest * next->mass;
         dvec3 impulse = size * vectorOf(next->normal);
         const dvec3 velocity = relativeVelocity(*next, velocities, turns_);
-        dvec3 friction = -(next->grip > 0 ? next->grip : next->mass) * (velocity + fastest * vectorOf(next->normal));
-        const double most = next->friction * size, own = std::sqrt(glm::dot(friction, friction));
-        if (own > most) friction *= most / own;
-        impulse += friction;
+        const double grip = next->grip > 0 ? next->grip : next->mass;
+        impulse += withinCone(-grip * (velocity + fastest * vectorOf(next->normal)), next->friction * size);
         push(*next, impulse, velocities, turns_);
         if (!sizes.empty()) sizes[static_cast<std::size_t>(next - rows.data())] += size;
     }
@@ -529,7 +524,7 @@ void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<co
     findClusters(problem);
 
     const bool anyBounces =
-        options.restitution > 0 ||
+        std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.restitution > 0; }) ||
         std::any_of(kinematic.begin(), kinematic.end(), [](const auto& contact) { return contact.restitution > 0; });
     bounces_.assign(anyBounces ? rows_.size() : 0, 0.0);
 

@@ -57,8 +57,7 @@ struct SolverOptions {
     int sweeps = 20;           // at most
     double settled = 1e-5;     // sweeps end when they change less than this share of the thickness per instant [-]
     double recovery = 0.2;     // share of an overlap that is corrected in an instant [-]
-    double restitution = 0.0;  // of pairs that close faster than restSpeed [-]
-    double restSpeed = 0.0;    // [m/s]
+    double restSpeed = 0.0;    // [m/s] what closes slower does not bounce
 };
 
 // Points that keep their distances.
@@ -121,8 +120,7 @@ class ContactSolver {
         std::size_t first, last;  // of rows_
         double tolerance;         // [m/s] smaller changes end the sweeps
         int sweeps;               // at most
-        bool isSlow;
-        std::vector<RigidSlots> solids;  // of a slow one
+        std::vector<RigidSlots> solids;  // that are solved at once: several, near rest
     };
     struct LastImpulse {
         std::uint64_t key;
@@ -138,7 +136,7 @@ class ContactSolver {
     void weigh(Row& row, const std::array<double, 4>& inverseMass) const;
     void joinPoints(const Problem& problem);
     void findClusters(const Problem& problem);
-    bool isSlow(const Cluster& cluster, double most) const;
+    bool isNearRest(const Cluster& cluster, const Problem& problem) const;
     void colour(std::span<int> sources, const Problem& problem);
     void addRow(int source, const Problem& problem);
     int slotOf(int point, const Problem& problem);

@@ -25,35 +25,38 @@ void expectMatchingSides(std::span<const std::array<int, 3>> triangles) {
         }
     const auto rank = [](const Side& s) { return std::array{s.low, s.high, s.triangle}; };
     std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return rank(a) < rank(b); });
-    int open = 0, doubled = 0, turned = 0, firstOpen = -1, firstDoubled = -1, firstTurned = -1;
+    struct Edges {
+        int count = 0, first = -1;  // the triangle of the first
+
+        void add(int triangle) {
+            if (count++ == 0) first = triangle;
+        }
+    };
+    Edges open, doubled, turned;
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t last = i;
         int turns = 0;
         while (last < sides.size() && sides[last].low == sides[i].low && sides[last].high == sides[i].high)
             turns += sides[last++].turn;
-        const bool isOdd = (last - i) % 2 == 1, isOpen = last - i == 1;
-        if (isOpen && open++ == 0) firstOpen = sides[i].triangle;
-        if (isOdd && !isOpen && doubled++ == 0) firstDoubled = sides[i].triangle;
-        if (!isOdd && turns != 0 && turned++ == 0) firstTurned = sides[i].triangle;
+        const bool isOdd = (last - i) % 2 == 1;
+        if (isOdd)
+            (last - i == 1 ? open : doubled).add(sides[i].triangle);
+        else if (turns != 0)
+            turned.add(sides[i].triangle);
         i = last;
     }
-    if (open > 0)
-        throw MeshFault(fmt::format("the mesh is not closed, so that it has no inside: {} edges have faces on one side "
-                                    "only, the first of them at this face; fill its holes, and merge vertices that "
-                                    "lie on each other",
-                                    open),
-                        firstOpen);
-    if (doubled > 0)
-        throw MeshFault(fmt::format("the mesh has an inside on one side of some faces only: at {} edges an odd number of "
-                                    "faces meet, three or more, the first of them at this face; take out faces that "
-                                    "are there twice, or lie within",
-                                    doubled),
-                        firstDoubled);
-    if (turned > 0)
-        throw MeshFault(fmt::format("faces that share an edge are turned against each other, at {} edges, the first "
-                                    "of them at this face; let all fronts look outwards",
-                                    turned),
-                        firstTurned);
+    const auto expectNone = [](const Edges& edges, fmt::format_string<const int&> text) {
+        if (edges.count > 0) throw MeshFault(fmt::format(text, edges.count), edges.first);
+    };
+    expectNone(open,
+               "the mesh is not closed, so that it has no inside: {} edges have faces on one side only, the first "
+               "of them at this face; fill its holes, and merge vertices that lie on each other");
+    expectNone(doubled,
+               "the mesh has no inside: at {} edges three faces meet, or a larger odd number, the first of them at this "
+               "face; take out faces that are there twice, or lie within");
+    expectNone(turned,
+               "faces that share an edge are turned against each other, at {} edges, the first of them at this "
+               "face; let all fronts look outwards");
 }
 
 }  // namespace

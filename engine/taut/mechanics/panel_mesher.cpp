@@ -36,6 +36,11 @@ double squaredDistance(const dvec2& p, const Side& side) {
 }
 
 bool doCross(const Side& one, const Side& other) {
+    // Of sides on one line, rounding says which ends are on which side of the other.
+    const auto isBefore = [](const Side& side, const Side& of) {
+        return glm::any(glm::lessThan(glm::max(side.a, side.b), glm::min(of.a, of.b)));
+    };
+    if (isBefore(one, other) || isBefore(other, one)) return false;
     const auto separates = [](const Side& side, const Side& of) {
         return (turned(side.b - side.a, of.a - side.a) > 0) != (turned(side.b - side.a, of.b - side.a) > 0);
     };

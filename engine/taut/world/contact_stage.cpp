@@ -103,7 +103,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     damage_.assign(bodies_.size(), 0);
     contact::ContactOptions options;
     options.friction = spec.friction;
-    options.solver.restitution = spec.restitution;
+    options.restitution = spec.restitution;
     group_ = std::make_unique<contact::ContactGroup>(std::move(surfaces), std::move(rest), options);
     for (const Part& part : parts_)
         for (const JointTie& tie : part.island->plan().ties)
@@ -483,12 +483,12 @@ void ContactStage::addPresses() {
 }
 
 void ContactStage::addFootholds() {
-    const auto holds = [](double coefficient, double normal, const dvec3& friction) {
+    const auto mayHold = [](double coefficient, double normal, const dvec3& friction) {
         const double most = stickingShare * coefficient * normal;
         return most > 0 && glm::dot(friction, friction) <= most * most;
     };
     group_->forEachPressing([&](const contact::ContactConstraint& pair, double normal, const dvec3& friction) {
-        if (!holds(pair.friction, normal, friction)) return;
+        if (!mayHold(pair.friction, normal, friction)) return;
         for (const int from : {0, pair.firstSide()}) {
             const int surface = elements().surfaceOf(pair.points[static_cast<std::size_t>(from)]);
             if (!isOfBody(surface) || !bodyOf(surface).spec->isRigid()) continue;
@@ -497,14 +497,14 @@ void ContactStage::addFootholds() {
                 const auto own = static_cast<std::size_t>(k);
                 place += std::abs(pair.weights[own]) * x1_[static_cast<std::size_t>(pair.points[own])];
             }
-            footholds_.push_back({bodyOf(surface).island, place, false});
+            footholds_[bodyOf(surface).island].push_back({place, false});
         }
     });
-    group_->forEachCarried([&](std::size_t k, double normal, const dvec3& friction) {
+    group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
         const contact::KinematicContact& contact = kinematic_[k];
         const Body& body = bodyOf(elements().surfaceOf(contact.point));
-        if (body.spec->isRigid() && holds(contact.friction, normal, friction))
-            footholds_.push_back({body.island, x1_[static_cast<std::size_t>(contact.point)], true});
+        if (body.spec->isRigid() && mayHold(contact.friction, normal, friction))
+            footholds_[body.island].push_back({x1_[static_cast<std::size_t>(contact.point)], true});
     });
 }
 

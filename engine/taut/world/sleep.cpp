@@ -1,6 +1,7 @@
 #include "taut/world/private/sleep.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -36,12 +37,12 @@ std::vector<std::size_t> companiesOf(const WorldImpl& w) {
 
 // Whether anything holds it besides other islands: friction between them alone would let all of them go together.
 bool isGrounded(const Island& island, std::span<const ContactStage::Foothold> footholds) {
+    const auto isOnCollider = [](const auto& foothold) { return foothold.isOnCollider; };
     const std::vector<bool> isHeld = heldPointsOf(island.plan());
     const auto contacts = island.contacts();
     return std::find(isHeld.begin(), isHeld.end(), true) != isHeld.end() ||
            std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0; }) ||
-           std::any_of(footholds.begin(), footholds.end(),
-                       [&](const auto& foothold) { return foothold.island == &island && foothold.isOnCollider; });
+           std::any_of(footholds.begin(), footholds.end(), isOnCollider);
 }
 
 // Islands that press each other fall asleep together if all rest.
@@ -49,11 +50,11 @@ void endWindow(WorldImpl& w) {
     const std::size_t count = w.islands.size();
     const std::vector<std::size_t> companies = companiesOf(w);
     std::vector<char> isCalm(count, 1), rests(count, 1), areGrounded(count, 0);
-    std::span<const ContactStage::Foothold> footholds;
+    std::map<const Island*, std::vector<ContactStage::Foothold>> footholds;
     if (w.contactStage) footholds = w.contactStage->footholds();
     for (std::size_t k = 0; k < count; ++k) {
         Island& island = *w.islands[k];
-        if (isGrounded(island, footholds)) areGrounded[companies[k]] = 1;
+        if (isGrounded(island, footholds[&island])) areGrounded[companies[k]] = 1;
         if (!island.isStill() && !island.isCalm()) isCalm[companies[k]] = 0;
         if (!island.isStill() && w.contactStage && w.contactStage->crosses(island)) isCalm[companies[k]] = 0;
     }
@@ -66,8 +67,8 @@ void endWindow(WorldImpl& w) {
         if (w.contactStage) supports = w.contactStage->supports(island);
         for (Island::Support& support : supports) support.mayStick = support.mayStick && areGrounded[company] != 0;
         std::vector<dvec3> places;
-        for (const ContactStage::Foothold& foothold : footholds)
-            if (foothold.island == &island && areGrounded[company] != 0) places.push_back(foothold.place);
+        if (areGrounded[company] != 0)
+            for (const ContactStage::Foothold& foothold : footholds[&island]) places.push_back(foothold.place);
         if (!island.rests(seconds, std::move(supports), places)) rests[company] = 0;
     }
     for (std::size_t k = 0; k < count; ++k) {

@@ -27,6 +27,7 @@ std::span<const Row> rows() {
         {"R15", "strips of measured fabrics droop", false, holdFabrics},
         {"R16", "a clamped disc is blown up", false, holdDisc},
         {"R17", "a ball is blown up", false, holdBall},
+        {"R18", "two sewn discs are blown up", false, holdMylar},
     };
     return all;
 }

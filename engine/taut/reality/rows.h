@@ -22,6 +22,7 @@ void holdFriction(Bench& bench);
 // Sheets that a pressure blows up.
 void holdDisc(Bench& bench);
 void holdBall(Bench& bench);
+void holdMylar(Bench& bench);
 // In motion.
 void holdStripModes(Bench& bench);
 void holdChainModes(Bench& bench);

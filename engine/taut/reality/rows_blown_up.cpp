@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
+#include <vector>
 
 #include "taut/core/trig.h"
 #include "taut/reality/bench.h"
@@ -16,8 +18,10 @@ constexpr double modulus = 4.0 / 3.0 * stretch;   // E h [N/m]
 
 constexpr int ballCells = 8;  // edges of the mesh along an edge of its icosahedron
 
-// A sheet without gravity, with the bodies that it is told of, and a filling in these.
-std::string sheetScene(const std::string& bodies, const std::string& in, double pressure) {
+constexpr int spokes = 28, links = 8;  // threads of a balloon's disc, and their segments
+
+// Bodies without gravity, with a filling in those that it is told of.
+std::string blownUpScene(const std::string& bodies, const std::string& in, double pressure) {
     return fmt::format(R"(schema = 1
 
 [run]
@@ -29,12 +33,6 @@ gravity = [0, 0, 0]
 
 [solver]
 precision = "double"
-
-[material.sheet]
-density_kg_per_m2 = 0.2
-stretch_N_per_m = {}
-bend_N_per_m = 0
-drag_per_s = 15
 {}
 [filling.air]
 in = [{}]
@@ -44,7 +42,19 @@ pressure_Pa = {}
 eye = [1, 1.5, 4]
 target = [0, 0, 0]
 )",
-                       stretch, bodies, in, pressure);
+                       bodies, in, pressure);
+}
+
+std::string sheetScene(const std::string& bodies, const std::string& in, double pressure) {
+    const std::string material = fmt::format(R"(
+[material.sheet]
+density_kg_per_m2 = 0.2
+stretch_N_per_m = {}
+bend_N_per_m = 0
+drag_per_s = 15
+)",
+                                             stretch);
+    return blownUpScene(material + bodies, in, pressure);
 }
 
 // A disc as a polygon of its area, clamped on its rim; a lid that is held everywhere closes it. Both lie flat.
@@ -77,6 +87,58 @@ b = "cloth.lid@boundary"
 // A ball of triangles with a radius of 1 m.
 std::string ballScene(double pressure) {
     return sheetScene("\n[cloth.ball]\nmesh = \"ball.obj\"\nmaterial = \"sheet\"\n", "\"cloth.ball\"", pressure);
+}
+
+// Two flat discs with a radius of 1 m, sewn at their rims, of a foil that does not stretch and folds at will: on each,
+// threads from the middle to the rim, and between two of them a gore of a skin that is a thousand times softer. Its
+// points all lie on the threads, so that it holds the air, carries nothing along them and is hardly against folds.
+std::string balloonScene() {
+    const double angle = 2 * core::pi / spokes, chord = 2 * std::sin(angle / 2);
+    std::string outline = "[0, 0]";
+    for (const int side : {1, -1})
+        for (int k = 1; k <= links; ++k) {
+            const double share = static_cast<double>(side > 0 ? k : links + 1 - k) / links;
+            outline += fmt::format(", [{}, {}]", side * share * chord / 2, -share * std::cos(angle / 2));
+        }
+    // Links and chord are one edge each: they lie between half of a cell and one and a half.
+    std::string bodies = fmt::format(R"(
+[material.skin]
+density_kg_per_m2 = 0.05
+lumping = "uniform"
+stretch_N_per_m = 0.1
+bend_N_per_m = 0
+damping_time_s = 0
+drag_per_s = 12
+
+[defaults.cloth]
+material = "skin"
+outline = [{}]
+cell_m = {}
+
+[defaults.rope]
+segments = {}
+stretch_N = 100
+mass_kg = 0.003
+damping_time_s = 0
+drag_per_s = 12
+)",
+                                     outline, std::sqrt(chord / 1.5 * 2 / links), links);
+    const auto join = [&](const std::string& a, const std::string& b) {
+        bodies += fmt::format("\n[[joint]]\na = \"{}\"\nb = \"{}\"\nreach_m = 0.001\n", a, b);
+    };
+    for (int i = 0; i < spokes; ++i) {
+        const double turn = angle * i, middle = turn + angle / 2;
+        for (const char* const disc : {"upper", "lower"}) {
+            bodies += fmt::format("\n[rope.{}{}]\nends = [[0, 0, 0], [{}, 0, {}]]\n", disc, i, std::cos(turn),
+                                  std::sin(turn));
+            bodies += fmt::format("\n[cloth.{}{}]\nacross = [{}, 0, {}]\ndown = [{}, 0, {}]\n", disc, i,
+                                  -std::sin(middle), std::cos(middle), std::cos(middle), std::sin(middle));
+            for (const int thread : {i, (i + 1) % spokes})
+                join(fmt::format("cloth.{}{}@all", disc, i), fmt::format("rope.{}{}@all", disc, thread));
+        }
+        join(fmt::format("rope.upper{}@end", i), fmt::format("rope.lower{}@end", i));
+    }
+    return blownUpScene(bodies, "\"cloth.*\"", 1.0);
 }
 
 }  // namespace
@@ -118,6 +180,43 @@ void holdBall(Bench& bench) {
         else
             bench.missing(quantity, "Laplace", expected, 0.01, ballCells, "does not come to rest");
     }
+}
+
+// A Mylar balloon: meridians keep their length a, and nothing resists that the discs gather around them. With the
+// meridian dz/dx = -x² / √(r⁴ - x⁴) it has a = 1.31103 r, the thickness 1.19814 r, the volume 2.74581 r³.
+void holdMylar(Bench& bench) {
+    struct Quantity {
+        const char* name;
+        double expected, value = std::numeric_limits<double>::quiet_NaN();
+    };
+    Quantity radiusOf{"radius of a Mylar balloon over that of its discs", 0.762760};
+    Quantity thickness{"its thickness over that radius", 0.913893}, volume{"its volume over the cube", 1.218524};
+    world::World world = bench.load("mylar", balloonScene());
+    const bool isAtRest = bench.settle(world, "rope.*", 1.0);
+    if (isAtRest) {
+        double sum = 0, middles = 0, volumes = 0;
+        for (const char* const disc : {"upper", "lower"}) {
+            std::vector<std::vector<glm::dvec3>> threads;
+            for (int i = 0; i < spokes; ++i)
+                threads.push_back(world.positions(world.select(fmt::format("rope.{}{}", disc, i))));
+            middles += std::abs(threads[0].front().y);
+            double under = 0;
+            for (int i = 0; i < spokes; ++i) {
+                const std::vector<glm::dvec3>&a = threads[i], &b = threads[(i + 1) % spokes];
+                sum += std::hypot(a.back().x, a.back().z);
+                for (int k = 0; k < links; ++k)
+                    under += (glm::dot(a[k], glm::cross(a[k + 1], b[k + 1])) +
+                              glm::dot(a[k], glm::cross(b[k + 1], b[k]))) / 6;
+            }
+            volumes += std::abs(under);
+        }
+        radiusOf.value = sum / (2 * spokes), thickness.value = middles, volume.value = volumes;
+    }
+    for (const Quantity& one : {radiusOf, thickness, volume})
+        if (isAtRest)
+            bench.line(one.name, "Paulsen 1994", one.expected, one.value, 0.02, links);
+        else
+            bench.missing(one.name, "Paulsen 1994", one.expected, 0.02, links, "does not come to rest");
 }
 
 }  // namespace taut::reality

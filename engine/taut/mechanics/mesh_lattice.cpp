@@ -22,7 +22,8 @@ using Polygon = std::vector<dvec3>;
 constexpr double leastFilled = 1e-9;      // of a cell: less is nothing
 constexpr double fullEnough = 1e-9;       // as near to 1 it is rounding
 constexpr double mostDrawnOut = 0.05;     // of a cube, where it then fits the mesh's box
-constexpr double smallShare = 0.25;       // less is left out where a neighbour can carry it
+constexpr double smallShare = 0.25;       // less is left out where a neighbour can carry it,
+constexpr double muchFuller = 4;          // one that is not small, or has so many times as much
 constexpr double leastCorner = 1.0 / 16;  // of a cell: what a corner has at least, for the step; an even share is 1/8
 
 ivec3 bitsOf(std::size_t corner) {
@@ -183,15 +184,18 @@ class Choice {
         for (std::size_t i = 0; i < shares_.size(); ++i)
             if (const double share = sumOf(shares_[i]); stays_[i] && share < smallShare) small.emplace_back(share, i);
         std::sort(small.begin(), small.end());
-        std::vector<std::pair<std::size_t, std::size_t>> moved;
         for (const auto& [share, index] : small) {
             const std::optional<ivec3> way = wayToCarrier(placeOf(index));
             if (!way || !isSimple(placeOf(index))) continue;
             stays_[index] = false;
             carrier_[index] = static_cast<int>(lattice_.indexOf(placeOf(index) + *way));
         }
-        for (std::size_t i = 0; i < shares_.size(); ++i)
-            if (carrier_[i] >= 0) carry(i, static_cast<std::size_t>(carrier_[i]));
+        // What was carried goes along where its carrier is left out too.
+        for (const auto& [share, index] : small)
+            if (carrier_[index] >= 0) carry(index, static_cast<std::size_t>(carrier_[index]));
+        for (std::size_t k = small.size(); k-- > 0;)
+            if (int& carrier = carrier_[small[k].second]; carrier >= 0 && !stays_[static_cast<std::size_t>(carrier)])
+                carrier = carrier_[static_cast<std::size_t>(carrier)];
     }
 
     bool stays(std::size_t index) const { return stays_[index]; }
@@ -210,10 +214,10 @@ class Choice {
     }
     bool isThere(ivec3 p) const { return isIn(p) && stays_[lattice_.indexOf(p)]; }
 
-    // To the fullest neighbour that stays for certain.
+    // To the fullest neighbour.
     std::optional<ivec3> wayToCarrier(ivec3 place) const {
         std::optional<ivec3> best;
-        double most = smallShare;
+        double most = std::min(smallShare, muchFuller * sumOf(shares_[lattice_.indexOf(place)]));
         for (const ivec3& way : ways) {
             if (!isThere(place + way)) continue;
             const double share = sumOf(shares_[lattice_.indexOf(place + way)]);

@@ -35,6 +35,7 @@ struct BlockSpec final : SpecOf<BlockSpec, BodySpec>, MeshSource {
     std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
     using BodySpec::meshSource;
     const MeshSource* meshSource() const override { return this; }
+    bool hasCarriedSurface() const override { return meshData != nullptr; }
 
     // Finds the cells that its mesh fills. The loader calls it; where it was not called, they are found when asked for.
     // Throws core::Error(badContent), naming the mesh and a line of it, for one that has no inside.

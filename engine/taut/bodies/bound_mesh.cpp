@@ -8,6 +8,7 @@
 
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
+#include "taut/bodies/private/carried_surface.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
 #include "taut/spec/private/rotation.h"
@@ -36,30 +37,29 @@ struct SkinPlace {
 };
 
 // As the mesh of a body that has one, else in metres of the scene; an array's copies each have their own.
-SkinPlace skinPlace(const Body& body, const mechanics::Lattice& lattice) {
-    const dvec3 first = body.model.positions.front() - jitterOf(body, 0);
+SkinPlace skinPlace(const Body& body) {
     SkinPlace place;
     if (const auto* cloth = dynamic_cast<const ClothSpec*>(body.spec.get()); cloth == nullptr) {
-        const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
-        const mechanics::BlockShape shape = block.shapeOf(lattice);
-        place.shift =
-            first - (shape.centre + shape.axes * (lattice.cell * dvec3(lattice.points.front()) - 0.5 * shape.size));
+        const BlockFrame frame(body);
+        const BlockSpec& block = frame.block();
+        place.shift = frame.shift();
         if (block.finish.skinData != nullptr) return place;
         place.turn = rotationOf(block.rotation);
         place.scale = block.scale;
         place.shift += block.position;
-    } else if (cloth->meshData != nullptr) {
+    } else {
+        const dvec3 first = body.model.positions.front() - jitterOf(body, 0);
+        place.shift = first - cloth->origin;
+        if (cloth->meshData == nullptr) return place;
         place.turn = rotationOf(cloth->rotation);
         place.scale = cloth->scale;
         place.shift = first - rotated(place.turn, place.scale * cloth->meshData->positions.front());
-    } else {
-        place.shift = first - cloth->origin;
     }
     return place;
 }
 
-std::vector<dvec3> skinPlaces(const Body& body, const mechanics::Lattice& lattice) {
-    const SkinPlace place = skinPlace(body, lattice);
+std::vector<dvec3> skinPlaces(const Body& body) {
+    const SkinPlace place = skinPlace(body);
     std::vector<dvec3> places;
     for (const dvec3& x : meshOf(body).positions) places.push_back(place.of(x));
     return places;
@@ -155,7 +155,7 @@ BoundMesh::BoundMesh(const Body& body, std::span<const std::uint32_t> triangles,
             longest = std::max(longest, glm::distance(triangle.x[k], triangle.x[(k + 1) % 3]));
         }
     }
-    const std::vector<dvec3> places = skinPlaces(body, {});
+    const std::vector<dvec3> places = skinPlaces(body);
     std::vector<Foot> feet(places.size());
     core::parallelFor(static_cast<int>(places.size()), boundAtOnce, [&](int v) {
         feet[static_cast<std::size_t>(v)] = footOf(places[static_cast<std::size_t>(v)], flat);
@@ -192,24 +192,15 @@ BoundMesh::BoundMesh(const Body& body, std::span<const std::uint32_t> triangles,
 }
 
 BoundMesh::BoundMesh(const Body& body) {
-    const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
-    const std::shared_ptr<const mechanics::Lattice> lattice = block.lattice();
-    const std::vector<glm::vec3> start = startOf(body);
-    const glm::dquat turn = rotationOf(block.rotation);
-    const dvec3 cell = lattice->cell;
+    const BlockFrame frame(body);
+    const dvec3 cell = frame.lattice().cell;
     const double most = mostEdgesAway * std::max({cell.x, cell.y, cell.z});
     auto topology = topologyOf(meshOf(body));
     const bool hasUv = !topology->uv.empty();
-    const std::vector<dvec3> places = skinPlaces(body, *lattice);
+    const std::vector<dvec3> places = skinPlaces(body);
     for (std::size_t v = 0; v < places.size(); ++v) {
-        const dvec3 from = places[v] - dvec3(start.front());
-        dvec3 local = cell * dvec3(lattice->points.front());
-        for (int axis = 0; axis < 3; ++axis) {
-            dvec3 unit(0.0);
-            unit[axis] = 1.0;
-            local[axis] += glm::dot(from, rotated(turn, unit));
-        }
-        const mechanics::LatticeCell& carrier = lattice->carrierOf(local / cell);
+        const dvec3 local = frame.inside(places[v]);
+        const mechanics::LatticeCell& carrier = frame.lattice().carrierOf(local / cell);
         const dvec3 share = local / cell - dvec3(carrier.at);
         const double outside = glm::length(cell * (share - glm::clamp(share, 0.0, 1.0)));
         if (!(outside <= most)) failFar(body, v, outside, most);

@@ -94,13 +94,14 @@ Bvh::Bvh(const Elements& elements)
     }
     // For each surface one tree of triangles, one of lines, and one leaf for other points.
     for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s) {
+        planeRoots_.push_back(-1);
+        if (!elements.meetsAny(s)) continue;
         const Axes axes = axesOf(elements, s);
         findPlane(s, axes[0]);
         std::vector<int> triangles, lines;
         for (int t = elements.firstTriangleOf(s); t < elements.firstTriangleOf(s + 1); ++t) triangles.push_back(t);
         for (int e = elements.firstEdgeOf(s); e < elements.firstEdgeOf(s + 1); ++e)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
-        planeRoots_.push_back(-1);
         if (!triangles.empty()) {
             planeRoots_.back() = addTree(std::move(triangles), triangleCentres, s, axes, true);
             roots.push_back(planeRoots_.back());

@@ -48,9 +48,15 @@ void ContactGroup::setSolids(std::vector<Solid> solids) {
     solver_.setSolids(solids_, static_cast<std::size_t>(elements_.pointCount()));
 }
 
+void ContactGroup::setCarried(CarriedPoints carried) {
+    carried_ = std::move(carried);
+    solver_.setCarried(carried_);
+}
+
 void ContactGroup::drop() {
     broadPhase_.drop();
     active_.clear();
+    solver_.clear();
     isCertified_ = false;
 }
 
@@ -127,10 +133,11 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
 
     // Response: impulses for the pairs that would close their gap, then the crossings.
     selectActive(instant);
-    if (!active_.empty() || !crossings_.empty() || !solids_.empty()) {
+    solver_.clear();
+    if (!active_.empty() || !crossings_.empty() || !solids_.empty() || !carried_.isEmpty()) {
         solveActive(instant);
         if (options_.untangles && !crossings_.empty())
-            changeAsSolids(instant.x0, u_, v_, [&] { untangle(instant); });
+            changeAsBodies(instant, u_, v_, [&] { untangle(instant); });
         handOver(instant, applyVelocities(instant));
     }
 
@@ -184,11 +191,17 @@ void ContactGroup::solveActive(const Instant& instant) {
         v_[k] = instant.v[k];
         shift_[k] = dvec3(0.0);
     };
+    const auto loadWithMovers = [&](int point) {
+        load(point);
+        carried_.forEachMover(point, [&](int i, double) { load(i); });
+    };
     const auto loadAll = [&] {
         for (const ContactConstraint& pair : active_)
-            for (int i : pair.points) load(i);
+            for (int i : pair.points) loadWithMovers(i);
+        for (const KinematicContact& contact : instant.kinematic)
+            if (contact.isWhole) loadWithMovers(contact.point);
         for (const Crossing& crossing : crossings_)
-            for (int i : crossing.points) load(i);
+            for (int i : crossing.points) loadWithMovers(i);
         for (const Solid& solid : solids_)
             for (int i : solid.points) load(i);
     };
@@ -211,6 +224,12 @@ void ContactGroup::solveActive(const Instant& instant) {
         if (!(solver_.impulses()[p] > 0)) continue;
         ++result_.impulses;
         addMovable(elements_, active_[p], instant.inverseMass, result_.surfaces);
+    }
+    for (std::size_t k = 0; k < instant.kinematic.size(); ++k) {
+        const KinematicContact& contact = instant.kinematic[k];
+        if (!contact.isWhole || !(solver_.impulses()[active_.size() + k] > 0)) continue;
+        ++result_.impulses;
+        result_.surfaces.push_back(elements_.surfaceOf(contact.point));
     }
     makeAscending(result_.surfaces);
     result_.sweeps = solver_.sweeps();
@@ -293,7 +312,8 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
     };
     std::vector<int> points(solver_.points().begin(), solver_.points().end());
     for (const Crossing& crossing : crossings_)
-        points.insert(points.end(), crossing.points.begin(), crossing.points.end());
+        for (int point : crossing.points)
+            carried_.forEachMover(point, [&](int i, double) { points.push_back(i); });
     for (const Solid& solid : solids_) points.insert(points.end(), solid.points.begin(), solid.points.end());
     makeAscending(points);
     for (int i : points) apply(i);
@@ -301,13 +321,24 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
 }
 
 // What `change` does with single points of solids in two fields, impulses do with the solids: all points of one move as
-// such impulses at its points move it. x (points) [m]. Returns the points of the solids that this moved.
-std::vector<int> ContactGroup::changeAsSolids(std::span<const dvec3> x, std::span<dvec3> a, std::span<dvec3> b,
+// such impulses at its points move it. Likewise impulses at the movers of carried points take the place of what it does
+// with these. Returns the points that this moved.
+std::vector<int> ContactGroup::changeAsBodies(const Instant& instant, std::span<dvec3> a, std::span<dvec3> b,
                                               const std::function<void()>& change) const {
+    const std::span<const dvec3> x = instant.x0;
     std::vector<dvec3> before;
     for (const Solid& solid : solids_)
         for (int i : solid.points)
             for (const auto& field : {a, b}) before.push_back(field[static_cast<std::size_t>(i)]);
+    const auto firstCarried = static_cast<std::size_t>(carried_.first());
+    const auto carriedOf = [&](std::span<dvec3> field) {
+        return field.subspan(firstCarried, static_cast<std::size_t>(carried_.end()) - firstCarried);
+    };
+    std::array<std::vector<dvec3>, 2> carriedBefore;
+    for (std::size_t part = 0; part < 2; ++part) {
+        const std::span<dvec3> own = carriedOf(part == 0 ? a : b);
+        carriedBefore[part].assign(own.begin(), own.end());
+    }
     change();
     struct Change {
         const Solid* solid;
@@ -354,21 +385,77 @@ std::vector<int> ContactGroup::changeAsSolids(std::span<const dvec3> x, std::spa
         }
         if (all.size() > count) moved.insert(moved.end(), solid.points.begin(), solid.points.end());
     }
-    // Many points that want the same move their solid once, and as far. All go by one share, which keeps momenta.
+    std::array<std::map<int, dvec3>, 2> moversChange;
+    for (std::size_t part = 0; part < 2; ++part) {
+        const std::span<dvec3> field = part == 0 ? a : b;
+        std::vector<int> changed;
+        double wanted = 0, most = 0;
+        for (int point = carried_.first(); point < carried_.end(); ++point) {
+            const auto i = static_cast<std::size_t>(point);
+            const dvec3 own = field[i] - carriedBefore[part][i - firstCarried];
+            const double square = glm::dot(own, own);
+            if (!(square > 0)) continue;
+            field[i] -= own;
+            changed.push_back(point);
+            wanted = std::max(wanted, square);
+            carried_.forEachMover(point, [&](int mover, double weight) {
+                const double gain = weight * instant.inverseMass[static_cast<std::size_t>(mover)];
+                if (gain != 0) moversChange[part][mover] += gain / instant.inverseMass[i] * own;
+            });
+        }
+        for (int point : changed) {
+            dvec3 own(0.0);
+            carried_.forEachMover(point, [&](int mover, double weight) {
+                if (const auto at = moversChange[part].find(mover); at != moversChange[part].end())
+                    own += weight * at->second;
+            });
+            most = std::max(most, glm::dot(own, own));
+        }
+        if (most > wanted) share = std::min(share, std::sqrt(wanted / most));
+    }
+    // Many points that want the same move their body once, and as far. All go by one share, which keeps momenta.
     for (const Change& own : all)
         for (int i : own.solid->points) {
             const auto k = static_cast<std::size_t>(i);
             own.field[k] += share * own.motion.velocityAt(x[k]);
         }
+    for (std::size_t part = 0; part < 2; ++part)
+        for (const auto& [mover, own] : moversChange[part]) {
+            (part == 0 ? a : b)[static_cast<std::size_t>(mover)] += share * own;
+            moved.push_back(mover);
+        }
+    return moved;
+}
+
+// The carried points that go with any of these, ascending.
+std::vector<int> ContactGroup::movedBy(std::span<const int> points) const {
+    std::vector<char> moves(u_.size(), 0);
+    for (int i : points) moves[static_cast<std::size_t>(i)] = 1;
+    std::vector<int> moved;
+    for (int i = carried_.first(); i < carried_.end(); ++i) {
+        char goes = 0;
+        carried_.forEachMover(i, [&](int mover, double) { goes |= moves[static_cast<std::size_t>(mover)]; });
+        if (goes != 0) moved.push_back(i);
+    }
     return moved;
 }
 
 // Hands these points (ascending) to their islands. The islands place them, and may change x1 and v once more.
 void ContactGroup::handOver(const Instant& instant, std::span<const int> points) {
     if (points.empty()) return;
-    moved_.insert(moved_.end(), points.begin(), points.end());
-    pending_.insert(pending_.end(), points.begin(), points.end());
+    const auto take = [&](std::span<const int> own) {
+        moved_.insert(moved_.end(), own.begin(), own.end());
+        pending_.insert(pending_.end(), own.begin(), own.end());
+    };
+    take(points);
     if (instant.place) instant.place(points);
+    if (carried_.isEmpty()) return;
+    const std::vector<int> carried = movedBy(points);
+    for (int i : carried) {
+        instant.x1[static_cast<std::size_t>(i)] = carried_.valueAt(i, instant.x1);
+        instant.v[static_cast<std::size_t>(i)] = carried_.valueAt(i, instant.v);
+    }
+    take(carried);
 }
 
 // Gives each edge that pierces a triangle an impulse along the way out (crossings.h), one edge after the other.
@@ -420,7 +507,7 @@ void ContactGroup::detectAgain(const Instant& instant) {
 std::vector<int> ContactGroup::separate(const Instant& instant, std::span<const ContactConstraint* const> pairs,
                                         int round) {
     std::vector<int> moved;
-    const std::vector<int> ofSolids = changeAsSolids(instant.x0, instant.x1, instant.v, [&] {
+    const std::vector<int> ofBodies = changeAsBodies(instant, instant.x1, instant.v, [&] {
         if (round < mostSlides && options_.slides) {
             for (const ContactConstraint* pair : pairs)
                 slideApart(*pair, instant.inverseMass, instant.kinematic, instant.x1, instant.v, moved);
@@ -430,7 +517,8 @@ std::vector<int> ContactGroup::separate(const Instant& instant, std::span<const 
             ++result_.zones;
         }
     });
-    moved.insert(moved.end(), ofSolids.begin(), ofSolids.end());
+    std::erase_if(moved, [&](int i) { return carried_.has(i); });
+    moved.insert(moved.end(), ofBodies.begin(), ofBodies.end());
     makeAscending(moved);
     return moved;
 }

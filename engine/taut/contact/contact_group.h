@@ -64,9 +64,9 @@ struct Instant {
 
 struct InstantResult {
     std::vector<int> moved;     // points of which x1 or v has changed, ascending
-    int impulses = 0;           // pairs with an impulse
+    int impulses = 0;           // pairs with an impulse, and contacts of whole bodies with colliders
     double deepest = 0;         // largest penetration that the motion alone would have led to, over the thickness [-]
-    std::vector<int> surfaces;  // that have a movable point in a pair with an impulse, ascending
+    std::vector<int> surfaces;  // that have a movable point in one of these, ascending
     int sweeps = 0;             // of the solver, in the cluster that took most
     int slides = 0;             // pairs slid apart, in all rounds
     int zones = 0;              // rounds in which pairs were moved as impact zones
@@ -98,6 +98,10 @@ class ContactGroup {
 
     // Points that keep their distances, in the coming instants.
     void setSolids(std::vector<Solid> solids);
+    // Points that go with others. Their places and velocities have to do so; resolve() sees to that for those of which it
+    // moved others. What moves none of them has no inverse mass.
+    void setCarried(CarriedPoints carried);
+    const CarriedPoints& carried() const { return carried_; }
 
     Elements& elements() { return elements_; }
     const Elements& elements() const { return elements_; }
@@ -149,8 +153,9 @@ class ContactGroup {
     bool isLetThrough(const ContactConstraint& pair) const;
     void untangle(const Instant& instant);                           // crossings_ -> u_, v_
     std::vector<int> applyVelocities(const Instant& instant) const;  // u_, v_, shift_ -> x1, v; the moved points
-    std::vector<int> changeAsSolids(std::span<const dvec3> x, std::span<dvec3> a, std::span<dvec3> b,
+    std::vector<int> changeAsBodies(const Instant& instant, std::span<dvec3> a, std::span<dvec3> b,
                                     const std::function<void()>& change) const;
+    std::vector<int> movedBy(std::span<const int> points) const;
     void handOver(const Instant& instant, std::span<const int> points);
     void detectAgain(const Instant& instant);  // pairs that pending_ may have brought into reach -> tested_
     std::vector<const ContactConstraint*> uncertified(const Instant& instant) const;
@@ -185,6 +190,7 @@ class ContactGroup {
     std::vector<ContactConstraint> active_;                // pairs of tested_ that the solver gets
     std::vector<std::vector<ContactConstraint>> perTask_;  // (tasks) scratch
     std::vector<Solid> solids_;
+    CarriedPoints carried_;
     ContactSolver solver_;
     std::map<int, int> squeezed_;  // points; the rank of the driven surface that still presses, -1: none
     // (points) [m/s] mean velocity in the instant before and after the solver; [m/s] stored velocity after it; [m]

@@ -14,9 +14,14 @@ Elements::Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest
       rest_(std::move(rest)),
       surfaceOf_(rest_.size(), -1),
       oneOf_(rest_.size()),
-      isStill_(surfaces_.size(), 0) {
+      isStill_(surfaces_.size(), 0),
+      meetsAny_(surfaces_.size(), 0) {
     std::iota(oneOf_.begin(), oneOf_.end(), 0);
-    for (int s = 0; s < static_cast<int>(surfaces_.size()); ++s) addSurface(s);
+    const int count = static_cast<int>(surfaces_.size());
+    for (int s = 0; s < count; ++s)
+        for (int other = 0; other < count && meetsAny_[static_cast<std::size_t>(s)] == 0; ++other)
+            meetsAny_[static_cast<std::size_t>(s)] = mayMeet(s, other) ? 1 : 0;
+    for (int s = 0; s < count; ++s) addSurface(s);
     firstTriangleOf_.push_back(triangles_.size());
     firstEdgeOf_.push_back(edges_.size());
     firstBall_ = static_cast<int>(edges_.size());
@@ -32,6 +37,10 @@ void Elements::addSurface(int number) {
     }
     firstTriangleOf_.push_back(triangles_.size());
     firstEdgeOf_.push_back(edges_.size());
+    if (!meetsAny(number)) {
+        shortest_.push_back(0.0);
+        return;
+    }
     std::map<std::array<int, 2>, int> known;
     const auto edgeOf = [&](int a, int b, bool isLine) {
         const auto [place, isNew] =
@@ -114,10 +123,11 @@ void Elements::refresh() {
         ring_[next[static_cast<std::size_t>(edge.b)]++] = edge.a;
     }
     // A point without edges becomes a ball: an edge with both ends at the point.
-    for (std::size_t s = 0; s < surfaces_.size(); ++s)
-        for (int i : surfaces_[s].points)
-            if (degree[static_cast<std::size_t>(i)] == 0 && surfaceOf(i) == static_cast<int>(s))
-                edges_.push_back({i, i, static_cast<int>(s), true});
+    for (int s = 0; s < static_cast<int>(surfaces_.size()); ++s) {
+        if (!meetsAny(s)) continue;
+        for (int i : surface(s).points)
+            if (degree[static_cast<std::size_t>(i)] == 0 && surfaceOf(i) == s) edges_.push_back({i, i, s, true});
+    }
 }
 
 std::uint64_t Elements::bytes() const {

@@ -30,7 +30,7 @@ struct Edge {
 
 class Elements {
   public:
-    // rest (points) [m].
+    // rest (points) [m]. A surface that may meet none has no triangles and edges here.
     Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest);
 
     // Removes triangles (by their number in the surface) and edges (by their points) of a surface. An edge stays while
@@ -86,6 +86,8 @@ class Elements {
             return a.isOfCollider() != b.isOfCollider() && a.meetsRigid && b.meetsRigid;
         return a.meetsOthers && b.meetsOthers;
     }
+    // Whether there is any that it may meet.
+    bool meetsAny(int surface) const { return meetsAny_[static_cast<std::size_t>(surface)] != 0; }
     bool isRigid(int number) const { return surface(number).isRigid; }
 
     // A rigid surface, or one of points that do not move at all, stands still: its leaves need not be followed again.
@@ -112,6 +114,7 @@ class Elements {
     std::vector<std::size_t> ringStart_;
     std::vector<double> shortest_;  // (surfaces)
     std::vector<char> isStill_;     // (surfaces)
+    std::vector<char> meetsAny_;    // (surfaces) else it has no elements
 };
 
 }  // namespace taut::contact

@@ -20,19 +20,24 @@ struct Scratch {
 };
 
 // The level of each row -> levels. Returns how many there are.
-int findLevels(std::span<const Row> rows, std::size_t slotCount, Scratch& scratch) {
+int findLevels(std::span<const Row> rows, std::size_t slotCount, std::span<const Share> shares, Scratch& scratch) {
     scratch.heights.resize(std::max(scratch.heights.size(), slotCount), 0);
     scratch.levels.clear();
+    // A spin is in a row together with the velocity of its body.
+    const auto forEachSlot = [&](const Row& row, auto&& each) {
+        for (int s : row.slots) each(scratch.heights[static_cast<std::size_t>(s)]);
+        for (int k = row.shares.first; k < row.shares.last; ++k)
+            each(scratch.heights[static_cast<std::size_t>(shares[static_cast<std::size_t>(k)].slot)]);
+    };
     int count = 0;
     for (const Row& row : rows) {
         int level = 0;
-        for (int s : row.slots) level = std::max(level, scratch.heights[static_cast<std::size_t>(s)]);
-        for (int s : row.slots) scratch.heights[static_cast<std::size_t>(s)] = level + 1;
+        forEachSlot(row, [&](int height) { level = std::max(level, height); });
+        forEachSlot(row, [&](int& height) { height = level + 1; });
         scratch.levels.push_back(level);
         count = std::max(count, level + 1);
     }
-    for (const Row& row : rows)
-        for (int s : row.slots) scratch.heights[static_cast<std::size_t>(s)] = 0;
+    for (const Row& row : rows) forEachSlot(row, [](int& height) { height = 0; });
     return count;
 }
 
@@ -47,7 +52,8 @@ void putInto(Pack& pack, int lane, const Row& row, int number) {
     pack.mass.of[lane] = row.mass;
     pack.grip.of[lane] = row.grip > 0 ? row.grip : row.mass;
     pack.turns[lane] = row.turns;
-    pack.hasTurns = pack.hasTurns || row.turns >= 0;
+    pack.shares[lane] = row.shares;
+    pack.hasLevers = pack.hasLevers || !row.turns.isEmpty() || !row.shares.isEmpty();
     pack.closing.of[lane] = row.closing;
     pack.friction.of[lane] = row.friction;
     pack.softness.of[lane] = row.softness;
@@ -58,10 +64,10 @@ void putInto(Pack& pack, int lane, const Row& row, int number) {
 }  // namespace
 
 int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
-                         std::span<const Turn> turns, Start start) {
+                         const Levers& levers, Start start) {
     thread_local Scratch scratch;
     const int count = static_cast<int>(rows.size());
-    const int levels = findLevels(rows, velocities.size(), scratch);
+    const int levels = findLevels(rows, velocities.size(), levers.shares, scratch);
     // How many packs each level has, and where its packs begin.
     std::vector<int>& next = scratch.next;
     next.assign(static_cast<std::size_t>(levels) + 1, 0);
@@ -85,8 +91,10 @@ int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std:
         putInto(pack, place % 4, row, r);
     }
     scratch.perRow.assign(rows.size() + 1, 0.0);
-    const Sweeps batch{scratch.packs.data(), packCount,    count,  scratch.perRow.data(),
-                       velocities.data(),    turns.data(), sweeps, tolerance, start};
+    const Sweeps batch{scratch.packs.data(), packCount,           count,
+                       scratch.perRow.data(), velocities.data(),  levers.turns.data(),
+                       levers.shares.data(),  sweeps,             tolerance,
+                       start};
     const int taken = TAUT_IN_USE(sweep)(batch);
     for (const Pack& pack : scratch.packs)
         for (int lane = 0; lane < 4; ++lane)

@@ -11,8 +11,9 @@
 // Softness. Two things that nothing moves may close on a third, and no impulses keep both. Where rows are soft, their
 // impulses end at what closes divided by the softness, instead of growing for ever.
 //
-// Solids. What a row does with a point of a rigid body it does with the velocity of the body's centre, which is in the
-// point's slot, and with its spin, which is in a slot of its own (Turn).
+// Solids. What a row does with points of a rigid body it does with the velocity of the body's centre, which is in the
+// points' slots, and with its spin, which is in a slot of its own (Turn). Where more than four velocities move the
+// points of a row, the others are its shares.
 //
 // Four rows at a time. A row waits for the rows before it that share a velocity with it, and for no others. So rows are
 // put into levels, each one above the highest of those it waits for, and go through the processor in packs of four of
@@ -27,14 +28,34 @@ struct alignas(32) Four {
     double of[4];
 };
 
-// A point of a row that turns with a rigid body: it has spin × arm besides the velocity of its slot.
+// A rigid body of which a row has points: these have spin × arm besides the velocity of their slots.
 struct Turn {
-    int slot = -1;     // of the spin [rad/s]; -1: the point does not turn
-    double arm[3]{};   // [m] weight × (place of the impulse - centre of mass)
+    int slot = 0;      // of the spin [rad/s]
+    double arm[3]{};   // [m] sum of the points' weights × (place of the impulse - centre of mass)
     double gain[9]{};  // [1/(kg m²)] inverse inertia, symmetric
 };
+// A further velocity of a row.
+struct Share {
+    int slot = 0;
+    double weight = 0;
+    double gain = 0;  // [1/kg]
+};
+// Some that stand together.
+struct Range {
+    int first = 0, last = 0;
+    bool isEmpty() const { return first == last; }
+    template <class T>
+    std::span<const T> of(std::span<const T> all) const {
+        return all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first));
+    }
+};
+// What rows may have besides their four velocities.
+struct Levers {
+    std::span<const Turn> turns;
+    std::span<const Share> shares;
+};
 
-// A direction along which the weighted sum of up to four velocities may not close.
+// A direction along which the weighted sum of some velocities may not close.
 struct Row {
     Four normal{};           // unit; last 0
     Four impulse{};          // [N s] friction along x, y, z; then along the normal
@@ -47,7 +68,7 @@ struct Row {
     double softness = 0;     // [m/s] by which it may close further for each impulse of 1
     double largestGain = 0;  // [1/kg]
     int slots[4]{};          // of the velocities
-    int turns = -1;          // number of the first of its points' turns; -1: nothing turns
+    Range turns, shares;     // of the levers
     int source = 0;          // for its owner
 };
 
@@ -57,7 +78,7 @@ enum class Start { guessed, applied };
 // Changes the velocities (slots) [m/s], last 0, by the impulses. It ends after `sweeps`, or when a sweep changes no
 // velocity by `tolerance` [m/s]. Returns the number of sweeps.
 int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
-                         std::span<const Turn> turns = {}, Start start = Start::guessed);
+                         const Levers& levers = {}, Start start = Start::guessed);
 
 // What the kernel gets: rows lane by lane. A lane without a row is all 0, and has the first lane's slots.
 struct Pack {
@@ -66,9 +87,9 @@ struct Pack {
     Four weights[4]{}, gains[4]{};
     Four mass{}, grip{}, closing{}, friction{}, softness{}, largestGain{};
     int slots[4][4]{};  // lane, velocity
-    bool hasTurns = false;
-    int turns[4]{-1, -1, -1, -1};  // lane
-    int rows[4]{};                 // lane; the number of rows where there is none
+    bool hasLevers = false;
+    Range turns[4]{}, shares[4]{};  // lane
+    int rows[4]{};                  // lane; the number of rows where there is none
 };
 struct Sweeps {
     Pack* packs;
@@ -77,6 +98,7 @@ struct Sweeps {
     double* perRow;  // (rows + 1) scratch
     Four* velocities;
     const Turn* turns;
+    const Share* shares;
     int most;
     double tolerance;  // [m/s]
     Start start;

@@ -44,28 +44,38 @@ inline Vectors velocitiesOf(const Pack& pack, int k, const Four* velocities) {
             __builtin_shufflevector(abEven, cdEven, 2, 3, 6, 7)};
 }
 
-// Adds what points of the rows have from the spins of their bodies.
-inline void addTurns(const Pack& pack, const Sweeps& batch, Vectors& sum) {
-    for (int lane = 0; lane < 4; ++lane)
-        for (int k = 0; k < 4 && pack.turns[lane] >= 0; ++k) {
-            const Turn& turn = batch.turns[pack.turns[lane] + k];
-            if (turn.slot < 0) continue;
+// Adds what the rows see of the velocities of their levers.
+inline void addLevers(const Pack& pack, const Sweeps& batch, Vectors& sum) {
+    for (int lane = 0; lane < 4; ++lane) {
+        for (int k = pack.turns[lane].first; k < pack.turns[lane].last; ++k) {
+            const Turn& turn = batch.turns[k];
             const double* spin = batch.velocities[turn.slot].of;
             sum.x[lane] += spin[1] * turn.arm[2] - spin[2] * turn.arm[1];
             sum.y[lane] += spin[2] * turn.arm[0] - spin[0] * turn.arm[2];
             sum.z[lane] += spin[0] * turn.arm[1] - spin[1] * turn.arm[0];
         }
+        if (pack.shares[lane].isEmpty()) continue;
+        Lanes own{};
+        for (int k = pack.shares[lane].first; k < pack.shares[lane].last; ++k)
+            own += batch.shares[k].weight * load(batch.velocities[batch.shares[k].slot]);
+        sum.x[lane] += own[0];
+        sum.y[lane] += own[1];
+        sum.z[lane] += own[2];
+    }
 }
-// Changes the spins of the bodies of a row's points by its impulse.
-inline void turn(const Turn* turns, const Lanes& impulse, Four* velocities) {
-    for (int k = 0; k < 4; ++k) {
-        const double *arm = turns[k].arm, *gain = turns[k].gain;
-        if (turns[k].slot < 0) continue;
+// Changes the velocities of a row's levers by its impulse.
+inline void pushLevers(const Pack& pack, int lane, const Lanes& impulse, const Sweeps& batch) {
+    for (int k = pack.turns[lane].first; k < pack.turns[lane].last; ++k) {
+        const double *arm = batch.turns[k].arm, *gain = batch.turns[k].gain;
         const double moment[3] = {arm[1] * impulse[2] - arm[2] * impulse[1], arm[2] * impulse[0] - arm[0] * impulse[2],
                                   arm[0] * impulse[1] - arm[1] * impulse[0]};
-        double* spin = velocities[turns[k].slot].of;
+        double* spin = batch.velocities[batch.turns[k].slot].of;
         for (int i = 0; i < 3; ++i)
             spin[i] += gain[3 * i] * moment[0] + gain[3 * i + 1] * moment[1] + gain[3 * i + 2] * moment[2];
+    }
+    for (int k = pack.shares[lane].first; k < pack.shares[lane].last; ++k) {
+        Four& own = batch.velocities[batch.shares[k].slot];
+        store(own, load(own) + batch.shares[k].gain * impulse);
     }
 }
 
@@ -78,7 +88,7 @@ inline Vectors relativeVelocity(const Pack& pack, const Sweeps& batch) {
         sum = k == 0 ? Vectors{weight * own.x, weight * own.y, weight * own.z}
                      : Vectors{sum.x + weight * own.x, sum.y + weight * own.y, sum.z + weight * own.z};
     }
-    if (pack.hasTurns) addTurns(pack, batch, sum);
+    if (pack.hasLevers) addLevers(pack, batch, sum);
     return sum;
 }
 
@@ -101,7 +111,7 @@ inline void apply(const Pack& pack, const Lanes (&impulse)[4], const Sweeps& bat
             Four& own = velocities[pack.slots[lane][k]];
             store(own, load(own) + pack.gains[k].of[lane] * rows[lane]);
         }
-        if (pack.turns[lane] >= 0) turn(batch.turns + pack.turns[lane], rows[lane], velocities);
+        if (pack.hasLevers) pushLevers(pack, lane, rows[lane], batch);
     }
 }
 

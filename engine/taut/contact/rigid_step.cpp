@@ -79,9 +79,9 @@ class Envelope {
 
 class RigidStep {
   public:
-    RigidStep(std::span<Row> rows, std::span<const RigidSlots> solids, std::span<const Turn> turns,
+    RigidStep(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers,
               std::span<Four> velocities)
-        : solids_(solids), turns_(turns), velocities_(velocities) {
+        : solids_(solids), levers_(levers), velocities_(velocities) {
         for (Row& row : rows) take(row);
     }
 
@@ -98,22 +98,21 @@ class RigidStep {
 
   private:
     void take(Row& row) {
-        if (row.turns < 0 || row.softness > 0) return;
+        if (row.turns.isEmpty() || !row.shares.isEmpty() || row.softness > 0) return;
         Equation equation{&row};
         for (std::size_t k = 0; k < 4; ++k) {
-            const Turn& turn = turns_[static_cast<std::size_t>(row.turns) + k];
-            if (turn.slot < 0) {
-                if (row.gains[k] != 0) return;  // it moves, and is no solid
-                continue;
-            }
+            if (row.gains[k] == 0) continue;
             const auto at = std::lower_bound(solids_.begin(), solids_.end(), row.slots[k],
                                              [](const RigidSlots& solid, int slot) { return solid.slot < slot; });
+            if (at == solids_.end() || at->slot != row.slots[k]) return;  // it moves, and is no solid
             const auto solid = static_cast<std::size_t>(at - solids_.begin());
             const std::size_t side = equation.solids[0] == none || equation.solids[0] == solid ? 0 : 1;
             equation.solids[side] = solid;
             equation.weights[side] += row.weights[k];
-            equation.arms[side] += dvec3(turn.arm[0], turn.arm[1], turn.arm[2]);
         }
+        for (const Turn& turn : row.turns.of(levers_.turns))
+            equation.arms[equation.solids[0] != none && solids_[equation.solids[0]].slot + 1 == turn.slot ? 0 : 1] =
+                armOf(turn);
         const dvec3 normal = vectorOf(row.normal), friction = vectorOf(row.impulse);
         const dvec3 across = acrossOf(normal);
         equation.axes = {normal, across, glm::cross(normal, across)};
@@ -178,11 +177,11 @@ class RigidStep {
         return work < mostWork;
     }
 
-    void give(const Equation& equation, const dvec3& impulse) { push(*equation.row, impulse, velocities_, turns_); }
+    void give(const Equation& equation, const dvec3& impulse) { push(*equation.row, impulse, velocities_, levers_); }
     static double stiffnessOf(const Equation& equation) { return overMass * equation.row->mass; }
     // [m/s] what is wrong with a row.
     dvec3 wrong(const Equation& equation) const {
-        return relativeVelocity(*equation.row, velocities_, turns_) + equation.row->closing * equation.axes[0];
+        return relativeVelocity(*equation.row, velocities_, levers_) + equation.row->closing * equation.axes[0];
     }
     // Calls each(place in the matrix, axis of `equation`, its gradient).
     template <class Each>
@@ -372,7 +371,7 @@ class RigidStep {
     static constexpr double insideCone = 0.999;  // up to there it sticks
 
     std::span<const RigidSlots> solids_;
-    std::span<const Turn> turns_;
+    const Levers& levers_;
     std::span<Four> velocities_;
     std::vector<Equation> equations_;
     std::vector<std::size_t> place_;    // (solids) in the matrix
@@ -382,9 +381,9 @@ class RigidStep {
 
 }  // namespace
 
-bool stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, std::span<const Turn> turns,
+bool stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers,
                  std::span<Four> velocities) {
-    return RigidStep(rows, solids, turns, velocities).run();
+    return RigidStep(rows, solids, levers, velocities).run();
 }
 
 }  // namespace taut::contact

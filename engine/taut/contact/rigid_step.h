@@ -31,7 +31,7 @@ struct RigidSlots {
 
 // Changes impulses of rows, and velocities. solids: all that are in rows, ascending by slot. Returns whether it did so:
 // not if that would be dearer than many sweeps.
-bool stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, std::span<const Turn> turns,
+bool stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers,
                  std::span<Four> velocities);
 
 }  // namespace taut::contact

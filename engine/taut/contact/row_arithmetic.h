@@ -18,6 +18,16 @@ inline dvec3 vectorOf(const Four& v) {
     return {v.of[0], v.of[1], v.of[2]};
 }
 
+inline dvec3 armOf(const Turn& turn) {
+    return {turn.arm[0], turn.arm[1], turn.arm[2]};
+}
+inline glm::dmat3 gainOf(const Turn& turn) {
+    glm::dmat3 gain;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) gain[j][i] = turn.gain[3 * i + j];
+    return gain;
+}
+
 // Of the directions across a normal, one; unit.
 inline dvec3 acrossOf(const dvec3& normal) {
     return glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
@@ -29,35 +39,24 @@ inline dvec3 withinCone(const dvec3& friction, double limit) {
 }
 
 // [m/s] of the first side from the second.
-inline dvec3 relativeVelocity(const Row& row, std::span<const Four> velocities, std::span<const Turn> turns) {
+inline dvec3 relativeVelocity(const Row& row, std::span<const Four> velocities, const Levers& levers) {
+    const auto at = [&](int slot) { return vectorOf(velocities[static_cast<std::size_t>(slot)]); };
     dvec3 sum(0.0);
-    for (std::size_t k = 0; k < 4; ++k) {
-        sum += row.weights[k] * vectorOf(velocities[static_cast<std::size_t>(row.slots[k])]);
-        if (row.turns < 0) continue;
-        const Turn& turn = turns[static_cast<std::size_t>(row.turns) + k];
-        if (turn.slot < 0) continue;
-        sum += glm::cross(vectorOf(velocities[static_cast<std::size_t>(turn.slot)]),
-                          dvec3(turn.arm[0], turn.arm[1], turn.arm[2]));
-    }
+    for (std::size_t k = 0; k < 4; ++k) sum += row.weights[k] * at(row.slots[k]);
+    for (const Turn& turn : row.turns.of(levers.turns)) sum += glm::cross(at(turn.slot), armOf(turn));
+    for (const Share& share : row.shares.of(levers.shares)) sum += share.weight * at(share.slot);
     return sum;
 }
 
 // Gives the row an impulse [N s].
-inline void push(const Row& row, const dvec3& impulse, std::span<Four> velocities, std::span<const Turn> turns) {
+inline void push(const Row& row, const dvec3& impulse, std::span<Four> velocities, const Levers& levers) {
     const auto add = [&](int slot, const dvec3& change) {
         for (int i = 0; i < 3; ++i) velocities[static_cast<std::size_t>(slot)].of[i] += change[i];
     };
-    for (std::size_t k = 0; k < 4; ++k) {
-        add(row.slots[k], row.gains[k] * impulse);
-        if (row.turns < 0) continue;
-        const Turn& turn = turns[static_cast<std::size_t>(row.turns) + k];
-        if (turn.slot < 0) continue;
-        const dvec3 moment = glm::cross(dvec3(turn.arm[0], turn.arm[1], turn.arm[2]), impulse);
-        dvec3 change(0.0);
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) change[i] += turn.gain[3 * i + j] * moment[j];
-        add(turn.slot, change);
-    }
+    for (std::size_t k = 0; k < 4; ++k) add(row.slots[k], row.gains[k] * impulse);
+    for (const Turn& turn : row.turns.of(levers.turns))
+        add(turn.slot, gainOf(turn) * glm::cross(armOf(turn), impulse));
+    for (const Share& share : row.shares.of(levers.shares)) add(share.slot, share.gain * impulse);
 }
 
 }  // namespace taut::contact

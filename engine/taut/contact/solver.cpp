@@ -75,28 +75,30 @@ void ContactSolver::joinPoints(const Problem& problem) {
         parent_.assign(pointCount, -1);
     else
         for (int i : touched_) parent_[static_cast<std::size_t>(i)] = -1;
-    for (const ContactConstraint& pair : problem.pairs) {
-        int first = -1;
-        for (int point : pair.points) {
-            const int i = leaderOf(point);
+    // All that move a point, with what others of its pair have come to.
+    const auto join = [&](int point, int& first) {
+        carried_->forEachMover(point, [&](int mover, double) {
+            const int i = leaderOf(mover);
             if (parent_[static_cast<std::size_t>(i)] < 0) parent_[static_cast<std::size_t>(i)] = i;
-            if (isFixed(i, problem)) continue;
+            if (isFixed(i, problem)) return;
             const int own = root(i);
             if (first < 0) {
                 first = own;
-                continue;
+                return;
             }
             const int low = std::min(first, own);
             parent_[static_cast<std::size_t>(std::max(first, own))] = low;
             first = low;
-        }
+        });
+    };
+    for (const ContactConstraint& pair : problem.pairs) {
+        int first = -1;
+        for (int point : pair.points) join(point, first);
     }
-    // A solid meets colliders here alone.
-    for (const KinematicContact& contact : problem.kinematic)
-        if (solidOf(contact.point) != nullptr) {
-            const auto leader = static_cast<std::size_t>(leaderOf(contact.point));
-            if (parent_[leader] < 0) parent_[leader] = static_cast<int>(leader);
-        }
+    for (const KinematicContact& contact : problem.kinematic) {
+        int first = -1;
+        if (contact.isWhole) join(contact.point, first);
+    }
     for (const Solid& solid : solids_)
         if (const int leader = solid.points.front(); solid.moves && parent_[static_cast<std::size_t>(leader)] >= 0)
             for (int i : solid.points) parent_[static_cast<std::size_t>(i)] = root(leader);
@@ -120,21 +122,23 @@ void ContactSolver::findClusters(const Problem& problem) {
 
     const int pairCount = static_cast<int>(problem.pairs.size());
     order_.clear();
-    for (int p = 0; p < pairCount; ++p)
-        for (int i : problem.pairs[static_cast<std::size_t>(p)].points)
-            if (!isFixed(i, problem)) {
-                order_.emplace_back(root(i), p);
-                break;
-            }
-    for (std::size_t k = 0; k < problem.kinematic.size(); ++k) {
-        const int i = problem.kinematic[k].point;
-        if (parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i, problem))
-            order_.emplace_back(root(i), pairCount + static_cast<int>(k));
-    }
+    // By what moves one of the points; nothing may.
+    const auto addSource = [&](std::span<const int> points, int source) {
+        int mover = -1;
+        for (int point : points)
+            carried_->forEachMover(point, [&](int i, double) {
+                if (mover < 0 && parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i, problem)) mover = i;
+            });
+        if (mover >= 0) order_.emplace_back(root(mover), source);
+    };
+    for (int p = 0; p < pairCount; ++p) addSource(problem.pairs[static_cast<std::size_t>(p)].points, p);
+    for (std::size_t k = 0; k < problem.kinematic.size(); ++k)
+        addSource(std::span(&problem.kinematic[k].point, 1), pairCount + static_cast<int>(k));
     std::sort(order_.begin(), order_.end());
 
     rows_.clear();
     turns_.clear();
+    shares_.clear();
     keys_.clear();
     clusters_.clear();
     std::vector<int> sources, roots;
@@ -156,7 +160,7 @@ void ContactSolver::findClusters(const Problem& problem) {
         cluster.last = rows_.size();
         cluster.sweeps = problem.options.sweeps;
         if (std::any_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first), rows_.end(),
-                        [](const Row& row) { return row.turns >= 0; })) {
+                        [](const Row& row) { return !row.turns.isEmpty(); })) {
             cluster.sweeps *= sweepsForSolids;
             cluster.tolerance *= settledForSolids;
         }
@@ -177,11 +181,17 @@ void ContactSolver::findClusters(const Problem& problem) {
     shift_.assign(u_.size(), Four{});
 }
 
+// Whether its row may close its gap, and pushes out what overlaps; other contacts with colliders only hold.
+bool ContactSolver::isLikePair(const Row& row, const Problem& problem) {
+    const auto source = static_cast<std::size_t>(row.source), pairCount = problem.pairs.size();
+    return source < pairCount || problem.kinematic[source - pairCount].isWhole;
+}
+
 bool ContactSolver::isNearRest(const Cluster& cluster, const Problem& problem) const {
     const double most = nearRest * problem.options.restSpeed;
     return std::none_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first),
                         rows_.begin() + static_cast<std::ptrdiff_t>(cluster.last), [&](const Row& row) {
-                            const dvec3 velocity = relativeVelocity(row, u_, turns_);
+                            const dvec3 velocity = relativeVelocity(row, u_, levers());
                             return !(glm::dot(velocity, velocity) <= most * most);
                         });
 }
@@ -196,12 +206,16 @@ void ContactSolver::colour(std::span<int> sources, const Problem& problem) {
     for (int source : sources.first(pairs)) {
         std::uint64_t used = 0;
         const std::array<int, 4>& points = problem.pairs[static_cast<std::size_t>(source)].points;
-        for (int i : points)
-            if (!isFixed(i, problem)) used |= taken_[static_cast<std::size_t>(leaderOf(i))];
+        for (int point : points)
+            carried_->forEachMover(point, [&](int i, double) {
+                if (!isFixed(i, problem)) used |= taken_[static_cast<std::size_t>(leaderOf(i))];
+            });
         const int free = std::min(std::countr_one(used), mostColours - 1);  // the last one may share points
         colours[static_cast<std::size_t>(free)].push_back(source);
-        for (int i : points)
-            taken_[static_cast<std::size_t>(leaderOf(i))] |= std::uint64_t{1} << static_cast<unsigned>(free);
+        for (int point : points)
+            carried_->forEachMover(point, [&](int i, double) {
+                taken_[static_cast<std::size_t>(leaderOf(i))] |= std::uint64_t{1} << static_cast<unsigned>(free);
+            });
     }
     auto to = sources.begin();
     for (const std::vector<int>& own : colours) to = std::copy(own.begin(), own.end(), to);
@@ -262,48 +276,70 @@ void ContactSolver::storeSolids(const Problem& problem) {
     }
 }
 
-// The turns of a row whose slots and weights are set. arms (points) [m]: where its impulse acts on each, from the
-// centre of its solid.
-void ContactSolver::addTurns(Row& row, std::span<const int> points, std::span<const dvec3> arms) {
-    row.turns = static_cast<int>(turns_.size());
-    for (std::size_t k = 0; k < 4; ++k) {
-        Turn& turn = turns_.emplace_back();
-        const Solid* solid = k < points.size() ? solidOf(points[k]) : nullptr;
-        if (solid == nullptr) continue;
-        const Body& body = bodies_[static_cast<std::size_t>(solid - solids_.data())];
-        turn.slot = body.slot + 1;
-        for (int i = 0; i < 3; ++i) {
-            turn.arm[i] = row.weights[k] * arms[k][i];
-            for (int j = 0; j < 3; ++j) turn.gain[3 * i + j] = body.u.inverseInertia[j][i];
+// What a row has of a point, at the place where its impulse acts [m] -> terms_, solidTerms_.
+void ContactSolver::addTerm(int point, double weight, const dvec3& place, const Problem& problem) {
+    carried_->forEachMover(point, [&](int i, double share) {
+        const double own = weight * share;
+        if (const Solid* solid = solidOf(i); solid != nullptr) {
+            const Body& body = bodies_[static_cast<std::size_t>(solid - solids_.data())];
+            auto at = std::find_if(solidTerms_.begin(), solidTerms_.end(),
+                                   [&](const SolidTerm& other) { return other.body == &body; });
+            if (at == solidTerms_.end()) at = solidTerms_.insert(at, SolidTerm{&body});
+            at->weight += own;
+            at->arm += own * (place - body.u.centre);
+            terms_.push_back({slotOf(i, problem), own, 1.0 / body.u.mass, &body});
+            return;
         }
-    }
+        const int slot = slotOf(i, problem);
+        if (i != point)  // several points of a row may go with the same
+            for (Term& other : terms_)
+                if (other.slot == slot) {
+                    other.weight += own;
+                    return;
+                }
+        terms_.push_back({slot, own, problem.inverseMass[static_cast<std::size_t>(i)]});
+    });
 }
 
-// Gains and effective masses of a row with solids. The velocity that an impulse p of 1 gives along itself is p·K p.
-void ContactSolver::weigh(Row& row, const std::array<double, 4>& inverseMass) const {
-    dmat3 inverse(0.0);  // K
-    for (std::size_t k = 0; k < 4; ++k) {
-        row.gains[k] = row.weights[k] * inverseMass[k];
-        // All points of one solid at once, at the first of them.
-        double weight = 0;
-        dvec3 arm(0.0);
-        const Turn& turn = turns_[static_cast<std::size_t>(row.turns) + k];
-        bool isFirst = true;
-        for (std::size_t j = 0; j < 4; ++j) {
-            if (row.slots[j] != row.slots[k]) continue;
-            isFirst = isFirst && j >= k;
-            const Turn& own = turns_[static_cast<std::size_t>(row.turns) + j];
-            weight += row.weights[j];
-            arm += dvec3(own.arm[0], own.arm[1], own.arm[2]);
+// The terms become weights, gains and levers of the row. It has four velocities besides the shares, if it has so many.
+void ContactSolver::putTerms(Row& row) {
+    row.shares.first = static_cast<int>(shares_.size());
+    for (std::size_t k = 0; k < terms_.size(); ++k) {
+        const Term& term = terms_[k];
+        const double gain = term.weight * term.inverseMass;
+        row.largestGain = std::max(row.largestGain, std::abs(gain));
+        if (k >= 4) {
+            shares_.push_back({term.slot, term.weight, gain});
+            continue;
         }
-        if (!isFirst) continue;
-        inverse += dmat3(weight * weight * inverseMass[k]);
-        if (turn.slot < 0) continue;
-        dmat3 gain;
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) gain[j][i] = turn.gain[3 * i + j];
+        row.weights[k] = term.weight;
+        row.gains[k] = gain;
+        row.slots[k] = term.slot;
+    }
+    for (std::size_t k = terms_.size(); k < 4; ++k) row.slots[k] = terms_.back().slot;
+    row.shares.last = static_cast<int>(shares_.size());
+    row.turns.first = static_cast<int>(turns_.size());
+    for (const SolidTerm& term : solidTerms_) {
+        Turn& turn = turns_.emplace_back();
+        turn.slot = term.body->slot + 1;
+        for (int i = 0; i < 3; ++i) {
+            turn.arm[i] = term.arm[i];
+            for (int j = 0; j < 3; ++j) turn.gain[3 * i + j] = term.body->u.inverseInertia[j][i];
+        }
+    }
+    row.turns.last = static_cast<int>(turns_.size());
+}
+
+// Effective masses of a row with solids. The velocity that an impulse p of 1 gives along itself is p·K p.
+void ContactSolver::weigh(Row& row) const {
+    dmat3 inverse(0.0);  // K
+    for (const Term& term : terms_)
+        if (term.body == nullptr) inverse += dmat3(term.weight * term.weight * term.inverseMass);
+    for (const SolidTerm& term : solidTerms_) {
+        const dvec3& arm = term.arm;
         const dmat3 across(0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0);  // arm × p
-        inverse -= across * gain * across;
+        inverse += dmat3(term.weight * term.weight / term.body->u.mass);
+        inverse -= across * term.body->u.inverseInertia * across;
     }
     const dvec3 normal = vectorOf(row.normal), t = acrossOf(normal), b = glm::cross(normal, t);
     const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
@@ -317,41 +353,25 @@ void ContactSolver::weigh(Row& row, const std::array<double, 4>& inverseMass) co
 void ContactSolver::addRow(int source, const Problem& problem) {
     Row& row = rows_.emplace_back();
     row.source = source;
+    terms_.clear();
+    solidTerms_.clear();
+    const auto placeOf = [&](int point) {  // needed where there are solids
+        return problem.x.empty() ? dvec3(0.0) : problem.x[static_cast<std::size_t>(point)];
+    };
     const std::size_t pairCount = problem.pairs.size();
     std::uint64_t key;
+    double softness = 0;
     if (const auto own = static_cast<std::size_t>(source); own < pairCount) {
         const ContactConstraint& pair = problem.pairs[own];
         key = keyOf(pair);
         row.normal = four(pair.normal);
         row.friction = pair.friction;
-        double inverse = 0;
+        softness = pair.softness;
         for (std::size_t i = 0; i < 4; ++i) {
-            const double inverseMass = problem.inverseMass[static_cast<std::size_t>(pair.points[i])];
-            inverse += pair.weights[i] * pair.weights[i] * inverseMass;
-            row.weights[i] = pair.weights[i];
-            row.gains[i] = pair.weights[i] * inverseMass;
-            row.largestGain = std::max(row.largestGain, std::abs(row.gains[i]));
-            row.slots[i] = slotOf(pair.points[i], problem);
-        }
-        row.softness = pair.softness * inverse;
-        row.mass = 1.0 / (inverse + row.softness);
-        if (std::any_of(pair.points.begin(), pair.points.end(), [&](int i) { return solidOf(i) != nullptr; })) {
             // Where the sides meet. Each is brought there by a shift of its own.
-            std::array<dvec3, 4> arms;
-            std::array<double, 4> inverseMass;
-            for (std::size_t i = 0; i < 4; ++i) {
-                const bool isFirst = static_cast<int>(i) < pair.firstSide();
-                const double way = (isFirst ? -pair.firstShare : 1.0 - pair.firstShare) * pair.distance;
-                const Solid* solid = solidOf(pair.points[i]);
-                const Body* body =
-                    solid == nullptr ? nullptr : &bodies_[static_cast<std::size_t>(solid - solids_.data())];
-                arms[i] = problem.x[static_cast<std::size_t>(pair.points[i])] + way * pair.normal;
-                if (body != nullptr) arms[i] -= body->u.centre;
-                inverseMass[i] = body != nullptr ? 1.0 / body->u.mass
-                                                 : problem.inverseMass[static_cast<std::size_t>(pair.points[i])];
-            }
-            addTurns(row, pair.points, arms);
-            weigh(row, inverseMass);
+            const bool isFirst = static_cast<int>(i) < pair.firstSide();
+            const double way = (isFirst ? -pair.firstShare : 1.0 - pair.firstShare) * pair.distance;
+            addTerm(pair.points[i], pair.weights[i], placeOf(pair.points[i]) + way * pair.normal, problem);
         }
         row.closing = std::max(pair.gap(), 0.0) / problem.h;
     } else {
@@ -364,22 +384,17 @@ void ContactSolver::addRow(int source, const Problem& problem) {
         key = keyOf(contact, number);
         row.normal = four(contact.normal);
         row.friction = contact.friction;
-        row.weights[0] = 1;
-        row.weights[1] = -1;
-        row.gains[0] = row.largestGain = problem.inverseMass[static_cast<std::size_t>(contact.point)];
-        row.mass = 1.0 / row.gains[0];
         row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
-        row.slots[0] = slotOf(contact.point, problem);
-        row.slots[1] = row.slots[2] = row.slots[3] = addSlot(contact.carried, contact.carried);
-        if (const Solid* solid = solidOf(contact.point); solid != nullptr) {
-            const Body& body = bodies_[static_cast<std::size_t>(solid - solids_.data())];
-            const dvec3 arm =
-                problem.x[static_cast<std::size_t>(contact.point)] - contact.thickness * contact.normal - body.u.centre;
-            addTurns(row, std::span(&contact.point, 1), std::span(&arm, 1));
-            weigh(row, {1.0 / body.u.mass, 0, 0, 0});
-            row.closing += std::max(contact.gap, 0.0) / problem.h;
-        }
+        if (contact.isWhole) row.closing += std::max(contact.gap, 0.0) / problem.h;
+        addTerm(contact.point, 1.0, placeOf(contact.point) - contact.thickness * contact.normal, problem);
+        terms_.push_back({addSlot(contact.carried, contact.carried), -1.0, 0.0});
     }
+    putTerms(row);
+    double inverse = 0;
+    for (const Term& term : terms_) inverse += term.weight * term.weight * term.inverseMass;
+    row.softness = softness * inverse;
+    row.mass = 1.0 / (inverse + row.softness);
+    if (!solidTerms_.empty()) weigh(row);
 
     keys_.push_back(key);
     const auto last = std::lower_bound(last_.begin(), last_.end(), key,
@@ -395,13 +410,13 @@ void ContactSolver::addRow(int source, const Problem& problem) {
 // Sweeps, with steps for all solids at once in between where they are near rest. Returns the number of sweeps.
 int ContactSolver::solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance,
                              std::span<Four> velocities) const {
-    if (cluster.solids.empty()) return projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, turns_);
+    if (cluster.solids.empty()) return projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, levers());
     constexpr int sweepsBetween = 5;
-    int most = 1, sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, turns_), taken = sweeps;
+    int most = 1, sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, levers()), taken = sweeps;
     for (bool helps = true; sweeps == most && taken < cluster.sweeps; taken += sweeps) {
-        helps = helps && stepRigidly(rows, cluster.solids, turns_, velocities);
+        helps = helps && stepRigidly(rows, cluster.solids, levers(), velocities);
         most = helps ? std::min(sweepsBetween, cluster.sweeps - taken) : cluster.sweeps - taken;
-        sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, turns_, Start::applied);
+        sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, levers(), Start::applied);
     }
     return taken;
 }
@@ -411,11 +426,10 @@ void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster
     thread_local std::vector<Row> rows;
     rows.clear();
     for (const Row& row : all) {
-        const auto source = static_cast<std::size_t>(row.source);
-        const bool isPair = source < problem.pairs.size(), isOfSolid = !isPair && row.turns >= 0;
-        if ((isPair || isOfSolid) && !(row.impulse.of[3] > 0)) continue;
+        const bool isResolved = isLikePair(row, problem);
+        if (isResolved && !(row.impulse.of[3] > 0)) continue;
         Row& own = rows.emplace_back(row);
-        if (isPair || isOfSolid) own.closing = std::max(own.closing, 0.0);
+        if (isResolved) own.closing = std::max(own.closing, 0.0);
     }
     solveRows(rows, cluster, cluster.tolerance, v_);
 }
@@ -435,8 +449,8 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
             const bool isPair = source < pairCount;
             const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - pairCount];
             const double own = isPair ? problem.pairs[source].restitution : contact->restitution;
-            if (!(own > 0) || (!isPair && row.turns < 0)) continue;
-            const double closing = -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, turns_));
+            if (!(own > 0) || !isLikePair(row, problem)) continue;
+            const double closing = -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, levers()));
             const double gap = isPair ? problem.pairs[source].gap() : contact->gap;
             if (!(closing > fastest) || gap > closing * problem.h) continue;
             fastest = closing;
@@ -446,10 +460,10 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
         if (next == nullptr) return;
         const double size = (1.0 + restitution) * fastest * next->mass;
         dvec3 impulse = size * vectorOf(next->normal);
-        const dvec3 velocity = relativeVelocity(*next, velocities, turns_);
+        const dvec3 velocity = relativeVelocity(*next, velocities, levers());
         const double grip = next->grip > 0 ? next->grip : next->mass;
         impulse += withinCone(-grip * (velocity + fastest * vectorOf(next->normal)), next->friction * size);
-        push(*next, impulse, velocities, turns_);
+        push(*next, impulse, velocities, levers());
         if (!sizes.empty()) sizes[static_cast<std::size_t>(next - rows.data())] += size;
     }
 }
@@ -464,7 +478,7 @@ void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cl
         double target = 0;
         const auto source = static_cast<std::size_t>(row.source);
         const bool isPair = source < problem.pairs.size();
-        if (isPair || row.turns >= 0) {
+        if (isLikePair(row, problem)) {
             const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - problem.pairs.size()];
             const double gap = isPair ? problem.pairs[source].gap() : contact->gap;
             const double recovery = problem.options.recovery * (isPair ? problem.pairs[source].recovery : 1.0);

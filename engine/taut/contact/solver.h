@@ -29,6 +29,8 @@
 // meet, a thickness off the points, so that balls roll. Its points get what the body got. Where several are near rest,
 // sweeps take turns with steps for all of them at once (rigid_step.h).
 //
+// Carried points have no velocity of their own: rows know those of their movers, of which one may be in several places.
+//
 // A collider that holds a point is one more row, between the point and a velocity that nothing changes. So is each
 // fixed point of a pair: it has a slot of its own, and passes nothing on.
 //
@@ -46,6 +48,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/contact/carried_points.h"
 #include "taut/contact/contact_constraint.h"
 #include "taut/contact/gauss_seidel.h"
 #include "taut/contact/rigid_step.h"
@@ -75,7 +78,8 @@ struct KinematicContact {
     double speed;           // [m/s] of the collider's surface along the normal
     dvec3 carried{0.0};     // [m/s] velocity of the collider's surface
     double friction = 0.0;  // Coulomb's μ of point and surface [-]
-    // Of a point of a solid, whose contacts with colliders the solver resolves like those of pairs:
+    // The solver resolves it like a pair's: of a point of a solid, or a carried one.
+    bool isWhole = false;
     double gap = 0.0;          // [m] at x0
     double thickness = 0.0;    // [m] from the point to where the impulse acts
     double restitution = 0.0;  // [-]
@@ -88,13 +92,20 @@ class ContactSolver {
     void solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
                std::span<const double> inverseMass, double h, const SolverOptions& options, std::span<dvec3> u,
                std::span<dvec3> v, std::span<dvec3> shift, std::span<const dvec3> x = {});
-    // Which points keep their distances.
+    // Which points keep their distances. Keeps the span.
     void setSolids(std::span<const Solid> solids, std::size_t pointCount);
+    // Which go with others. u, v and shift of these stay: their movers' change. Keeps a reference.
+    void setCarried(const CarriedPoints& carried) { carried_ = &carried; }
     // The next instant does not follow on the last.
     void forget() { last_.clear(); }
+    // Nothing presses.
+    void clear() {
+        impulses_.clear();
+        frictions_.clear();
+    }
 
     // After solve().
-    std::span<const int> points() const { return touched_; }         // of the pairs, and of their solids, ascending
+    std::span<const int> points() const { return touched_; }  // that pairs move, and of their solids, ascending
     // (pairs, then contacts with colliders) [N s] along the normal, and tangential, on the first side or the point.
     std::span<const double> impulses() const { return impulses_; }
     std::span<const dvec3> frictions() const { return frictions_; }
@@ -129,13 +140,15 @@ class ContactSolver {
     const Solid* solidOf(int point) const;  // that moves; null: none
     bool isTouched(const Solid& solid) const;
     bool isFixed(int point, const Problem& problem) const;
-    int leaderOf(int point) const;  // the lowest point that moves with it
+    int leaderOf(int point) const;  // the lowest point of its solid, or itself
     void loadSolids(const Problem& problem);
     void storeSolids(const Problem& problem);
-    void addTurns(Row& row, std::span<const int> points, std::span<const dvec3> arms);
-    void weigh(Row& row, const std::array<double, 4>& inverseMass) const;
+    void addTerm(int point, double weight, const dvec3& place, const Problem& problem);
+    void putTerms(Row& row);
+    void weigh(Row& row) const;
     void joinPoints(const Problem& problem);
     void findClusters(const Problem& problem);
+    static bool isLikePair(const Row& row, const Problem& problem);
     bool isNearRest(const Cluster& cluster, const Problem& problem) const;
     void colour(std::span<int> sources, const Problem& problem);
     void addRow(int source, const Problem& problem);
@@ -149,19 +162,36 @@ class ContactSolver {
     void correctPositions(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
     void remember(std::size_t sourceCount);
     int root(int point);
+    Levers levers() const { return {turns_, shares_}; }
 
     // A source is a pair, or after all pairs a contact with a collider.
     std::vector<Row> rows_;                    // cluster by cluster, contacts with colliders after the pairs
     std::vector<std::uint64_t> keys_;          // (rows) the same for the same contact in every instant
     std::vector<Cluster> clusters_;
     std::vector<int> parent_;          // (points) union-find; -1: in no pair
-    std::vector<int> touched_;         // points of pairs, ascending
+    std::vector<int> touched_;         // points that move those of pairs, ascending
     std::vector<int> slots_;           // (points) of those touched that move
     std::vector<Four> u_, v_, shift_;  // (slots)
     std::span<const Solid> solids_;
     std::vector<int> solidAt_;                // (points) empty where there are none; -1: of none
     std::vector<Body> bodies_;                // (solids) of those that are touched
-    std::vector<Turn> turns_;                 // of rows, four each
+    CarriedPoints none_;
+    const CarriedPoints* carried_ = &none_;
+    std::vector<Turn> turns_;                 // of rows
+    std::vector<Share> shares_;               // likewise
+    // Of the row that is being made: what moves its points, and its solids.
+    struct Term {
+        int slot;
+        double weight, inverseMass;    // [-], [1/kg]
+        const Body* body = nullptr;  // of a solid
+    };
+    struct SolidTerm {
+        const Body* body = nullptr;
+        double weight = 0;
+        dvec3 arm{0.0};  // [m] sum of weight × (place of the impulse - centre)
+    };
+    std::vector<Term> terms_;
+    std::vector<SolidTerm> solidTerms_;
     std::vector<std::pair<int, int>> order_;  // cluster, source
     std::vector<std::uint64_t> taken_;        // (slots) scratch: colours
     std::vector<LastImpulse> last_;           // ascending by key

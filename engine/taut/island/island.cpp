@@ -81,7 +81,7 @@ void Island::setColliders(collision::Colliders colliders, std::span<const std::s
 // Points that come out within one step at emergingSpeed do not count.
 void Island::findInside(std::span<const std::string> names) {
     for (const Body* body : plan_.bodies) {
-        if (!body->spec->collide || body->spec->isRigid()) continue;
+        if (!body->spec->collide || body->spec->meetsCollidersAsWhole()) continue;
         std::vector<int> count(names.size(), 0);
         std::vector<double> depth(names.size(), 0.0);
         for (int i = body->firstPoint; i < body->lastPoint; ++i) {

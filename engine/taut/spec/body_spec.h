@@ -116,6 +116,10 @@ struct BodySpec {
     virtual void constrain(IslandPlan&, const Body&) const {}
     // Whether its points keep their distances, so that what presses one presses all.
     virtual bool isRigid() const { return false; }
+    // Whether a surface that goes with its points meets others in their place.
+    virtual bool hasCarriedSurface() const { return false; }
+    // Whether it meets colliders in contact with bodies, not point by point as its island moves.
+    bool meetsCollidersAsWhole() const { return isRigid() || hasCarriedSurface(); }
     virtual PlasticitySpec plasticityIn(const SceneSpec&) const { return {}; }
     // The material from which it takes numbers; empty: none.
     virtual std::string_view materialName() const { return {}; }
@@ -125,7 +129,9 @@ struct BodySpec {
     // The number of its points, springs and cells. By default it builds the body and counts them.
     virtual BodyOutline outline(const SceneSpec& scene) const;
     // Whether not its points alone but its faces meet other bodies, or colliders.
-    bool facesMeetColliders() const { return collide && (meetsFaces || meetsFigures || isRigid() || touch != Touch::nothing); }
+    bool facesMeetColliders() const {
+        return collide && (meetsFaces || meetsFigures || meetsCollidersAsWhole() || touch != Touch::nothing);
+    }
     bool facesMeet() const { return touch != Touch::nothing || facesMeetColliders(); }
 
     // The mesh file from which it is made, or null.

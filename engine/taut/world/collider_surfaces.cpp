@@ -92,7 +92,7 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
         }
         const Placing place(colliders[c].pose);
         for (const collision::Outline& outline : colliders[c].outlines) {
-            if (outline.radius > thin) continue;
+            if (outline.radius > thin || outline.vertices.empty()) continue;
             surfaces.push_back(surfaceOf(outline, colliders[c].friction, static_cast<int>(rest.size()), bond()));
             for (const dvec3& vertex : outline.vertices) rest.push_back(place(vertex));
             own.vertices.insert(own.vertices.end(), outline.vertices.begin(), outline.vertices.end());

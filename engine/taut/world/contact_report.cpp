@@ -53,7 +53,8 @@ void ContactReport::look(const ContactStage& stage, double start) {
     const auto bodyOf = [&](int surface) { return stage.isOfBody(surface) ? &stage.bodyOf(surface) : nullptr; };
     hadImpulse_ = hadImpulse_ || stage.hadImpulse();
     for (const contact::ContactPoint& c : stage.contacts())
-        if (!stage.elements().isRigid(c.surfaceA) && !stage.elements().isRigid(c.surfaceB))
+        if (c.surfaceB == ContactStage::noSurface ||
+            (!stage.elements().isRigid(c.surfaceA) && !stage.elements().isRigid(c.surfaceB)))
             contacts_.push_back({c.place, c.normal, c.impulse, bodyOf(c.surfaceA), bodyOf(c.surfaceB)});
     // Edges that cross, by the names of both sides: two bodies, or a body and a figure.
     std::map<std::pair<std::string, std::string>, std::set<int>> edges;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "taut/bodies/private/bare_faces.h"
+#include "taut/bodies/private/carried_surface.h"
 #include "taut/contact/penetration.h"
 #include "taut/core/private/parallel.h"
 #include "taut/core/private/rigid_motion.h"
@@ -71,6 +72,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     : spec_(spec), tickSeconds_(1.0 / now.ticksPerSecond), fewest_(fewestInstants(tickSeconds_)), pace_(pace) {
     std::vector<contact::ContactSurface> surfaces;
     std::vector<dvec3> rest;
+    std::vector<std::pair<std::size_t, CarriedSurface>> carried;  // by surface
     for (const auto& island : islands) {
         if (!touches(island->plan())) continue;
         const int offset = static_cast<int>(rest.size());
@@ -80,11 +82,15 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
             if (!body->spec->facesMeet()) continue;
             surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
             if (body->spec->isRigid()) {
-                SolidPart& solid = solids_.emplace_back();
-                solid.part = parts_.size();
-                solid.surface = static_cast<int>(bodies_.size());
-                for (int i : body->pointOf) solid.points.push_back(offset + i);
-                std::sort(solid.points.begin(), solid.points.end());
+                std::vector<int>& solid = solids_.emplace_back();
+                for (int i : body->pointOf) solid.push_back(offset + i);
+                std::sort(solid.begin(), solid.end());
+            }
+            if (body->spec->meetsCollidersAsWhole()) wholes_.push_back(static_cast<int>(bodies_.size()));
+            if (CarriedSurface own = carriedSurface(*body); !own.points.empty()) {
+                for (mechanics::CarriedPoint& point : own.points)
+                    for (int& i : point.points) i = offset + body->pointOf[static_cast<std::size_t>(i)];
+                carried.emplace_back(bodies_.size(), std::move(own));
             }
             bodies_.push_back(body);
             for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
@@ -96,6 +102,19 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         parts_.push_back({island.get(), offset, static_cast<int>(rest.size())});
     }
     if (islands_.empty()) return;
+    const int firstCarried = static_cast<int>(rest.size());
+    std::vector<contact::CarriedPoint> carriedPoints;
+    for (const auto& [number, own] : carried) {
+        contact::ContactSurface& surface = surfaces[number];
+        const int first = static_cast<int>(rest.size());
+        rest.insert(rest.end(), own.rest.begin(), own.rest.end());
+        for (const mechanics::CarriedPoint& point : own.points) carriedPoints.push_back({point.points, point.weights});
+        surface.points.resize(own.points.size());
+        std::iota(surface.points.begin(), surface.points.end(), first);
+        surface.triangles.clear();
+        for (const std::array<int, 3>& t : own.triangles)
+            surface.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return body->spec->facesMeetColliders(); }))
         colliders_ = ColliderSurfaces(colliders(), now.start(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
@@ -105,6 +124,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     options.friction = spec.friction;
     options.restitution = spec.restitution;
     group_ = std::make_unique<contact::ContactGroup>(std::move(surfaces), std::move(rest), options);
+    group_->setCarried({firstCarried, std::move(carriedPoints)});
     for (const Part& part : parts_)
         for (const JointTie& tie : part.island->plan().ties)
             if (tie.isSeam) group_->elements().sew(part.first + tie.a, part.first + tie.b);
@@ -131,10 +151,18 @@ double ContactStage::depthOf(const contact::Crossing& crossing) const {
 
 ContactStage::Penetration ContactStage::penetration(const std::function<bool(const Body&)>& wanted) {
     Penetration all;
-    if (isEmpty() || colliders_.isEmpty()) return all;
+    if (isEmpty()) return all;
     const auto isWanted = [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); };
-    all.deepest = contact::penetrationOf(elements(), crossings(), x1_, isWanted);
-    for (const contact::Crossing& crossing : crossings_) {
+    const std::vector<contact::Crossing>& now = crossings();  // places x1_
+    for (int whole : wholes_) {
+        const Island& island = *bodyOf(whole).island;
+        if (!isWanted(whole) || !bodyOf(whole).spec->collide || island.colliders().size() == 0) continue;
+        for (int i : elements().surface(whole).points)
+            all.ofPoints = std::max(all.ofPoints, -island.colliders().distance(position(i)));
+    }
+    if (colliders_.isEmpty()) return all;
+    all.deepest = contact::penetrationOf(elements(), now, x1_, isWanted);
+    for (const contact::Crossing& crossing : now) {
         const auto sides = sidesOf(crossing);
         if (!sides || isOfBody(sides->second) || !isWanted(sides->first)) continue;
         ++all.figureCrossings;
@@ -149,7 +177,8 @@ void ContactStage::takeDamage() {
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         const Body& body = *bodies_[s];
         const std::size_t severed = body.damage.edges().size();
-        if (severed == damage_[s]) continue;
+        const std::vector<int>& points = group_->elements().surface(static_cast<int>(s)).points;
+        if (severed == damage_[s] || (!points.empty() && group_->carried().has(points.front()))) continue;
         damage_[s] = severed;
         isOther = true;
         int offset = 0;
@@ -176,6 +205,7 @@ void ContactStage::readAll() {
         const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.last) - first;
         part.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
     }
+    group_->carried().follow(x1_, v_);
 }
 
 int ContactStage::commonSubsteps() const {
@@ -220,7 +250,7 @@ int ContactStage::takeInstants(const TickTime& time, int needed, std::span<const
 int ContactStage::chooseInstants(const TickTime& time) {
     if (spec_.instants) return takeInstants(time, *spec_.instants);
     contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
-    if (!solids_.empty()) foreseeSolids(forecast);
+    if (!wholes_.empty()) foreseeWholes(forecast);
     // Doubles instants until a motion of that speed goes at most `way` in one.
     const auto enough = [&](int instants, double speed, double way) {
         while (instants < mostInstantsForSpeed && tickSeconds_ * speed > instants * way) instants *= 2;
@@ -247,6 +277,13 @@ void ContactStage::takeMasses() {
         }
     }
     if (!solids_.empty()) takeSolids();
+    const contact::CarriedPoints& carried = group_->carried();
+    for (int i = carried.first(); i < carried.end(); ++i) {
+        double& inverse = inverseMass_[static_cast<std::size_t>(i)] = 0.0;
+        carried.forEachMover(i, [&](int mover, double weight) {
+            inverse += weight * weight * inverseMass_[static_cast<std::size_t>(mover)];
+        });
+    }
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         const int surface = static_cast<int>(s);
         const bool isAsleep = bodies_[s]->island->isAsleep();
@@ -260,30 +297,30 @@ void ContactStage::takeMasses() {
 void ContactStage::takeSolids() {
     std::vector<contact::Solid> solids;
     std::vector<double> inverses;
-    for (const SolidPart& part : solids_) {
+    for (const std::vector<int>& points : solids_) {
         contact::Solid& solid = solids.emplace_back();
-        solid.points = part.points;
+        solid.points = points;
         inverses.clear();
-        for (int i : part.points) inverses.push_back(inverseMass_[static_cast<std::size_t>(i)]);
+        for (int i : points) inverses.push_back(inverseMass_[static_cast<std::size_t>(i)]);
         const double mass = core::massesOf(inverses, solid.masses);
         solid.moves = mass > 0;
-        for (int i : part.points)
+        for (int i : points)
             if (double& inverse = inverseMass_[static_cast<std::size_t>(i)]; inverse > 0) inverse = 1.0 / mass;
     }
     group_->setSolids(std::move(solids));
 }
 
-// Calls each(point, spec, surface) for the points of solids that are, or might be `seconds` [s] later, in contact with
-// a collider, where they and it are now.
+// Calls each(point, spec, surface) for the points of bodies that meet colliders as a whole which are, or might be
+// `seconds` [s] later, in contact with a collider, where they and it are now.
 template <class Each>
-void ContactStage::forEachNearSolid(double seconds, const Each& each) const {
+void ContactStage::forEachNearCollider(double seconds, const Each& each) const {
     constexpr double nearShare = 0.05;  // of the thickness
     std::vector<collision::Colliders::Surface> found;
-    for (const SolidPart& solid : solids_) {
-        const Island& island = *parts_[solid.part].island;
-        const BodySpec& spec = *bodies_[static_cast<std::size_t>(solid.surface)]->spec;
+    for (int whole : wholes_) {
+        const Island& island = *bodyOf(whole).island;
+        const BodySpec& spec = *bodyOf(whole).spec;
         if (!spec.collide || island.isStill()) continue;
-        for (int i : elements().surface(solid.surface).points) {
+        for (int i : elements().surface(whole).points) {
             const auto k = static_cast<std::size_t>(i);
             const double way = seconds * std::sqrt(glm::dot(v_[k], v_[k]));
             found.clear();
@@ -293,9 +330,9 @@ void ContactStage::forEachNearSolid(double seconds, const Each& each) const {
     }
 }
 
-// The contacts of solids with colliders at the end of an instant h [s] long -> kinematic_.
-void ContactStage::addSolidContacts(double h) {
-    forEachNearSolid(
+// The contacts of whole bodies with colliders at the end of an instant h [s] long -> kinematic_.
+void ContactStage::addWholeContacts(double h) {
+    forEachNearCollider(
         0.0,
         [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
             const auto k = static_cast<std::size_t>(i);
@@ -305,6 +342,7 @@ void ContactStage::addSolidContacts(double h) {
             contact.carried = surface.velocity;
             contact.speed = glm::dot(surface.away, surface.velocity);
             contact.friction = surface.material.friction * spec.friction;
+            contact.isWhole = true;
             contact.thickness = spec.thickness;
             contact.restitution = surface.material.restitution * spec.restitution;
             // Where it came from, so that what it goes in this instant is no overlap.
@@ -315,16 +353,19 @@ void ContactStage::addSolidContacts(double h) {
                      [](const auto& a, const auto& b) { return a.point < b.point; });
 }
 
-// Solids turn and roll, and meet colliders, in no fewer instants than bodies that press each other.
-void ContactStage::foreseeSolids(contact::Forecast& forecast) const {
-    forecast.isInContact = forecast.isInContact ||
-                           std::any_of(solids_.begin(), solids_.end(),
-                                       [&](const SolidPart& solid) { return !parts_[solid.part].island->isStill(); });
-    forEachNearSolid(tickSeconds_, [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
+// Whole bodies meet colliders, and solids turn and roll, in no fewer instants than bodies that press each other.
+void ContactStage::foreseeWholes(contact::Forecast& forecast) const {
+    for (int whole : wholes_)
+        if (bodyOf(whole).spec->isRigid() && !bodyOf(whole).island->isStill()) forecast.isInContact = true;
+    forEachNearCollider(tickSeconds_, [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
+        forecast.isInContact = true;
+        forecast.surfaces.push_back(elements().surfaceOf(i));
         const dvec3 velocity = v_[static_cast<std::size_t>(i)] - surface.velocity;
         forecast.closing = std::max(forecast.closing, -glm::dot(surface.away, velocity));
         forecast.leastThickness = std::min(forecast.leastThickness, spec.thickness);
     });
+    std::sort(forecast.surfaces.begin(), forecast.surfaces.end());
+    forecast.surfaces.erase(std::unique(forecast.surfaces.begin(), forecast.surfaces.end()), forecast.surfaces.end());
 }
 
 // Updates damage, masses, colliders and places.
@@ -465,15 +506,23 @@ bool ContactStage::findReached() {
     return !reached_.empty();
 }
 
-// Adds up what pairs press points with in this instant.
+// Adds up what pairs press points with in this instant, and colliders those of whole bodies.
 void ContactStage::addPresses() {
+    const auto add = [&](int point, double share, double limit, const dvec3& push, const dvec3& friction) {
+        group_->carried().forEachMover(point, [&](int i, double weight) {
+            Press& press = presses_[static_cast<std::size_t>(i)];
+            press.limit += std::abs(share * weight) * limit;
+            press.push += share * weight * push;
+            press.friction += share * weight * friction;
+        });
+    };
+    group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
+        const contact::KinematicContact& contact = kinematic_[k];
+        if (contact.isWhole) add(contact.point, 1.0, contact.friction * normal, normal * contact.normal, friction);
+    });
     group_->forEachPressing([&](const contact::ContactConstraint& pair, double normal, const dvec3& friction) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            Press& press = presses_[static_cast<std::size_t>(pair.points[k])];
-            press.limit += std::abs(pair.weights[k]) * pair.friction * normal;
-            press.push += pair.weights[k] * normal * pair.normal;
-            press.friction += pair.weights[k] * friction;
-        }
+        for (std::size_t k = 0; k < 4; ++k)
+            add(pair.points[k], pair.weights[k], pair.friction * normal, normal * pair.normal, friction);
         const int a = elements().surfaceOf(pair.points[0]), b = elements().surfaceOf(pair.points[3]);
         if (!isOfBody(a) || !isOfBody(b)) return;
         const std::pair<const Island*, const Island*> islands{bodyOf(a).island, bodyOf(b).island};
@@ -502,9 +551,8 @@ void ContactStage::addFootholds() {
     });
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
         const contact::KinematicContact& contact = kinematic_[k];
-        const Body& body = bodyOf(elements().surfaceOf(contact.point));
-        if (body.spec->isRigid() && mayHold(contact.friction, normal, friction))
-            footholds_[body.island].push_back({x1_[static_cast<std::size_t>(contact.point)], true});
+        if (contact.isWhole && mayHold(contact.friction, normal, friction))
+            footholds_[bodyOf(elements().surfaceOf(contact.point)).island].push_back({x1_[static_cast<std::size_t>(contact.point)], true});
     });
 }
 
@@ -579,7 +627,7 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
         settle();
         if (findFaults(time.at(c + 1, instants), faults)) return false;
         if (!presses_.empty()) addPresses();
-        if (!presses_.empty() && !solids_.empty()) addFootholds();
+        if (!presses_.empty() && !wholes_.empty()) addFootholds();
         if (anySleeps() && findReached()) return true;
         if (isTooCoarse(isTrial)) return true;
     }
@@ -615,7 +663,7 @@ void ContactStage::resolveInstant(double h) {
                                                                   : part.island->contacts())
             kinematic_.push_back(
                 {part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
-    if (!solids_.empty()) addSolidContacts(h);
+    if (!wholes_.empty()) addWholeContacts(h);
     contact::Instant instant;
     instant.h = h;
     instant.x0 = x0_;
@@ -665,11 +713,15 @@ void ContactStage::resolveInstant(double h) {
 
 // Constraints inside islands share the changes by contact, which moves further points.
 void ContactStage::settle() {
+    bool hasMoved = false;
     for (const Part& part : parts_) {
         if (!part.island->settle()) continue;
+        hasMoved = true;
         const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.last) - first;
         part.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
     }
+    if (!hasMoved) return;
+    group_->carried().follow(x1_, v_);
 }
 
 // Whether contact gave a point a place or velocity that is not finite or too fast: a fault of its island.
@@ -729,7 +781,14 @@ std::vector<int> ContactStage::squeezed() const {
 
 std::vector<contact::ContactPoint> ContactStage::contacts() const {
     if (isEmpty()) return {};
-    return group_->contactPoints(x1_);
+    std::vector<contact::ContactPoint> all = group_->contactPoints(x1_);
+    group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3&) {
+        const contact::KinematicContact& own = kinematic_[k];
+        if (!own.isWhole) return;
+        const dvec3 place = x1_[static_cast<std::size_t>(own.point)] - own.thickness * own.normal;
+        all.push_back({place, own.normal, normal, elements().surfaceOf(own.point), noSurface});
+    });
+    return all;
 }
 
 std::span<const contact::Crossing> ContactStage::crossingsBefore() const {

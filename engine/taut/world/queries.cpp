@@ -35,6 +35,7 @@ Metrics metricsOf(WorldImpl& w, const std::function<bool(const Body&)>& wanted, 
     const ContactStage::Penetration penetration = w.contactStage->penetration(wanted);
     metrics.crossings += penetration.figureCrossings;
     metrics.facePenetration = penetration.deepest;
+    metrics.penetration = std::max(metrics.penetration, penetration.ofPoints);
     return metrics;
 }
 

@@ -177,7 +177,7 @@ class IslandContacts {
         const Real* inverseMass = inverseMasses();
         for (const Body* body : plan_.bodies) {
             // What is rigid meets colliders as a whole, in contact with other bodies.
-            if (!body->spec->collide || body->spec->isRigid() || body->lastPoint == body->firstPoint) continue;
+            if (!body->spec->collide || body->spec->meetsCollidersAsWhole() || body->lastPoint == body->firstPoint) continue;
             collision::MovingPoints<Real>& points = colliding_.emplace_back();
             points.first = body->firstPoint;
             points.last = body->lastPoint;

@@ -92,7 +92,9 @@ class ContactStage {
     const contact::InstantResult& result() const { return result_; }
     ContactInfo info() const;
     std::vector<int> squeezed() const;  // points of the group that were squeezed in its last instant
-    std::vector<contact::ContactPoint> contacts() const;         // at its end
+    // At its end; of whole bodies with colliders too, whose other side is noSurface.
+    static constexpr int noSurface = -1;
+    std::vector<contact::ContactPoint> contacts() const;
     std::span<const contact::Crossing> crossingsBefore() const;  // at its start
     bool hadImpulse() const { return hadImpulse_; }        // whether any pair had an impulse, in any tick
     const std::vector<contact::Crossing>& crossings();           // at present
@@ -102,7 +104,7 @@ class ContactStage {
     const contact::Elements& elements() const { return group_->elements(); }
     // The body of a surface. Surfaces of bodies come before those of colliders.
     const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }
-    bool isOfBody(int surface) const { return surface < static_cast<int>(bodies_.size()); }
+    bool isOfBody(int surface) const { return surface >= 0 && surface < static_cast<int>(bodies_.size()); }
     // "cloth.flag", "collider.pole".
     std::string nameOf(int surface) const {
         return isOfBody(surface) ? bodyOf(surface).fullName() : colliders_.nameOf(surface);
@@ -114,6 +116,7 @@ class ContactStage {
     // How far colliders stick out of triangles of wanted bodies, between two ticks: edges of rigid ones as
     // penetrationOf() measures it, and figures as depthOf() does.
     struct Penetration {
+        double ofPoints = 0;      // [m] of bodies that meet colliders as a whole; else their islands know
         double deepest = 0;       // [m]
         int figureCrossings = 0;  // edges of bodies through figures, or the other way round
     };
@@ -129,10 +132,10 @@ class ContactStage {
     void takeDamage();
     void takeMasses();
     void takeSolids();
-    void addSolidContacts(double h);
-    void foreseeSolids(contact::Forecast& forecast) const;
+    void addWholeContacts(double h);
+    void foreseeWholes(contact::Forecast& forecast) const;
     template <class Each>
-    void forEachNearSolid(double seconds, const Each& each) const;
+    void forEachNearCollider(double seconds, const Each& each) const;
     void wake(const TickTime& time, std::span<const std::int64_t> companies);
     void wakeCrossed(const TickTime& time);
     void addReached(int surfaceA, int surfaceB);
@@ -164,12 +167,8 @@ class ContactStage {
     std::vector<Island*> islands_;
     std::vector<Part> parts_;          // (islands)
     std::vector<const Body*> bodies_;  // (surfaces)
-    struct SolidPart {
-        std::size_t part;
-        int surface;
-        std::vector<int> points;  // of the group, ascending
-    };
-    std::vector<SolidPart> solids_;
+    std::vector<std::vector<int>> solids_;  // their points in the group, ascending
+    std::vector<int> wholes_;               // surfaces of bodies that meet colliders as a whole
     std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements
     ColliderSurfaces colliders_;
     std::unique_ptr<contact::ContactGroup> group_;

@@ -1,0 +1,131 @@
+#include "taut/bodies/private/carried_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "taut/spec/private/rotation.h"
+#include "taut/spec/spec.h"
+
+namespace taut::world {
+
+BlockFrame::BlockFrame(const Body& body)
+    : block_(&dynamic_cast<const BlockSpec&>(*body.spec)),
+      lattice_(block_->lattice()),
+      first_(body.model.positions.front() - jitterOf(body, 0)),
+      turn_(rotationOf(block_->rotation)) {}
+
+dvec3 BlockFrame::shift() const {
+    const mechanics::BlockShape shape = block_->shapeOf(*lattice_);
+    return first_ - (shape.centre + shape.axes * (lattice_->cell * dvec3(lattice_->points.front()) - 0.5 * shape.size));
+}
+
+dvec3 BlockFrame::inside(const dvec3& place) const {
+    dvec3 local = lattice_->cell * dvec3(lattice_->points.front());
+    for (int axis = 0; axis < 3; ++axis) {
+        dvec3 unit(0.0);
+        unit[axis] = 1.0;
+        local[axis] += glm::dot(place - first_, rotated(turn_, unit));
+    }
+    return local;
+}
+
+namespace {
+
+using Triangle = std::array<int, 3>;
+
+struct Mesh {
+    std::vector<dvec3> places;
+    std::vector<Triangle> triangles;
+};
+
+// Keeps the first of those that get the same key, and the triangles that are left.
+template <class KeyOf>
+Mesh joined(const Mesh& mesh, const KeyOf& keyOf) {
+    Mesh joined;
+    std::map<decltype(keyOf(0)), int> known;
+    std::vector<int> numbers;
+    for (std::size_t v = 0; v < mesh.places.size(); ++v) {
+        const auto [at, isNew] = known.try_emplace(keyOf(v), static_cast<int>(joined.places.size()));
+        numbers.push_back(at->second);
+        if (isNew) joined.places.push_back(mesh.places[v]);
+    }
+    std::set<Triangle> seen;
+    for (const Triangle& t : mesh.triangles) {
+        Triangle own;
+        for (std::size_t k = 0; k < 3; ++k) own[k] = numbers[static_cast<std::size_t>(t[k])];
+        if (own[0] == own[1] || own[1] == own[2] || own[2] == own[0]) continue;
+        Triangle sorted = own;
+        std::sort(sorted.begin(), sorted.end());
+        if (seen.insert(sorted).second) joined.triangles.push_back(own);
+    }
+    return joined;
+}
+
+// The mesh with vertices no closer than the sides of cubes, nearly: of those in a cube that hang together there, the one
+// stays that stands out most.
+Mesh thinned(const Mesh& mesh, double side) {
+    const std::size_t count = mesh.places.size();
+    const auto cubeOf = [&](int v) { return glm::ivec3(glm::floor(mesh.places[static_cast<std::size_t>(v)] / side)); };
+    std::vector<dvec3> normals(count, dvec3(0.0));
+    std::vector<int> parent(count);
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int v) {
+        while (parent[static_cast<std::size_t>(v)] != v) {
+            int& up = parent[static_cast<std::size_t>(v)];
+            up = parent[static_cast<std::size_t>(up)];
+            v = up;
+        }
+        return static_cast<std::size_t>(v);
+    };
+    for (const Triangle& t : mesh.triangles) {
+        const auto at = [&](std::size_t k) { return mesh.places[static_cast<std::size_t>(t[k])]; };
+        const dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
+        for (std::size_t k = 0; k < 3; ++k) {
+            normals[static_cast<std::size_t>(t[k])] += normal;
+            const std::size_t a = root(t[k]), b = root(t[(k + 1) % 3]);
+            if (cubeOf(t[k]) == cubeOf(t[(k + 1) % 3])) parent[std::max(a, b)] = static_cast<int>(std::min(a, b));
+        }
+    }
+    std::vector<dvec3> outwards(count, dvec3(0.0));  // (roots)
+    for (std::size_t v = 0; v < count; ++v) outwards[root(static_cast<int>(v))] += normals[v];
+    std::vector<std::size_t> kept(count, count);  // (roots)
+    const auto height = [&](std::size_t v, std::size_t of) { return glm::dot(mesh.places[v], outwards[of]); };
+    for (std::size_t v = 0; v < count; ++v) {
+        const std::size_t own = root(static_cast<int>(v));
+        if (kept[own] == count || height(v, own) > height(kept[own], own)) kept[own] = v;
+    }
+    Mesh chosen = mesh;
+    for (std::size_t v = 0; v < count; ++v) chosen.places[v] = mesh.places[kept[root(static_cast<int>(v))]];
+    return joined(chosen, [&](std::size_t v) { return root(static_cast<int>(v)); });
+}
+
+}  // namespace
+
+CarriedSurface carriedSurface(const Body& body) {
+    constexpr double fineness = 1.0 / 3.0;  // of a cell
+    CarriedSurface surface;
+    if (!body.spec->hasCarriedSurface() || body.damage.goneTetrahedra() > 0) return surface;
+    const BlockFrame frame(body);
+    const BlockSpec& block = frame.block();
+    const MeshData& file = *block.meshData;
+    // A file may have a place several times, with other normals or texture coordinates.
+    Mesh mesh = joined(Mesh{file.positions, file.triangles}, [&](std::size_t v) {
+        const dvec3& x = file.positions[v];
+        return std::array{x.x, x.y, x.z};
+    });
+    mesh = thinned(mesh, fineness * block.cell / block.scale);
+    const glm::dquat turn = rotationOf(block.rotation);
+    const dvec3 shift = frame.shift() + block.position;
+    for (const dvec3& x : mesh.places) {
+        surface.rest.push_back(shift + rotated(turn, block.scale * x));
+        const dvec3 local = frame.inside(surface.rest.back()) / frame.lattice().cell;
+        surface.points.push_back(mechanics::carriedBy(frame.lattice().carrierOf(local), local));
+    }
+    surface.triangles = std::move(mesh.triangles);
+    return surface;
+}
+
+}  // namespace taut::world

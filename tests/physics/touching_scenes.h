@@ -82,4 +82,25 @@ inline double meanAlong(const std::vector<dvec3>& x, const dvec3& direction) {
     return sum / static_cast<double>(x.size());
 }
 
+// A torus about the vertical: the middle of its tube at `radius` from the axis.
+inline world::ColliderSpec ring(double radius, double tube) {
+    constexpr double turn = 2 * 3.14159265358979323846;
+    constexpr int around = 32, across = 12;
+    auto mesh = std::make_shared<world::MeshData>();
+    for (int i = 0; i < around; ++i)
+        for (int j = 0; j < across; ++j) {
+            const double a = turn * i / around, b = turn * j / across, r = radius + tube * std::cos(b);
+            mesh->positions.emplace_back(r * std::cos(a), tube * std::sin(b), r * std::sin(a));
+            const auto at = [](int k, int l) { return (k % around) * across + l % across; };
+            mesh->triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+            mesh->triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+        }
+    world::ColliderSpec collider;
+    collider.name = "ring";
+    collider.shape = "mesh";
+    collider.meshData = mesh;
+    collider.friction = 0.1;
+    return collider;
+}
+
 }  // namespace taut::test::touching

@@ -64,8 +64,8 @@ Mesh joined(const Mesh& mesh, const KeyOf& keyOf) {
     return joined;
 }
 
-// The mesh with vertices no closer than the sides of cubes, nearly: of those in a cube that hang together there, the one
-// stays that stands out most.
+// The mesh with vertices no closer than the sides of cubes, nearly: of those in a cube that hang together there, the
+// one stays that stands out most.
 Mesh thinned(const Mesh& mesh, double side) {
     const std::size_t count = mesh.places.size();
     const auto cubeOf = [&](int v) { return glm::ivec3(glm::floor(mesh.places[static_cast<std::size_t>(v)] / side)); };

@@ -1,5 +1,5 @@
-// Points of a group that go with others, as the surface of a block with the corners of its cells: place and velocity are
-// the same sum of theirs, and what presses such a point presses them by the same weights.
+// Points of a group that go with others, as the surface of a block with the corners of its cells: place and velocity
+// are the same sum of theirs, and what presses such a point presses them by the same weights.
 #pragma once
 
 #include <array>

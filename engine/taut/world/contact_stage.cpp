@@ -551,8 +551,9 @@ void ContactStage::addFootholds() {
     });
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
         const contact::KinematicContact& contact = kinematic_[k];
-        if (contact.isWhole && mayHold(contact.friction, normal, friction))
-            footholds_[bodyOf(elements().surfaceOf(contact.point)).island].push_back({x1_[static_cast<std::size_t>(contact.point)], true});
+        if (!contact.isWhole || !mayHold(contact.friction, normal, friction)) return;
+        const Body& body = bodyOf(elements().surfaceOf(contact.point));
+        footholds_[body.island].push_back({x1_[static_cast<std::size_t>(contact.point)], true});
     });
 }
 

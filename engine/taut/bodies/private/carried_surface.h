@@ -34,13 +34,13 @@ class BlockFrame {
 
 // What of a whole body meets others in place of its model's triangles.
 struct CarriedSurface {
-    std::vector<dvec3> rest;                       // [m] before anything moves
-    std::vector<mechanics::CarriedPoint> points;   // by points of the model
-    std::vector<std::array<int, 3>> triangles;     // of these, counter-clockwise seen from outside
+    std::vector<dvec3> rest;                      // [m] before anything moves
+    std::vector<mechanics::CarriedPoint> points;  // by points of the model
+    std::vector<std::array<int, 3>> triangles;    // of these, counter-clockwise seen from outside
 };
 
-// The mesh from which a block is made, with vertices a third of a cell apart where it is finer. Empty for other bodies, and
-// where the block is torn, which shows its cells then.
+// The mesh from which a block is made, with vertices a third of a cell apart where it is finer. Empty for other bodies,
+// and where the block is torn, which shows its cells then.
 CarriedSurface carriedSurface(const Body& body);
 
 }  // namespace taut::world

@@ -176,8 +176,8 @@ class IslandContacts {
         colliding_.clear();
         const Real* inverseMass = inverseMasses();
         for (const Body* body : plan_.bodies) {
-            // What is rigid meets colliders as a whole, in contact with other bodies.
-            if (!body->spec->collide || body->spec->meetsCollidersAsWhole() || body->lastPoint == body->firstPoint) continue;
+            if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
+            if (body->spec->meetsCollidersAsWhole()) continue;  // in contact with other bodies
             collision::MovingPoints<Real>& points = colliding_.emplace_back();
             points.first = body->firstPoint;
             points.last = body->lastPoint;

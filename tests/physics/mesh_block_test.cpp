@@ -1,0 +1,155 @@
+// Soft bodies of a mesh: what touches is the mesh, not the cells that carry it.
+#include <memory>
+
+#include "touching_scenes.h"
+
+namespace taut::test::touching {
+namespace {
+
+using world::BlockSpec;
+using world::World;
+
+BlockSpec block(const std::string& name, std::shared_ptr<const world::MeshData> mesh, double cell) {
+    BlockSpec spec;
+    spec.name = name;
+    spec.meshData = std::move(mesh);
+    spec.cell = cell;
+    spec.density = 200;
+    spec.young = 2e4;
+    spec.thickness = keep / 2;
+    spec.touch = world::Touch::others;
+    return spec;
+}
+
+std::shared_ptr<const world::MeshData> cube(double side) {
+    auto mesh = std::make_shared<world::MeshData>();
+    for (int c = 0; c < 8; ++c) mesh->positions.push_back(side * (dvec3(c & 1, (c >> 1) & 1, c >> 2) - 0.5));
+    for (const auto& [a, b, c, d] :
+         {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+        mesh->triangles.push_back({a, b, c});
+        mesh->triangles.push_back({a, c, d});
+    }
+    return mesh;
+}
+
+std::shared_ptr<const world::MeshData> ball(double radius) {
+    constexpr double turn = 2 * 3.14159265358979323846;
+    constexpr int around = 24, rows = 12;
+    auto mesh = std::make_shared<world::MeshData>();
+    for (int j = 1; j < rows; ++j)
+        for (int i = 0; i < around; ++i) {
+            const double a = turn * i / around, b = 0.5 * turn * j / rows;
+            mesh->positions.push_back(radius *
+                                      dvec3(std::sin(b) * std::cos(a), std::cos(b), std::sin(b) * std::sin(a)));
+        }
+    const int top = static_cast<int>(mesh->positions.size()), bottom = top + 1;
+    mesh->positions.push_back({0, radius, 0});
+    mesh->positions.push_back({0, -radius, 0});
+    const auto at = [](int j, int i) { return j * around + i % around; };
+    for (int i = 0; i < around; ++i) {
+        mesh->triangles.push_back({top, at(0, i + 1), at(0, i)});
+        mesh->triangles.push_back({bottom, at(rows - 2, i), at(rows - 2, i + 1)});
+        for (int j = 0; j + 2 < rows; ++j) {
+            mesh->triangles.push_back({at(j, i), at(j, i + 1), at(j + 1, i + 1)});
+            mesh->triangles.push_back({at(j, i), at(j + 1, i + 1), at(j + 1, i)});
+        }
+    }
+    return mesh;
+}
+
+// [m]
+std::vector<glm::vec3> drawn(const World& world, const std::string& name) {
+    for (const view::Surface& surface : world.view(false).surfaces)
+        if (surface.name == name) return surface.geometry->positions;
+    return {};
+}
+
+// A cube that lies askew in its cells falls onto an edge and comes to lie on a face. Its corners keep the thickness,
+// though the cells go below.
+TEST(MeshBlock, LiesOnItsMesh) {
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0)};
+    const auto mesh = cube(0.2);
+    auto askew = std::make_shared<world::MeshData>(*mesh);
+    for (dvec3& x : askew->positions) {
+        x = {0.8 * x.x - 0.6 * x.y, 0.6 * x.x + 0.8 * x.y, x.z};
+        x = {x.x, 0.96 * x.y - 0.28 * x.z, 0.28 * x.y + 0.96 * x.z};
+    }
+    for (const world::Touch touch : {world::Touch::others, world::Touch::nothing}) {
+        spec.bodies = {};
+        BlockSpec own = block("cube", askew, 0.07);
+        own.position = {0, 0.2, 0};
+        own.touch = touch;
+        spec.bodies.add(own);
+        World world(spec);
+        double lowest = 0;
+        for (int i = 0; i < 120; ++i) {
+            ASSERT_FALSE(world.advance());
+            lowest = 1;
+            for (const glm::vec3& x : drawn(world, "block.cube")) lowest = std::min(lowest, static_cast<double>(x.y));
+            EXPECT_GT(lowest, 0.9 * own.thickness) << i;
+        }
+        EXPECT_LT(lowest, 1.1 * own.thickness);
+        EXPECT_GE(world.metrics().contacts, 4);
+        double below = 0;
+        for (const dvec3& x : positionsOf(world, "block.cube")) below = std::min(below, x.y);
+        EXPECT_LT(below, -0.01);
+    }
+}
+
+// Two meet in the air: what one gives the other takes, at the same place.
+TEST(MeshBlock, KeepsMomentumAndItsMoment) {
+    world::SceneSpec spec = scene(0.0);
+    spec.world.gravity = dvec3(0.0);
+    BlockSpec a = block("a", cube(0.2), 0.08), b = block("b", ball(0.1), 0.06);
+    a.rotation = {0.3, 0.2, 0.5};
+    a.velocity = {1.0, 0.0, 0.0};
+    a.drag = b.drag = 0;
+    b.position = {0.3, 0.06, 0.04};
+    spec.bodies.add(a);
+    spec.bodies.add(b);
+    World world(spec);
+    const world::Metrics before = world.metrics();
+    for (int i = 0; i < 30; ++i) {
+        ASSERT_FALSE(world.advance());
+        EXPECT_EQ(world.metrics().crossings, 0);
+        EXPECT_LT(world.metrics().energy(), 1.01 * before.energy());
+    }
+    const world::Metrics now = world.metrics();
+    EXPECT_GT(world.metrics("block.b").momentum.x, 0.3 * before.momentum.x);
+    EXPECT_LT(glm::distance(now.momentum, before.momentum), 1e-12 * glm::length(before.momentum));
+    EXPECT_LT(glm::distance(now.angularMomentum, before.angularMomentum), 1e-6 * glm::length(before.momentum));
+}
+
+// A ball is drawn by its weight through a ring that is a seventh narrower.
+TEST(MeshBlock, GoesThroughANarrowRing) {
+    world::SceneSpec spec = scene(0.1);
+    spec.world.gravity = {0, -60, 0};
+    spec.colliders = {ring(0.115, 0.03)};
+    BlockSpec own = block("ball", ball(0.1), 0.04);
+    own.position = {0.01, 0.1, 0};
+    own.young = 1e4;
+    spec.bodies.add(own);
+    World world(spec);
+    const auto drawnWidth = [&] {
+        float most = 0;
+        for (const glm::vec3& x : drawn(world, "block.ball"))
+            if (std::abs(x.y) < 0.01F) most = std::max(most, std::hypot(x.x, x.z));
+        return most;
+    };
+    float widest = 0;
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_FALSE(world.advance());
+        const world::Metrics now = world.metrics();
+        EXPECT_EQ(now.invertedCells, 0) << i;
+        EXPECT_LT(now.penetration, own.thickness) << i;
+        EXPECT_LT(now.facePenetration, own.thickness) << i;
+        widest = std::max(widest, drawnWidth());
+    }
+    EXPECT_GT(widest, 0.08);
+    EXPECT_LT(widest, 0.085);
+    for (const dvec3& x : positionsOf(world, "block.ball")) EXPECT_LT(x.y, -0.03);
+}
+
+}  // namespace
+}  // namespace taut::test::touching

@@ -201,10 +201,10 @@ void holdMylar(Bench& bench) {
                 threads.push_back(world.positions(world.select(fmt::format("rope.{}{}", disc, i))));
             middles += std::abs(threads[0].front().y);
             double under = 0;
-            for (int i = 0; i < spokes; ++i) {
-                const std::vector<glm::dvec3>&a = threads[i], &b = threads[(i + 1) % spokes];
+            for (std::size_t i = 0; i < threads.size(); ++i) {
+                const std::vector<glm::dvec3>&a = threads[i], &b = threads[(i + 1) % threads.size()];
                 sum += std::hypot(a.back().x, a.back().z);
-                for (int k = 0; k < links; ++k)
+                for (std::size_t k = 0; k + 1 < a.size(); ++k)
                     under += (glm::dot(a[k], glm::cross(a[k + 1], b[k + 1])) +
                               glm::dot(a[k], glm::cross(b[k + 1], b[k]))) / 6;
             }

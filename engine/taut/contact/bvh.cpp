@@ -93,8 +93,9 @@ Bvh::Bvh(const Elements& elements)
         edgeCentres.push_back(0.5 * (at(edge.a) + at(edge.b)));
     }
     // For each surface one tree of triangles, one of lines, and one leaf for other points.
+    planes_.resize(elements.surfaces().size());
+    planeRoots_.resize(elements.surfaces().size(), -1);
     for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s) {
-        planeRoots_.push_back(-1);
         if (!elements.meetsAny(s)) continue;
         const Axes axes = axesOf(elements, s);
         findPlane(s, axes[0]);
@@ -103,8 +104,8 @@ Bvh::Bvh(const Elements& elements)
         for (int e = elements.firstEdgeOf(s); e < elements.firstEdgeOf(s + 1); ++e)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
         if (!triangles.empty()) {
-            planeRoots_.back() = addTree(std::move(triangles), triangleCentres, s, axes, true);
-            roots.push_back(planeRoots_.back());
+            roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
+            planeRoots_[static_cast<std::size_t>(s)] = roots.back();
         }
         if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, axes, false));
         // Points of no triangle and no line. Damage has made them balls, or may do so later.

@@ -53,7 +53,6 @@ double hullArea(std::vector<glm::dvec2> points) {
 // A surface is flat if all its points lie in one plane, and convex if its triangles fill their convex hull. Small bumps
 // and gaps are allowed, because builders make some to break symmetry.
 void Bvh::findPlane(int number, const dvec3& along) {
-    planes_.emplace_back();
     const ContactSurface& surface = elements_.surface(number);
     if (surface.triangles.empty() || !surface.meetsItself) return;
     const auto at = [&](int i) { return elements_.rest()[static_cast<std::size_t>(i)]; };
@@ -80,7 +79,7 @@ void Bvh::findPlane(int number, const dvec3& along) {
         flat.emplace_back(glm::dot(d, right), glm::dot(d, up));
     }
     if (area < (1 - gaps) * hullArea(std::move(flat))) return;
-    planes_.back() = Plane{right, up};
+    planes_[static_cast<std::size_t>(number)] = Plane{right, up};
 }
 
 void Bvh::prepareFlatness() {

@@ -11,95 +11,190 @@
 namespace taut::contact {
 namespace {
 
-constexpr double overMass = 1e6;  // k over the effective mass
-constexpr int mostSteps = 16;     // of Newton in a round
-constexpr int mostRounds = 4;     // of letting go what does not stick
-constexpr double mostWork = 2e6;  // multiplications of a Newton step
+constexpr int mostSteps = 30;         // of the interior point method
+constexpr double mostWork = 2e6;      // multiplications of a step
+constexpr double softness = 1e-6;     // of the inverse effective mass: what nothing satisfies stays finite
+constexpr double nearlyToEdge = 0.9;  // share of the way to the edge of a cone that a step may take
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-// A row, as the solids see it: u = Σ weight v + spin × arm of up to two of them.
-struct Equation {
-    Row* row;
-    std::array<std::size_t, 2> solids{none, none};
-    std::array<double, 2> weights{};
-    std::array<dvec3, 2> arms{};
-    std::array<dvec3, 3> axes{};       // unit: its normal, and two across
-    dvec3 now{0.0}, next{0.0};         // [N s] its impulse
-    dvec3 kept{0.0};                   // [N s] of it, what the energy does not speak of: friction of what slides
-    dvec3 velocity{0.0}, change{0.0};  // [m/s] along the axes, with what it may close; by one Newton step
-    bool presses = true;               // the first axis is in the energy
-    bool sticks = true;                // so are the others
+using glm::dmat3;
+using Six = std::array<double, 6>;
 
-    bool has(std::size_t axis) const { return axis == 0 ? presses : sticks; }
-    // (6) of solid `side`: what its velocity and spin give along an axis.
-    std::array<double, 6> gradient(std::size_t side, std::size_t axis) const {
-        const dvec3 way = weights[side] * axes[axis], turn = glm::cross(arms[side], axes[axis]);
-        return {way.x, way.y, way.z, turn.x, turn.y, turn.z};
+// The cone x.x >= |(x.y, x.z)|, with the algebra in which x ∘ x lies in it: (x·y, x.x y' + y.x x'). One is (1, 0, 0).
+double determinantOf(const dvec3& x) {
+    return x.x * x.x - x.y * x.y - x.z * x.z;
+}
+dvec3 product(const dvec3& a, const dvec3& b) {
+    return {glm::dot(a, b), a.x * b.y + b.x * a.y, a.x * b.z + b.x * a.z};
+}
+// x with a ∘ x = b.
+dvec3 quotient(const dvec3& b, const dvec3& a) {
+    const double first = (a.x * b.x - a.y * b.y - a.z * b.z) / determinantOf(a);
+    return {first, (b.y - first * a.y) / a.x, (b.z - first * a.z) / a.x};
+}
+// How many times `way` one can go from x within the cone; at most 1e300.
+double roomOf(const dvec3& x, const dvec3& way) {
+    const double a = determinantOf(way), c = determinantOf(x), b = x.x * way.x - x.y * way.y - x.z * way.z;
+    const double most = std::sqrt(std::max(b * b - a * c, 0.0)) - b;
+    return most > 0 ? c / most : 1e300;
+}
+
+// The scaling of Nesterov and Todd: a symmetric W, a reflection and a factor, with W z = s / W for s, z in the cone.
+struct Scaling {
+    double factor = 1;
+    dvec3 axis{1, 0, 0};
+
+    static Scaling between(const dvec3& s, const dvec3& z) {
+        const double sizeS = std::sqrt(determinantOf(s)), sizeZ = std::sqrt(determinantOf(z));
+        const dvec3 unitS = s / sizeS, unitZ = z / sizeZ;
+        const dvec3 sum(unitS.x + unitZ.x, unitS.y - unitZ.y, unitS.z - unitZ.z);
+        return {std::sqrt(sizeS / sizeZ), sum / std::sqrt(2.0 * (1.0 + glm::dot(unitS, unitZ)))};
+    }
+    dvec3 apply(const dvec3& x) const { return factor * turned(axis, x); }
+    dvec3 undo(const dvec3& x) const { return turned({axis.x, -axis.y, -axis.z}, x) / factor; }
+    // W²
+    dmat3 square() const {
+        dmat3 square = 2.0 * glm::outerProduct(axis, axis);
+        square[0][0] -= 1.0;
+        square[1][1] += 1.0;
+        square[2][2] += 1.0;
+        return factor * factor * square;
+    }
+
+  private:
+    static dvec3 turned(const dvec3& w, const dvec3& x) {
+        const double across = w.y * x.y + w.z * x.z, more = x.x + across / (1.0 + w.x);
+        return {w.x * x.x + across, x.y + more * w.y, x.z + more * w.z};
     }
 };
 
-// A symmetric matrix of which each row keeps what is from its first entry to the diagonal.
+// A row, as the solids see it: u = Σ weight v + spin × arm of up to two of them. The coordinates of s and z are along
+// its axes, and such that both lie in the same cone: s is (n·u + closing, μ t·u, μ b·u), z the impulse by which
+// (n, μ t, μ b) go.
+struct Equation {
+    Row* row = nullptr;
+    std::array<std::size_t, 2> solids{none, none};
+    std::array<double, 2> weights{};
+    std::array<dvec3, 2> arms{};
+    std::array<dvec3, 3> axes{};              // unit: its normal, and two across
+    std::array<std::array<Six, 3>, 2> gradients{};  // (sides, axes) what velocity and spin of a side give to s
+    dvec3 now{0.0}, next{0.0};                // [N s] its impulse
+    dvec3 offset{0.0};                        // [m/s] s without any impulses
+    dvec3 s{0.0}, z{0.0}, wayS{0.0}, wayZ{0.0};  // [m/s], [N s], and by a step
+    Scaling scaling;
+    dvec3 scaled{0.0};   // W z
+    double softness = 0; // [1/kg]
+    dmat3 weight{0.0};   // (W² + softness)⁻¹
+
+    dvec3 impulse() const { return z.x * axes[0] + row->friction * (z.y * axes[1] + z.z * axes[2]); }
+};
+
+using Block = std::array<Six, 6>;  // of a matrix, transposed: columns of it stand together
+
+// A symmetric matrix of blocks, of which each row keeps what is from its first block to the diagonal.
 class Envelope {
   public:
-    // first (rows): the column of the first entry.
+    // first (rows of blocks): the column of the first.
     explicit Envelope(std::span<const std::size_t> first) : first_(first.begin(), first.end()) {
         for (std::size_t i = 0; i < first_.size(); ++i) {
-            start_.push_back(values_.size());
-            values_.resize(values_.size() + i - first_[i] + 1, 0.0);
+            start_.push_back(blocks_.size());
+            blocks_.resize(blocks_.size() + i - first_[i] + 1);
         }
     }
-    double& at(std::size_t i, std::size_t j) { return values_[start_[i] + j - first_[i]]; }  // first <= j <= i
+    void clear() { std::fill(blocks_.begin(), blocks_.end(), Block{}); }
+    Block& at(std::size_t i, std::size_t j) { return blocks_[start_[i] + j - first_[i]]; }  // first <= j <= i
     // L Lᵀ in its place. Returns whether it is positive definite.
     bool factor() {
         for (std::size_t i = 0; i < first_.size(); ++i)
             for (std::size_t j = first_[i]; j <= i; ++j) {
-                double sum = at(i, j);
-                for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k) sum -= at(i, k) * at(j, k);
-                if (j == i && !(sum > 0)) return false;
-                at(i, j) = j == i ? std::sqrt(sum) : sum / at(j, j);
+                Block& own = at(i, j);
+                for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k) subtract(at(i, k), at(j, k), own);
+                if (j == i && !factorDiagonal(own)) return false;
+                if (j < i) divide(at(j, j), own);
             }
         return true;
     }
     // L Lᵀ x = b, in place.
-    void solve(std::span<double> b) {
+    void solve(std::span<Six> b) {
         for (std::size_t i = 0; i < b.size(); ++i) {
-            for (std::size_t k = first_[i]; k < i; ++k) b[i] -= at(i, k) * b[k];
-            b[i] /= at(i, i);
+            for (std::size_t j = first_[i]; j < i; ++j) {
+                const Block& own = at(i, j);
+                for (std::size_t k = 0; k < 6; ++k)
+                    for (std::size_t r = 0; r < 6; ++r) b[i][r] -= own[k][r] * b[j][k];
+            }
+            const Block& own = at(i, i);
+            for (std::size_t k = 0; k < 6; ++k) {
+                b[i][k] /= own[k][k];
+                for (std::size_t r = k + 1; r < 6; ++r) b[i][r] -= own[k][r] * b[i][k];
+            }
         }
         for (std::size_t i = b.size(); i-- > 0;) {
-            b[i] /= at(i, i);
-            for (std::size_t k = first_[i]; k < i; ++k) b[k] -= at(i, k) * b[i];
+            const Block& own = at(i, i);
+            for (std::size_t k = 6; k-- > 0;) {
+                for (std::size_t r = k + 1; r < 6; ++r) b[i][k] -= own[k][r] * b[i][r];
+                b[i][k] /= own[k][k];
+            }
+            for (std::size_t j = first_[i]; j < i; ++j) {
+                const Block& other = at(i, j);
+                for (std::size_t k = 0; k < 6; ++k)
+                    for (std::size_t r = 0; r < 6; ++r) b[j][k] -= other[k][r] * b[i][r];
+            }
         }
     }
 
   private:
+    // c -= a bᵀ
+    static void subtract(const Block& a, const Block& b, Block& c) {
+        for (std::size_t k = 0; k < 6; ++k)
+            for (std::size_t j = 0; j < 6; ++j) {
+                const double factor = b[k][j];
+                for (std::size_t i = 0; i < 6; ++i) c[j][i] -= a[k][i] * factor;
+            }
+    }
+    static bool factorDiagonal(Block& own) {
+        for (std::size_t j = 0; j < 6; ++j) {
+            if (!(own[j][j] > 0)) return false;
+            const double root = std::sqrt(own[j][j]);
+            for (std::size_t i = j; i < 6; ++i) own[j][i] /= root;
+            for (std::size_t k = j + 1; k < 6; ++k)
+                for (std::size_t i = k; i < 6; ++i) own[k][i] -= own[j][i] * own[j][k];
+        }
+        return true;
+    }
+    // x with x Lᵀ = own, in its place.
+    static void divide(const Block& diagonal, Block& own) {
+        for (std::size_t j = 0; j < 6; ++j) {
+            for (double& entry : own[j]) entry /= diagonal[j][j];
+            for (std::size_t k = j + 1; k < 6; ++k)
+                for (std::size_t i = 0; i < 6; ++i) own[k][i] -= own[j][i] * diagonal[j][k];
+        }
+    }
+
     std::vector<std::size_t> first_, start_;
-    std::vector<double> values_;
+    std::vector<Block> blocks_;
 };
 
 class RigidStep {
   public:
-    RigidStep(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers,
+    RigidStep(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers, double tolerance,
               std::span<Four> velocities)
-        : solids_(solids), levers_(levers), velocities_(velocities) {
+        : solids_(solids), levers_(levers), tolerance_(tolerance), velocities_(velocities) {
         for (Row& row : rows) take(row);
     }
 
-    bool run() {
-        if (equations_.empty() || !order()) return false;
-        total_.assign(first_.size(), 0.0);
-        leaveToEnergy([](const Equation& equation) { return equation.now - equation.kept; });
-        for (int round = 0; round < mostRounds; ++round) {
-            if (!minimise()) return false;
-            if (!letGo()) break;
-        }
-        return apply();
+    void run() {
+        if (equations_.empty() || !order()) return;
+        begin();
+        Envelope matrix(first_);
+        for (int step = 0; step < mostSteps && goOn(matrix); ++step) {}
+        apply();
     }
 
   private:
     void take(Row& row) {
         if (row.turns.isEmpty() || !row.shares.isEmpty() || row.softness > 0) return;
-        Equation equation{&row};
+        Equation equation;
+        equation.row = &row;
         for (std::size_t k = 0; k < 4; ++k) {
             if (row.gains[k] == 0) continue;
             const auto at = std::lower_bound(solids_.begin(), solids_.end(), row.slots[k],
@@ -113,18 +208,16 @@ class RigidStep {
         for (const Turn& turn : row.turns.of(levers_.turns))
             equation.arms[equation.solids[0] != none && solids_[equation.solids[0]].slot + 1 == turn.slot ? 0 : 1] =
                 armOf(turn);
-        const dvec3 normal = vectorOf(row.normal), friction = vectorOf(row.impulse);
-        const dvec3 across = acrossOf(normal);
+        const dvec3 normal = vectorOf(row.normal), across = acrossOf(normal);
         equation.axes = {normal, across, glm::cross(normal, across)};
-        const dvec3 velocity = wrong(equation);
-        for (std::size_t k = 0; k < 3; ++k)
-            equation.velocity[static_cast<int>(k)] = glm::dot(velocity, equation.axes[k]);
-        const double pressing = row.impulse.of[3], limit = insideCone * row.friction * pressing;
-        equation.presses = pressing > 0;
-        if (!equation.presses && equation.velocity.x >= 0) return;
-        equation.sticks = glm::dot(friction, friction) < limit * limit;
-        equation.now = friction + pressing * normal;
-        if (!equation.sticks) equation.kept = friction;
+        for (std::size_t side = 0; side < 2 && equation.solids[side] != none; ++side)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const dvec3 along = axis == 0 ? normal : row.friction * equation.axes[axis];
+                const dvec3 way = equation.weights[side] * along, turn = glm::cross(equation.arms[side], along);
+                equation.gradients[side][axis] = {way.x, way.y, way.z, turn.x, turn.y, turn.z};
+            }
+        equation.softness = softness / row.mass;
+        equation.now = vectorOf(row.impulse) + row.impulse.of[3] * normal;
         equations_.push_back(equation);
     }
 
@@ -172,167 +265,164 @@ class RigidStep {
             for (const std::size_t other : neighbours[s]) lowest = std::min(lowest, place_[other]);
             const double width = 6.0 * static_cast<double>(place_[s] - lowest + 1);
             work += 6.0 * width * width;
-            first_.insert(first_.end(), 6, 6 * lowest);
+            first_.push_back(lowest);
         }
         return work < mostWork;
     }
 
     void give(const Equation& equation, const dvec3& impulse) { push(*equation.row, impulse, velocities_, levers_); }
-    static double stiffnessOf(const Equation& equation) { return overMass * equation.row->mass; }
     // [m/s] what is wrong with a row.
     dvec3 wrong(const Equation& equation) const {
         return relativeVelocity(*equation.row, velocities_, levers_) + equation.row->closing * equation.axes[0];
     }
-    // Calls each(place in the matrix, axis of `equation`, its gradient).
-    template <class Each>
-    void forEachGradient(const Equation& equation, std::size_t axis, const Each& each) const {
-        for (std::size_t side = 0; side < 2 && equation.solids[side] != none; ++side)
-            each(6 * place_[equation.solids[side]], equation.gradient(side, axis));
-    }
-    // M times a change.
-    std::vector<double> timesMass(std::span<const double> change) const {
-        std::vector<double> product(change.size());
-        for (std::size_t s = 0; s < solids_.size(); ++s) {
-            const std::size_t at = 6 * place_[s];
-            const dvec3 turn = solids_[s].inertia * dvec3(change[at + 3], change[at + 4], change[at + 5]);
-            for (std::size_t i = 0; i < 3; ++i) {
-                product[at + i] = solids_[s].mass * change[at + i];
-                product[at + 3 + i] = turn[static_cast<int>(i)];
-            }
-        }
-        return product;
-    }
-
-    // Adds to total_ what impulseOf() each has done to the velocities.
-    template <class ImpulseOf>
-    void leaveToEnergy(const ImpulseOf& impulseOf) {
-        const auto addMotion = [&](double sign) {
-            for (std::size_t s = 0; s < solids_.size(); ++s)
+    // What a change of the velocities gives to s.
+    dvec3 seen(const Equation& equation, std::span<const Six> change) const {
+        dvec3 sum(0.0);
+        for (std::size_t side = 0; side < 2 && equation.solids[side] != none; ++side) {
+            const Six& own = change[place_[equation.solids[side]]];
+            for (std::size_t axis = 0; axis < 3; ++axis)
                 for (std::size_t i = 0; i < 6; ++i)
-                    total_[6 * place_[s] + i] +=
-                        sign * velocities_[static_cast<std::size_t>(solids_[s].slot) + i / 3].of[i % 3];
-        };
-        addMotion(1.0);
-        for (const Equation& equation : equations_) give(equation, -impulseOf(equation));
-        addMotion(-1.0);
-        for (const Equation& equation : equations_) give(equation, impulseOf(equation));
-    }
-
-    // Newton's method. Returns whether it can be done.
-    bool minimise() {
-        bool isDone = false;
-        for (int step = 0; step < mostSteps && !isDone; ++step) {
-            if (!findStep()) return false;
-            const double share = shareOfStep();
-            isDone = goOn(share) && share == 1.0;
+                    sum[static_cast<int>(axis)] += equation.gradients[side][axis][i] * own[i];
         }
-        return true;
+        return sum;
     }
-    // [N s] with what the rows see.
-    static double pressingOf(const Equation& equation) {
-        return stiffnessOf(equation) * std::max(-equation.velocity.x, 0.0);
-    }
-    static dvec3 frictionOf(const Equation& equation) {
-        const dvec3& v = equation.velocity;
-        return equation.sticks ? -stiffnessOf(equation) * (v.y * equation.axes[1] + v.z * equation.axes[2])
-                               : equation.kept;
-    }
-    // What is beyond the cone of friction slides. Returns whether there was any.
-    bool letGo() {
-        constexpr double nearly = 1.001;
-        bool isAny = false;
-        for (Equation& equation : equations_) {
-            const dvec3 friction = frictionOf(equation);
-            const double limit = equation.row->friction * pressingOf(equation);
-            const double room = (equation.sticks ? 1.0 : nearly) * limit;
-            equation.next = equation.kept;  // as it was
-            if (glm::dot(friction, friction) <= room * room) continue;
-            equation.sticks = false;
-            equation.kept = withinCone(friction, limit);
-            isAny = true;
+    // Adds what impulses give: Gᵀ z.
+    void addPush(const Equation& equation, const dvec3& z, std::span<Six> sums) const {
+        for (std::size_t side = 0; side < 2 && equation.solids[side] != none; ++side) {
+            Six& own = sums[place_[equation.solids[side]]];
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                for (std::size_t i = 0; i < 6; ++i)
+                    own[i] += equation.gradients[side][axis][i] * z[static_cast<int>(axis)];
         }
-        if (isAny) leaveToEnergy([](const Equation& equation) { return equation.next - equation.kept; });
-        return isAny;
     }
-
-    // Newton's step -> step_, changes of the rows. Returns whether there is one.
-    bool findStep() {
-        Envelope matrix(first_);
-        step_ = timesMass(total_);
-        for (std::size_t s = 0; s < solids_.size(); ++s) {
-            const std::size_t at = 6 * place_[s];
+    // Subtracts M times a change.
+    void subtractMomentum(std::span<const Six> change, std::span<Six> sums) const {
+        for (std::size_t k = 0; k < solids_.size(); ++k) {
+            const Six& own = change[place_[k]];
+            Six& sum = sums[place_[k]];
+            const dvec3 turn = solids_[k].inertia * dvec3(own[3], own[4], own[5]);
             for (std::size_t i = 0; i < 3; ++i) {
-                matrix.at(at + i, at + i) += solids_[s].mass;
-                for (std::size_t j = 0; j <= i; ++j)
-                    matrix.at(at + 3 + i, at + 3 + j) += solids_[s].inertia[static_cast<int>(j)][static_cast<int>(i)];
+                sum[i] -= solids_[k].mass * own[i];
+                sum[3 + i] -= turn[static_cast<int>(i)];
             }
         }
-        for (const Equation& equation : equations_)
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                if (!equation.has(axis)) continue;
-                const double k = stiffnessOf(equation), off = k * equation.velocity[static_cast<int>(axis)];
-                forEachGradient(equation, axis, [&](std::size_t row, const std::array<double, 6>& own) {
-                    for (std::size_t i = 0; i < 6; ++i) step_[row + i] += off * own[i];
-                    forEachGradient(equation, axis, [&](std::size_t column, const std::array<double, 6>& other) {
-                        for (std::size_t i = 0; i < 6; ++i)
-                            for (std::size_t j = 0; j < 6 && column + j <= row + i; ++j)
-                                matrix.at(row + i, column + j) += k * own[i] * other[j];
-                    });
-                });
-            }
-        if (!matrix.factor()) return false;
-        for (double& own : step_) own = -own;
+    }
+
+    // A start inside all cones.
+    void begin() {
+        total_.assign(solids_.size(), Six{});
+        step_.assign(solids_.size(), Six{});
+        for (const Equation& equation : equations_) give(equation, -equation.now);
+        double fastest = tolerance_;
+        for (Equation& equation : equations_) {
+            const dvec3 velocity = wrong(equation);
+            const double mu = equation.row->friction;
+            equation.offset = {glm::dot(velocity, equation.axes[0]), mu * glm::dot(velocity, equation.axes[1]),
+                               mu * glm::dot(velocity, equation.axes[2])};
+            fastest = std::max(fastest, std::sqrt(glm::dot(equation.offset, equation.offset)));
+        }
+        for (Equation& equation : equations_) {
+            give(equation, equation.now);
+            equation.s = {fastest, 0.0, 0.0};
+            equation.z = {equation.row->mass * fastest, 0.0, 0.0};
+        }
+    }
+
+    // Mean of s·z [N m].
+    double complementarity() const {
+        double sum = 0;
+        for (const Equation& equation : equations_) sum += glm::dot(equation.s, equation.z);
+        return sum / static_cast<double>(equations_.size());
+    }
+
+    // Solves for a step that leaves W z ∘ (W z + W dz + W⁻¹ ds) = aim of each row.
+    template <class Aim>
+    void solve(Envelope& matrix, const Aim& aim) {
+        std::fill(step_.begin(), step_.end(), Six{});
+        subtractMomentum(total_, step_);
+        for (Equation& equation : equations_) {
+            const Scaling& scaling = equation.scaling;
+            const dvec3 missing =
+                equation.s - equation.offset - seen(equation, total_) - equation.softness * equation.z;
+            const dvec3 wanted = quotient(aim(equation), equation.scaled) - equation.scaled;
+            equation.wayZ = equation.weight * (scaling.apply(wanted) + missing);
+            equation.wayS = -missing;
+            addPush(equation, equation.z + equation.wayZ, step_);
+        }
         matrix.solve(step_);
         for (Equation& equation : equations_) {
-            equation.change = dvec3(0.0);
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                forEachGradient(equation, axis, [&](std::size_t row, const std::array<double, 6>& own) {
-                    for (std::size_t i = 0; i < 6; ++i)
-                        equation.change[static_cast<int>(axis)] += own[i] * step_[row + i];
-                });
+            const dvec3 change = seen(equation, step_);
+            equation.wayZ -= equation.weight * change;
+            equation.wayS += change + equation.softness * equation.wayZ;
         }
-        return true;
+    }
+    double room() const {
+        double most = 1e300;
+        for (const Equation& equation : equations_)
+            most = std::min({most, roomOf(equation.s, equation.wayS), roomOf(equation.z, equation.wayZ)});
+        return most;
     }
 
-    // The share of the step for which the energy is least: where its slope is 0, which only grows.
-    double shareOfStep() const {
-        const std::vector<double> heavy = timesMass(step_);
-        double at0 = 0, rise = 0;
-        for (std::size_t i = 0; i < step_.size(); ++i) {
-            at0 += heavy[i] * total_[i];
-            rise += heavy[i] * step_[i];
-        }
-        const auto slopeAt = [&](double share) {
-            double slope = at0 + share * rise;
-            for (const Equation& equation : equations_) {
-                const dvec3 velocity = equation.velocity + share * equation.change;
-                double sum = std::min(velocity.x, 0.0) * equation.change.x;
-                if (equation.sticks) sum += velocity.y * equation.change.y + velocity.z * equation.change.z;
-                slope += stiffnessOf(equation) * sum;
+    void assemble(Envelope& matrix) const {
+        matrix.clear();
+        for (std::size_t k = 0; k < solids_.size(); ++k) {
+            Block& own = matrix.at(place_[k], place_[k]);
+            for (std::size_t i = 0; i < 3; ++i) {
+                own[i][i] = solids_[k].mass;
+                for (std::size_t j = 0; j < 3; ++j)
+                    own[3 + j][3 + i] = solids_[k].inertia[static_cast<int>(j)][static_cast<int>(i)];
             }
-            return slope;
-        };
-        constexpr double settled = 1e-6;  // of the slope at 0
-        if (slopeAt(1.0) <= settled * std::abs(slopeAt(0.0))) return 1.0;
-        double low = 0, high = 1;
-        for (int k = 0; k < 30; ++k) {
-            const double middle = 0.5 * (low + high);
-            (slopeAt(middle) < 0 ? low : high) = middle;
         }
-        return low;
+        for (const Equation& equation : equations_) {
+            for (std::size_t a = 0; a < 2 && equation.solids[a] != none; ++a) {
+                std::array<Six, 3> weighted{};
+                for (std::size_t p = 0; p < 3; ++p)
+                    for (std::size_t q = 0; q < 3; ++q)
+                        for (std::size_t i = 0; i < 6; ++i)
+                            weighted[p][i] +=
+                                equation.weight[static_cast<int>(q)][static_cast<int>(p)] * equation.gradients[a][q][i];
+                const std::size_t row = place_[equation.solids[a]];
+                for (std::size_t b = 0; b < 2 && equation.solids[b] != none; ++b) {
+                    const std::size_t column = place_[equation.solids[b]];
+                    if (column > row) continue;
+                    Block& own = matrix.at(row, column);
+                    for (std::size_t p = 0; p < 3; ++p)
+                        for (std::size_t j = 0; j < 6; ++j)
+                            for (std::size_t i = 0; i < 6; ++i)
+                                own[j][i] += weighted[p][i] * equation.gradients[b][p][j];
+                }
+            }
+        }
     }
 
-    // Takes a share of the step. Returns whether the same rows press as before.
-    bool goOn(double share) {
-        for (std::size_t i = 0; i < step_.size(); ++i) total_[i] += share * step_[i];
-        bool isSame = true;
+    // A step of Mehrotra's method. Returns whether to go on.
+    bool goOn(Envelope& matrix) {
+        const double before = complementarity();
+        double lightest = 1e300;
         for (Equation& equation : equations_) {
-            equation.velocity += share * equation.change;
-            const bool presses = equation.velocity.x < 0;
-            isSame = isSame && presses == equation.presses;
-            equation.presses = presses;
+            lightest = std::min(lightest, equation.row->mass);
+            equation.scaling = Scaling::between(equation.s, equation.z);
+            equation.scaled = equation.scaling.apply(equation.z);
+            equation.weight = glm::inverse(equation.scaling.square() + dmat3(equation.softness));
         }
-        return isSame;
+        if (before < lightest * tolerance_ * tolerance_) return false;
+        assemble(matrix);
+        if (!matrix.factor()) return false;
+        // How far one would get without keeping to the middle says how much to keep to it.
+        solve(matrix, [](const Equation&) { return dvec3(0.0); });
+        const double reach = std::min(room(), 1.0), centring = (1.0 - reach) * (1.0 - reach) * (1.0 - reach);
+        solve(matrix, [&](const Equation& equation) {
+            const dvec3 bend = product(equation.scaling.undo(equation.wayS), equation.scaling.apply(equation.wayZ));
+            return dvec3(centring * before, 0.0, 0.0) - bend;
+        });
+        const double share = std::min(nearlyToEdge * room(), 1.0);
+        for (std::size_t k = 0; k < step_.size(); ++k)
+            for (std::size_t i = 0; i < 6; ++i) total_[k][i] += share * step_[k][i];
+        for (Equation& equation : equations_) {
+            equation.s += share * equation.wayS;
+            equation.z += share * equation.wayZ;
+        }
+        return share > 1e-3;
     }
 
     // (change of λ) · (u + closing n), summed: the slope of the energy of the motion along the change.
@@ -345,14 +435,9 @@ class RigidStep {
         for (const Equation& equation : equations_) give(equation, share * (equation.next - equation.now));
     }
 
-    // Takes the impulses, within the cone of friction, as far as the energy of the motion falls. Returns whether it
-    // does.
-    bool apply() {
-        for (Equation& equation : equations_) {
-            const double pressing = pressingOf(equation);
-            equation.next =
-                withinCone(frictionOf(equation), equation.row->friction * pressing) + pressing * equation.axes[0];
-        }
+    // Takes the impulses as far as the energy of the motion falls.
+    void apply() {
+        for (Equation& equation : equations_) equation.next = equation.impulse();
         const double before = slope();
         giveAll(1.0);
         const double rise = slope() - before;
@@ -365,25 +450,24 @@ class RigidStep {
             const dvec3 friction = impulse - glm::dot(impulse, normal) * normal;
             equation.row->impulse = {{friction.x, friction.y, friction.z, pressing}};
         }
-        return share > 0;
     }
-
-    static constexpr double insideCone = 0.999;  // up to there it sticks
 
     std::span<const RigidSlots> solids_;
     const Levers& levers_;
+    double tolerance_;  // [m/s]
     std::span<Four> velocities_;
     std::vector<Equation> equations_;
-    std::vector<std::size_t> place_;    // (solids) in the matrix
-    std::vector<std::size_t> first_;    // (six rows a solid) see Envelope
-    std::vector<double> total_, step_;  // (six rows a solid) [m/s, rad/s] δ, and Newton's step
+    std::vector<std::size_t> place_;  // (solids) in the matrix
+    std::vector<std::size_t> first_;  // (rows of blocks) see Envelope
+    std::vector<Six> total_, step_;   // (places) [m/s, rad/s] change of the velocities without impulses, and by a step
 };
 
 }  // namespace
 
-bool stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers,
+void stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers, double tolerance,
                  std::span<Four> velocities) {
-    return RigidStep(rows, solids, levers, velocities).run();
+    if (getenv("NOSTEP")) return;
+    RigidStep(rows, solids, levers, tolerance, velocities).run();
 }
 
 }  // namespace taut::contact

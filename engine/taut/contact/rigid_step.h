@@ -1,18 +1,18 @@
-// A step for all solids of a cluster at once. Sweeps pass an impulse on by one layer of a pile each; what they leave of
-// a pile at rest, it leans by. The impulses between solids, and between them and what nothing moves, become those with
-// which the energy
+// The impulses of a cluster's solids, all at once. Sweeps pass an impulse on by one layer of a pile each; what they leave
+// of a pile at rest, it leans by. Here the impulses between solids, and between them and what nothing moves, become
+// those for which the energy of the motion is least, each in its cone of friction:
 //
-//     ½ δ·M δ + ½ Σ k min(n·u, 0)² + ½ Σ k |t·u|²         u = J (velocities without these impulses + δ) + closing n
+//     M δ = Jᵀ λ,  u = J (velocities without these impulses + δ) + closing n,     |λt| <= μ λn,  μ |ut| <= un,  λ·u = 0
 //
-// of the change δ of their velocities is least: λ = -k u, with k a million effective masses of the row, so that rows
-// that say the same twice share their impulse. The second sum goes over rows that stick. It is least after some steps
-// of Newton's method, each along the least of the energy (six unknowns a solid, ordered after Cuthill and McKee 1969,
-// by Cholesky's method within the envelope). Rows that then do not press, or are beyond the cone of friction, slide:
-// they keep the friction at its edge, and the rest is done again.
+// That is a quadratic problem on cones of second order, as Anitescu and Tasora 2010 state contact. It is solved by an
+// interior point method with the scaling of Nesterov and Todd 1997 and the steps of Mehrotra 1992 (Vandenberghe 2010,
+// "The CVXOPT linear and quadratic cone program solvers"): some twelve steps, whatever the pile. Each is one Cholesky
+// factorisation of M + Jᵀ W⁻² J, which has six unknowns a solid, ordered after Cuthill and McKee 1969.
 //
-// Of the whole change that share is applied for which the energy of the motion is least (solver.h), so that a step
-// lowers it or does nothing, as sweeps do. It knows nothing of points that are no solid's: rows with them stay as they
-// are.
+// In it what slides at a speed parts at μ times that speed, so it is for what is near rest; the sweeps that follow
+// put that right. Of the whole change that share is applied for which the energy of the motion is least (solver.h),
+// so that a step lowers it or does nothing, as sweeps do. It knows nothing of points that are no solid's: rows with
+// them stay as they are.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -29,9 +29,9 @@ struct RigidSlots {
     glm::dmat3 inertia;  // [kg m²]
 };
 
-// Changes impulses of rows, and velocities. solids: all that are in rows, ascending by slot. Returns whether it did so:
-// not if that would be dearer than many sweeps.
-bool stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers,
+// Changes impulses of rows, and velocities, until rows are wrong by about `tolerance` [m/s]. solids: all that are in
+// rows, ascending by slot. It does nothing if that would be dearer than many sweeps.
+void stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers, double tolerance,
                  std::span<Four> velocities);
 
 }  // namespace taut::contact

@@ -361,6 +361,12 @@ void ContactSolver::addRow(int source, const Problem& problem) {
     const std::size_t pairCount = problem.pairs.size();
     std::uint64_t key;
     double softness = 0;
+    // [m/s] Gaps of solids that they would fall through from rest count as closed, so that a pile rests on the same places
+    // in every instant.
+    const auto closingOf = [&](double gap) {
+        const double slop = solidTerms_.empty() ? 0.0 : 0.5 * problem.options.restSpeed * problem.h;
+        return std::max(gap - slop, 0.0) / problem.h;
+    };
     if (const auto own = static_cast<std::size_t>(source); own < pairCount) {
         const ContactConstraint& pair = problem.pairs[own];
         key = keyOf(pair);
@@ -373,7 +379,7 @@ void ContactSolver::addRow(int source, const Problem& problem) {
             const double way = (isFirst ? -pair.firstShare : 1.0 - pair.firstShare) * pair.distance;
             addTerm(pair.points[i], pair.weights[i], placeOf(pair.points[i]) + way * pair.normal, problem);
         }
-        row.closing = std::max(pair.gap(), 0.0) / problem.h;
+        row.closing = closingOf(pair.gap());
     } else {
         const std::size_t k = own - pairCount;
         const KinematicContact& contact = problem.kinematic[k];
@@ -384,9 +390,9 @@ void ContactSolver::addRow(int source, const Problem& problem) {
         key = keyOf(contact, number);
         row.normal = four(contact.normal);
         row.friction = contact.friction;
-        row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
-        if (contact.isWhole) row.closing += std::max(contact.gap, 0.0) / problem.h;
         addTerm(contact.point, 1.0, placeOf(contact.point) - contact.thickness * contact.normal, problem);
+        row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
+        if (contact.isWhole) row.closing += closingOf(contact.gap);
         terms_.push_back({addSlot(contact.carried, contact.carried), -1.0, 0.0});
     }
     putTerms(row);
@@ -407,18 +413,13 @@ void ContactSolver::addRow(int source, const Problem& problem) {
     row.impulse = {{friction.x, friction.y, friction.z, last->impulse.of[3]}};
 }
 
-// Sweeps, with steps for all solids at once in between where they are near rest. Returns the number of sweeps.
+// Sweeps; of solids near rest all at once, and sweeps for what that leaves. Returns the number of sweeps.
 int ContactSolver::solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance,
                              std::span<Four> velocities) const {
     if (cluster.solids.empty()) return projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, levers());
-    constexpr int sweepsBetween = 5;
-    int most = 1, sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, levers()), taken = sweeps;
-    for (bool helps = true; sweeps == most && taken < cluster.sweeps; taken += sweeps) {
-        helps = helps && stepRigidly(rows, cluster.solids, levers(), velocities);
-        most = helps ? std::min(sweepsBetween, cluster.sweeps - taken) : cluster.sweeps - taken;
-        sweeps = projectedGaussSeidel(rows, most, tolerance, velocities, levers(), Start::applied);
-    }
-    return taken;
+    const int first = projectedGaussSeidel(rows, 1, tolerance, velocities, levers());
+    stepRigidly(rows, cluster.solids, levers(), tolerance, velocities);
+    return first + projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, levers(), Start::applied);
 }
 
 // Solves v by the same rule, for the rows that got an impulse.
@@ -491,7 +492,7 @@ void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cl
         own.friction = 0;
         own.closing = -target;
     }
-    if (overlaps) solveRows(rows, cluster, cluster.tolerance * problem.h, shift_);
+    if (overlaps) projectedGaussSeidel(rows, cluster.sweeps, cluster.tolerance * problem.h, shift_, levers());
 }
 
 // Solves u, then v and the position correction. Both need the impulses of u, but not each other. Returns the number of

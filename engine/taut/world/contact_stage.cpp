@@ -18,6 +18,7 @@ constexpr double longestInstant = 1.1e-3;  // [s] of a tick with contact
 constexpr int mostInstantsForSpeed = 64;   // in a tick, for fast motion
 // In one instant, as shares of the thickness:
 constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tick without contact
+constexpr int fewerForSolids = 4;
 constexpr double mostClosing = 0.35;     // closing of a pair
 constexpr double stickingShare = 0.9;    // of Coulomb's limit: up to there friction may hold what sleeps
 
@@ -256,12 +257,17 @@ int ContactStage::chooseInstants(const TickTime& time) {
         while (instants < mostInstantsForSpeed && tickSeconds_ * speed > instants * way) instants *= 2;
         return instants;
     };
+    // Where solids meet only their like, they have no springs that instants could be too long for.
+    const bool isSoft = std::any_of(forecast.surfaces.begin(), forecast.surfaces.end(), [&](int surface) {
+        return isOfBody(surface) && !bodyOf(surface).spec->isRigid();
+    });
+    const int fewest = isSoft || !crossingsBefore().empty() ? fewest_ : std::max(fewest_ / fewerForSolids, 1);
     // No contact: the cheapest number for the broad phase.
     if (!forecast.isInContact) {
         const int common = commonSubsteps();
         return -takeInstants(time, std::min(common, enough(1, forecast.deformationRate, mostDeformation)));
     }
-    return takeInstants(time, enough(fewest_, forecast.closing, mostClosing * forecast.leastThickness),
+    return takeInstants(time, enough(fewest, forecast.closing, mostClosing * forecast.leastThickness),
                         forecast.surfaces);
 }
 

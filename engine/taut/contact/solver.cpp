@@ -413,11 +413,14 @@ void ContactSolver::addRow(int source, const Problem& problem) {
     row.impulse = {{friction.x, friction.y, friction.z, last->impulse.of[3]}};
 }
 
-// Sweeps; of solids near rest all at once, and sweeps for what that leaves. Returns the number of sweeps.
+// Sweeps; what they do not settle soon of solids near rest, all at once, and sweeps for what that leaves. Returns the
+// number of sweeps.
 int ContactSolver::solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance,
                              std::span<Four> velocities) const {
     if (cluster.solids.empty()) return projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, levers());
-    const int first = projectedGaussSeidel(rows, 1, tolerance, velocities, levers());
+    constexpr int fewSweeps = 16;
+    const int first = projectedGaussSeidel(rows, fewSweeps, tolerance, velocities, levers());
+    if (first < fewSweeps) return first;
     stepRigidly(rows, cluster.solids, levers(), tolerance, velocities);
     return first + projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, levers(), Start::applied);
 }

@@ -16,10 +16,11 @@ namespace {
 
 constexpr double longestInstant = 1.1e-3;  // [s] of a tick with contact
 constexpr int mostInstantsForSpeed = 64;   // in a tick, for fast motion
+constexpr int fewerForSolids = 4;          // times
 // In one instant, as shares of the thickness:
 constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tick without contact
-constexpr int fewerForSolids = 4;
 constexpr double mostClosing = 0.35;     // closing of a pair
+constexpr double mostClosingOfSolids = 1.0;
 constexpr double stickingShare = 0.9;    // of Coulomb's limit: up to there friction may hold what sleeps
 
 using Clock = std::chrono::steady_clock;  // for reports only
@@ -225,6 +226,19 @@ int ContactStage::instantsFor(std::span<const int> surfaces) const {
     return needed;
 }
 
+// Solids that meet only their like have no springs for which an instant could be too long, and rows close their gaps.
+bool ContactStage::areSolid(std::span<const int> surfaces) const {
+    return crossingsBefore().empty() && std::all_of(surfaces.begin(), surfaces.end(), [&](int surface) {
+               return !isOfBody(surface) || bodyOf(surface).spec->isRigid();
+           });
+}
+int ContactStage::fewestFor(std::span<const int> surfaces) const {
+    return areSolid(surfaces) ? std::max(fewest_ / fewerForSolids, 1) : fewest_;
+}
+double ContactStage::mostClosingOf(std::span<const int> surfaces) const {
+    return areSolid(surfaces) ? mostClosingOfSolids : mostClosing;
+}
+
 // How many instants any body may need, whatever touches.
 int ContactStage::mostInstants() const {
     int most = spec_.instants.value_or(fewest_);
@@ -257,18 +271,13 @@ int ContactStage::chooseInstants(const TickTime& time) {
         while (instants < mostInstantsForSpeed && tickSeconds_ * speed > instants * way) instants *= 2;
         return instants;
     };
-    // Where solids meet only their like, they have no springs that instants could be too long for.
-    const bool isSoft = std::any_of(forecast.surfaces.begin(), forecast.surfaces.end(), [&](int surface) {
-        return isOfBody(surface) && !bodyOf(surface).spec->isRigid();
-    });
-    const int fewest = isSoft || !crossingsBefore().empty() ? fewest_ : std::max(fewest_ / fewerForSolids, 1);
     // No contact: the cheapest number for the broad phase.
     if (!forecast.isInContact) {
         const int common = commonSubsteps();
         return -takeInstants(time, std::min(common, enough(1, forecast.deformationRate, mostDeformation)));
     }
-    return takeInstants(time, enough(fewest, forecast.closing, mostClosing * forecast.leastThickness),
-                        forecast.surfaces);
+    const double way = mostClosingOf(forecast.surfaces) * forecast.leastThickness;
+    return takeInstants(time, enough(fewestFor(forecast.surfaces), forecast.closing, way), forecast.surfaces);
 }
 
 // What is still has no inverse mass. Surfaces that sleep, or have slept until now, are told apart.
@@ -457,7 +466,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
             continue;
         }
         instants = isCoarse
-                       ? takeInstants(time, std::max({fewest_, 2 * instants_, instantsToFollow()}), result_.surfaces)
+                       ? takeInstants(time, std::max({fewestFor(result_.surfaces), 2 * instants_, instantsToFollow()}), result_.surfaces)
                        : chooseInstants(time);
     }
 
@@ -606,8 +615,9 @@ int ContactStage::instantsToFollow() const {
 // or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
-    if ((isTrial && result_.impulses > 0) || instants_ < instantsToFollow()) return true;
-    return instants_ < mostInstantsForSpeed && (result_.deepest > mostClosing || result_.slides > 0);
+    if (result_.impulses > 0 && (isTrial || instants_ < fewestFor(result_.surfaces))) return true;
+    if (instants_ < instantsToFollow()) return true;
+    return instants_ < mostInstantsForSpeed && (result_.deepest > mostClosingOf(result_.surfaces) || result_.slides > 0);
 }
 
 // One try of the tick. Returns true, early, if it needs more instants. Also ends early on a fault.

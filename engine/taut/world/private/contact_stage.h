@@ -144,6 +144,9 @@ class ContactStage {
     void addFootholds();
     bool anySleeps() const;
     void readAll();
+    bool areSolid(std::span<const int> surfaces) const;
+    int fewestFor(std::span<const int> surfaces) const;
+    double mostClosingOf(std::span<const int> surfaces) const;  // in an instant, as a share of the thickness
     int mostInstants() const;
     int commonSubsteps() const;  // greatest common divisor over the islands; 1 if all are frozen
     bool movesAny() const;

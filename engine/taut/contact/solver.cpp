@@ -19,9 +19,8 @@ constexpr std::size_t parallelRows = 64;   // fewer rows are solved on one threa
 constexpr std::size_t colouredPairs = 64;  // clusters with fewer keep the order of their pairs
 constexpr int mostColours = 64;
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
-constexpr int sweepsForSolids = 3;        // times as many
-constexpr double settledForSolids = 0.1;  // of the change that ends them
-constexpr double nearRest = 4.0;          // times the speed below which nothing bounces
+constexpr int sweepsForSolids = 3;  // times as many
+constexpr double nearRest = 4.0;    // times the speed below which nothing bounces
 
 // Of the same contact in every instant.
 std::uint64_t keyOf(const ContactConstraint& pair) {
@@ -160,10 +159,8 @@ void ContactSolver::findClusters(const Problem& problem) {
         cluster.last = rows_.size();
         cluster.sweeps = problem.options.sweeps;
         if (std::any_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first), rows_.end(),
-                        [](const Row& row) { return !row.turns.isEmpty(); })) {
+                        [](const Row& row) { return !row.turns.isEmpty(); }))
             cluster.sweeps *= sweepsForSolids;
-            cluster.tolerance *= settledForSolids;
-        }
         clusters_.push_back(std::move(cluster));
         roots.push_back(order_[k].first);
         k = next;
@@ -444,31 +441,52 @@ void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster
 void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, std::span<Four> velocities,
                            std::span<double> sizes) const {
     constexpr std::size_t mostEach = 50;  // bounces of a row, on average
+    struct Bouncing {
+        const Row* row;
+        double restitution, gap, closing;  // [-], [m], [m/s]
+    };
+    std::vector<Bouncing> all;
+    const auto measure = [&](Bouncing& own) {
+        own.closing = -glm::dot(vectorOf(own.row->normal), relativeVelocity(*own.row, velocities, levers()));
+    };
     const std::size_t pairCount = problem.pairs.size();
+    for (const Row& row : rows) {
+        const auto source = static_cast<std::size_t>(row.source);
+        const bool isPair = source < pairCount;
+        const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - pairCount];
+        const double restitution = isPair ? problem.pairs[source].restitution : contact->restitution;
+        if (!(restitution > 0) || !isLikePair(row, problem)) continue;
+        measure(all.emplace_back(Bouncing{&row, restitution, isPair ? problem.pairs[source].gap() : contact->gap, 0.0}));
+    }
+    std::vector<bool> isOther(velocities.size(), false);
+    const auto forEachSlot = [&](const Row& row, const auto& each) {
+        for (int slot : row.slots) each(static_cast<std::size_t>(slot));
+        for (const Share& share : row.shares.of(levers().shares)) each(static_cast<std::size_t>(share.slot));
+    };
     for (std::size_t left = mostEach * rows.size(); left > 0; --left) {
-        double fastest = problem.options.restSpeed, restitution = 0;
-        const Row* next = nullptr;
-        for (const Row& row : rows) {
-            const auto source = static_cast<std::size_t>(row.source);
-            const bool isPair = source < pairCount;
-            const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - pairCount];
-            const double own = isPair ? problem.pairs[source].restitution : contact->restitution;
-            if (!(own > 0) || !isLikePair(row, problem)) continue;
-            const double closing = -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, levers()));
-            const double gap = isPair ? problem.pairs[source].gap() : contact->gap;
-            if (!(closing > fastest) || gap > closing * problem.h) continue;
-            fastest = closing;
-            restitution = own;
-            next = &row;
+        double fastest = problem.options.restSpeed;
+        const Bouncing* bouncing = nullptr;
+        for (const Bouncing& own : all) {
+            if (!(own.closing > fastest) || own.gap > own.closing * problem.h) continue;
+            fastest = own.closing;
+            bouncing = &own;
         }
-        if (next == nullptr) return;
-        const double size = (1.0 + restitution) * fastest * next->mass;
+        if (bouncing == nullptr) return;
+        const Row* next = bouncing->row;
+        const double size = (1.0 + bouncing->restitution) * fastest * next->mass;
         dvec3 impulse = size * vectorOf(next->normal);
         const dvec3 velocity = relativeVelocity(*next, velocities, levers());
         const double grip = next->grip > 0 ? next->grip : next->mass;
         impulse += withinCone(-grip * (velocity + fastest * vectorOf(next->normal)), next->friction * size);
         push(*next, impulse, velocities, levers());
         if (!sizes.empty()) sizes[static_cast<std::size_t>(next - rows.data())] += size;
+        forEachSlot(*next, [&](std::size_t slot) { isOther[slot] = true; });
+        for (Bouncing& own : all) {
+            bool isAny = false;
+            forEachSlot(*own.row, [&](std::size_t slot) { isAny = isAny || isOther[slot]; });
+            if (isAny) measure(own);
+        }
+        forEachSlot(*next, [&](std::size_t slot) { isOther[slot] = false; });
     }
 }
 

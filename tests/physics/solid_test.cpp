@@ -305,6 +305,30 @@ TEST(SolidBox, StandsInAStackAndSleeps) {
     EXPECT_EQ(world.metrics("solid.box*").asleep, 0);
 }
 
+// A wall of ten bricks, each on two, that sweeps alone let lean. Two bricks touch at the four corners of the rectangle
+// that they share, though eight or more corners and edges meet there; so do the lowest and the ground.
+TEST(SolidBox, StandsInAWallOnItsCorners) {
+    constexpr int width = 4;
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0, 0.5)};
+    std::vector<std::string> names;
+    for (int row = 0; row < width; ++row)
+        for (int k = 0; k < width - row; ++k) {
+            names.push_back("brick" + std::to_string(row) + std::to_string(k));
+            SolidSpec brick = box(names.back(), {0.105 * (k + 0.5 * row), 0.05 + 0.1001 * row, 0.0}, dvec3(0.1));
+            brick.thickness = 0.01;
+            spec.bodies.add(brick);
+        }
+    World world(spec);
+    advanceBy(world, 0.25);
+    std::vector<dvec3> settled;
+    for (const std::string& name : names) settled.push_back(motionOf(world, "solid." + name).centre);
+    advanceBy(world, 0.25);
+    for (std::size_t k = 0; k < names.size(); ++k)
+        EXPECT_LT(glm::distance(motionOf(world, "solid." + names[k]).centre, settled[k]), 1e-5) << names[k];
+    EXPECT_LE(world.contact().lastImpulses, 4 * (width * (width - 1) + width));
+}
+
 struct Dominoes {
     double height, depth, gap, friction;  // [m], [m], [m]; between them
 };

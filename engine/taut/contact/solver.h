@@ -26,8 +26,9 @@
 // (gauss_seidel.h).
 //
 // Solids. Points of a rigid body have its two velocities, of the centre and the spin. An impulse acts where the sides
-// meet, a thickness off the points, so that balls roll. Its points get what the body got. Where several are near rest,
-// sweeps take turns with steps for all of them at once (rigid_step.h).
+// meet, a thickness off the points, so that balls roll. Its points get what the body got. Several near rest that some
+// sweeps do not settle are solved all at once (rigid_step.h). Gaps through which one would fall from rest in an instant
+// count as closed, so that a pile rests on the same places in every instant, with the same impulses.
 //
 // Carried points have no velocity of their own: rows know those of their movers, of which one may be in several places.
 //

@@ -97,6 +97,25 @@ damping_time_s = 2e-3
 radius = 0.02
 finish = {{ colour = "#35648f" }}
 )"},
+    {"solid", R"(
+[solid.{name}]                        # a wall of fifteen boxes
+shape = "box"
+size = [0.2, 0.2, 0.2]               # metres
+edge = 0.015                         # of its rounding
+position = [{x}, 0.1, 0.0]          # the centre of the first
+array = {{ count = [3, 5, 1], step_x = [0.205, 0.0, 0.0], step_y = [0.0, 0.2, 0.0] }}
+density_kg_per_m3 = 300.0
+friction = 0.5
+finish = {{ colour = "#c9a36b" }}
+
+[solid.{name}-ball]                   # flies into it
+shape = "sphere"
+radius = 0.12
+position = [{left}, 0.8, 1.0]
+velocity = [3.2, 0.8, -4.0]
+density_kg_per_m3 = 1500.0
+finish = {{ colour = "#35648f" }}
+)"},
 };
 
 constexpr std::string_view head = R"(# A scene to start from; its keys are told by: taut manual scenes-and-bodies

@@ -31,8 +31,8 @@ if(TAUT_UNITY GREATER 1)
   target_compile_options(taut_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-shadow>)
 endif()
 
-# The folders where a scene's time goes. The others are compiled with -O1, which takes a quarter less. Sanitizers make all
-# so slow that -O1 pays where a scene is built, too; the rest has -O0 there.
+# The folders where a scene's time goes. The others are compiled with -O1, which takes a quarter less. With sanitizers
+# -O1 pays where a scene is built, too; the rest has -O0 there.
 set(TAUT_COMPUTES core ode mechanics collision contact forces island image geometry render)
 set(TAUT_BUILDS_SCENES bodies world)
 

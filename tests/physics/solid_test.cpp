@@ -305,28 +305,68 @@ TEST(SolidBox, StandsInAStackAndSleeps) {
     EXPECT_EQ(world.metrics("solid.box*").asleep, 0);
 }
 
-// A wall of ten bricks, each on two, that sweeps alone let lean. Two bricks touch at the four corners of the rectangle
-// that they share, though eight or more corners and edges meet there; so do the lowest and the ground.
+// Bricks of 0.1 m in rows on a plane that goes down towards x, each on two.
+std::vector<SolidSpec> wall(int width, double angle) {
+    const dvec3 along(std::cos(angle), -std::sin(angle), 0.0), up(std::sin(angle), std::cos(angle), 0.0);
+    std::vector<SolidSpec> bricks;
+    for (int row = 0; row < width; ++row)
+        for (int k = 0; k < width - row; ++k) {
+            const dvec3 centre = 0.105 * (k + 0.5 * row) * along + (0.05 + 0.1 * row) * up;
+            SolidSpec& brick = bricks.emplace_back(box("brick" + std::to_string(bricks.size()), centre, dvec3(0.1)));
+            brick.rotation = {0.0, 0.0, -angle};
+            brick.thickness = 0.01;
+        }
+    return bricks;
+}
+dvec3 centreOf(World& world, const SolidSpec& solid) {
+    return motionOf(world, "solid." + solid.name).centre;
+}
+
+// A wall of ten bricks stands. Two touch at the four corners of the rectangle that they share, though eight or more
+// corners and edges meet there; so do the lowest and the ground.
 TEST(SolidBox, StandsInAWallOnItsCorners) {
     constexpr int width = 4;
     world::SceneSpec spec = scene();
     spec.colliders = {ground(0.0, 0.5)};
-    std::vector<std::string> names;
-    for (int row = 0; row < width; ++row)
-        for (int k = 0; k < width - row; ++k) {
-            names.push_back("brick" + std::to_string(row) + std::to_string(k));
-            SolidSpec brick = box(names.back(), {0.105 * (k + 0.5 * row), 0.05 + 0.1001 * row, 0.0}, dvec3(0.1));
-            brick.thickness = 0.01;
-            spec.bodies.add(brick);
-        }
+    const std::vector<SolidSpec> bricks = wall(width, 0.0);
+    for (const SolidSpec& brick : bricks) spec.bodies.add(brick);
     World world(spec);
-    advanceBy(world, 0.25);
-    std::vector<dvec3> settled;
-    for (const std::string& name : names) settled.push_back(motionOf(world, "solid." + name).centre);
-    advanceBy(world, 0.25);
-    for (std::size_t k = 0; k < names.size(); ++k)
-        EXPECT_LT(glm::distance(motionOf(world, "solid." + names[k]).centre, settled[k]), 1e-5) << names[k];
+    advanceBy(world, 0.5);
+    for (const SolidSpec& brick : bricks) EXPECT_LT(glm::distance(centreOf(world, brick), brick.position), 1e-5);
     EXPECT_LE(world.contact().lastImpulses, 4 * (width * (width - 1) + width));
+}
+
+// On a slope that is too steep for its lowest bricks it slides as one, as Coulomb says: g (sin θ - μ cos θ).
+TEST(SolidBox, SlidesInAWallAsOne) {
+    constexpr double angle = core::pi / 6.0, friction = 0.3, seconds = 0.5;
+    world::SceneSpec spec = scene(1.0);
+    spec.colliders = {slope(angle, friction)};
+    const std::vector<SolidSpec> bricks = wall(4, angle);
+    for (const SolidSpec& brick : bricks) spec.bodies.add(brick);
+    World world(spec);
+    advanceBy(world, seconds);
+    const double way = 0.5 * g * (std::sin(angle) - friction * std::cos(angle)) * seconds * seconds;
+    for (const SolidSpec& brick : bricks) {
+        const dvec3 gone = centreOf(world, brick) - brick.position;
+        EXPECT_NEAR(glm::length(gone), way, 0.001 * way) << brick.name;
+        EXPECT_NEAR(std::sin(angle) * gone.x + std::cos(angle) * gone.y, 0.0, 1e-4) << brick.name;
+    }
+}
+
+// Light boxes carry one that weighs a thousand times as much as each of them.
+TEST(SolidBox, IsCarriedByFarLighterOnes) {
+    constexpr int count = 5;
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0, 0.5)};
+    for (int k = 0; k < count; ++k) {
+        SolidSpec crate = box("box" + std::to_string(k), {0.0, 0.05 + 0.1 * k, 0.0}, dvec3(0.1));
+        crate.density = k < count - 1 ? 50.0 : 50000.0;
+        crate.thickness = 0.01;
+        spec.bodies.add(crate);
+    }
+    World world(spec);
+    advanceBy(world, 1.0);
+    EXPECT_NEAR(motionOf(world, "solid.box4").centre.y, 0.45, 1e-3);
 }
 
 struct Dominoes {

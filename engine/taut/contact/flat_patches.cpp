@@ -20,12 +20,12 @@ struct Spot {
     std::size_t pair;  // of all
 };
 
-// Andrew's monotone chain. Places nearer to an edge of the hull than `near` [m] are not kept, so that neither are twins.
+// Andrew's monotone chain. Places nearer to an edge of the hull than `near` [m] are not kept, so that neither are
+// twins.
 std::vector<Spot> hullOf(std::vector<Spot> places, double near) {
     if (places.size() <= fewPairs) return places;
-    std::sort(places.begin(), places.end(), [](const Spot& a, const Spot& b) {
-        return std::pair(a.x, a.y) < std::pair(b.x, b.y);
-    });
+    std::sort(places.begin(), places.end(),
+              [](const Spot& a, const Spot& b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
     std::vector<Spot> hull;
     for (int side = 0; side < 2; ++side) {
         const std::size_t first = hull.size();

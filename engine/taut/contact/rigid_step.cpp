@@ -76,15 +76,15 @@ struct Equation {
     std::array<std::size_t, 2> solids{none, none};
     std::array<double, 2> weights{};
     std::array<dvec3, 2> arms{};
-    std::array<dvec3, 3> axes{};              // unit: its normal, and two across
+    std::array<dvec3, 3> axes{};                    // unit: its normal, and two across
     std::array<std::array<Six, 3>, 2> gradients{};  // (sides, axes) what velocity and spin of a side give to s
-    dvec3 now{0.0}, next{0.0};                // [N s] its impulse
-    dvec3 offset{0.0};                        // [m/s] s without any impulses
-    dvec3 s{0.0}, z{0.0}, wayS{0.0}, wayZ{0.0};  // [m/s], [N s], and by a step
+    dvec3 now{0.0}, next{0.0};                      // [N s] its impulse
+    dvec3 offset{0.0};                              // [m/s] s without any impulses
+    dvec3 s{0.0}, z{0.0}, wayS{0.0}, wayZ{0.0};     // [m/s], [N s], and by a step
     Scaling scaling;
-    dvec3 scaled{0.0};   // W z
-    double softness = 0; // [1/kg]
-    dmat3 weight{0.0};   // (W² + softness)⁻¹
+    dvec3 scaled{0.0};    // W z
+    double softness = 0;  // [1/kg]
+    dmat3 weight{0.0};    // (W² + softness)⁻¹
 
     dvec3 impulse() const { return z.x * axes[0] + row->friction * (z.y * axes[1] + z.z * axes[2]); }
 };
@@ -186,7 +186,8 @@ class RigidStep {
         if (equations_.empty() || !order()) return;
         begin();
         Envelope matrix(first_);
-        for (int step = 0; step < mostSteps && goOn(matrix); ++step) {}
+        for (int step = 0; step < mostSteps && goOn(matrix); ++step) {
+        }
         apply();
     }
 

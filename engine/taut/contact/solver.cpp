@@ -358,8 +358,8 @@ void ContactSolver::addRow(int source, const Problem& problem) {
     const std::size_t pairCount = problem.pairs.size();
     std::uint64_t key;
     double softness = 0;
-    // [m/s] Gaps of solids that they would fall through from rest count as closed, so that a pile rests on the same places
-    // in every instant.
+    // [m/s] Gaps that a solid would fall through from rest count as closed, so that a pile rests on the same places in
+    // every instant.
     const auto closingOf = [&](double gap) {
         const double slop = solidTerms_.empty() ? 0.0 : 0.5 * problem.options.restSpeed * problem.h;
         return std::max(gap - slop, 0.0) / problem.h;

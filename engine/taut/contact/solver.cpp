@@ -19,8 +19,9 @@ constexpr std::size_t parallelRows = 64;   // fewer rows are solved on one threa
 constexpr std::size_t colouredPairs = 64;  // clusters with fewer keep the order of their pairs
 constexpr int mostColours = 64;
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
-constexpr int sweepsForSolids = 3;  // times as many
-constexpr double nearRest = 4.0;    // times the speed below which nothing bounces
+constexpr int sweepsForSolids = 3;         // times as many
+constexpr double settledNearRest = 0.1;    // times the change that ends sweeps
+constexpr double nearRest = 4.0;           // times the speed below which nothing bounces
 
 // Of the same contact in every instant.
 std::uint64_t keyOf(const ContactConstraint& pair) {
@@ -172,9 +173,12 @@ void ContactSolver::findClusters(const Problem& problem) {
         clusters_[static_cast<std::size_t>(at - roots.begin())].solids.push_back(
             {bodies_[s].slot, own.mass, glm::inverse(own.inverseInertia)});
     }
-    // Sweeps are good enough for what moves, and for one alone.
+    // Sweeps are good enough for what moves, and for one alone. What sweeps leave of a pile at rest, it creeps by.
     for (Cluster& cluster : clusters_)
-        if (cluster.solids.size() < 2 || !isNearRest(cluster, problem)) cluster.solids.clear();
+        if (cluster.solids.size() < 2 || !isNearRest(cluster, problem))
+            cluster.solids.clear();
+        else
+            cluster.tolerance *= settledNearRest;
     shift_.assign(u_.size(), Four{});
 }
 

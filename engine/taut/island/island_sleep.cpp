@@ -9,32 +9,29 @@
 namespace taut::world {
 namespace {
 
-constexpr double stillShare = 0.01;  // of the error: how far a point may go in a window that friction holds
+constexpr double stillShare = 0.01;    // of the error: how far a point may go in a window that friction holds
+constexpr double holdingShare = 0.98;  // of Coulomb's limit: up to there all friction of a solid holds it
 
 bool isOneSolid(const IslandPlan& plan) {
     return plan.bodies.size() == 1 && plan.bodies[0]->spec->isRigid() && plan.constraints.size() == 1;
 }
 
-// Whether a rigid body cannot turn if these places of it stay: they are not on one line. Their spread across it is held
-// against the size of the body.
-bool holdRigidly(std::span<const dvec3> footholds, std::span<const dvec3> x) {
+// Whether a rigid body stays: what presses it at places that are not on one line keeps it from tipping, and all its
+// friction from sliding. Their spread across the line is held against the size of the body.
+bool holdRigidly(std::span<const Island::Foothold> footholds, std::span<const dvec3> x) {
     constexpr double leastShare = 0.05;
-    const auto furthest = [](std::span<const dvec3> from, auto&& distance) {
-        double most = 0;
-        dvec3 place(0.0);
-        for (const dvec3& p : from)
-            if (const double own = distance(p); own > most) most = own, place = p;
-        return std::pair(most, place);
-    };
-    if (footholds.empty()) return false;
-    const dvec3 a = footholds[0];
-    const double size = furthest(x, [&](const dvec3& p) { return glm::distance(p, x[0]); }).first;
-    const auto [length, b] = furthest(footholds, [&](const dvec3& p) { return glm::distance(p, a); });
-    if (!(length > leastShare * size)) return false;
-    const dvec3 line = (b - a) / length;
-    const auto offLine = [&](const dvec3& p) { return glm::length(glm::cross(line, p - a)); };
-    const double width = furthest(footholds, offLine).first;
-    return width > leastShare * size;
+    double size = 0, length = 0, width = 0, friction = 0, limit = 0;
+    for (const dvec3& p : x) size = std::max(size, glm::distance(p, x[0]));
+    dvec3 line(0.0);  // from the first
+    for (const Island::Foothold& own : footholds) {
+        const dvec3 way = own.place - footholds[0].place;
+        if (glm::length(way) > length) length = glm::length(way), line = way / length;
+        friction += own.friction;
+        limit += own.limit;
+    }
+    for (const Island::Foothold& own : footholds)
+        width = std::max(width, glm::length(glm::cross(line, own.place - footholds[0].place)));
+    return width > leastShare * size && limit > 0 && friction <= holdingShare * limit;
 }
 
 }  // namespace
@@ -58,7 +55,7 @@ bool Island::isCalm() {
            std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) && dynamics_->isSteady(forces_);
 }
 
-bool Island::rests(double seconds, std::vector<Support> supports, std::span<const dvec3> footholds) {
+bool Island::rests(double seconds, std::vector<Support> supports, std::span<const Foothold> footholds) {
     const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
     const std::size_t n = plan_.points.size();
     dynamics_->positions(x_);

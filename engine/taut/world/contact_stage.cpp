@@ -466,7 +466,8 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
             continue;
         }
         instants = isCoarse
-                       ? takeInstants(time, std::max({fewestFor(result_.surfaces), 2 * instants_, instantsToFollow()}), result_.surfaces)
+                       ? takeInstants(time, std::max({fewestFor(result_.surfaces), 2 * instants_, instantsToFollow()}),
+                                      result_.surfaces)
                        : chooseInstants(time);
     }
 
@@ -547,12 +548,7 @@ void ContactStage::addPresses() {
 }
 
 void ContactStage::addFootholds() {
-    const auto mayHold = [](double coefficient, double normal, const dvec3& friction) {
-        const double most = stickingShare * coefficient * normal;
-        return most > 0 && glm::dot(friction, friction) <= most * most;
-    };
     group_->forEachPressing([&](const contact::ContactConstraint& pair, double normal, const dvec3& friction) {
-        if (!mayHold(pair.friction, normal, friction)) return;
         for (const int from : {0, pair.firstSide()}) {
             const int surface = elements().surfaceOf(pair.points[static_cast<std::size_t>(from)]);
             if (!isOfBody(surface) || !bodyOf(surface).spec->isRigid()) continue;
@@ -561,14 +557,16 @@ void ContactStage::addFootholds() {
                 const auto own = static_cast<std::size_t>(k);
                 place += std::abs(pair.weights[own]) * x1_[static_cast<std::size_t>(pair.points[own])];
             }
-            footholds_[bodyOf(surface).island].push_back({place, false});
+            footholds_[bodyOf(surface).island].push_back(
+                {place, glm::length(friction), pair.friction * normal, false});
         }
     });
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
         const contact::KinematicContact& contact = kinematic_[k];
-        if (!contact.isWhole || !mayHold(contact.friction, normal, friction)) return;
-        const Body& body = bodyOf(elements().surfaceOf(contact.point));
-        footholds_[body.island].push_back({x1_[static_cast<std::size_t>(contact.point)], true});
+        if (!contact.isWhole || !(normal > 0)) return;
+        const dvec3& place = x1_[static_cast<std::size_t>(contact.point)];
+        footholds_[bodyOf(elements().surfaceOf(contact.point)).island].push_back(
+            {place, glm::length(friction), contact.friction * normal, true});
     });
 }
 

@@ -36,13 +36,13 @@ std::vector<std::size_t> companiesOf(const WorldImpl& w) {
 }
 
 // Whether anything holds it besides other islands: friction between them alone would let all of them go together.
-bool isGrounded(const Island& island, std::span<const ContactStage::Foothold> footholds) {
-    const auto isOnCollider = [](const auto& foothold) { return foothold.isOnCollider; };
+bool isGrounded(const Island& island, std::span<const Island::Foothold> footholds) {
+    const auto sticksToCollider = [](const auto& foothold) { return foothold.isOnCollider && foothold.limit > 0; };
     const std::vector<bool> isHeld = heldPointsOf(island.plan());
     const auto contacts = island.contacts();
     return std::find(isHeld.begin(), isHeld.end(), true) != isHeld.end() ||
            std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0; }) ||
-           std::any_of(footholds.begin(), footholds.end(), isOnCollider);
+           std::any_of(footholds.begin(), footholds.end(), sticksToCollider);
 }
 
 // Islands that press each other fall asleep together if all rest.
@@ -50,7 +50,7 @@ void endWindow(WorldImpl& w) {
     const std::size_t count = w.islands.size();
     const std::vector<std::size_t> companies = companiesOf(w);
     std::vector<char> isCalm(count, 1), rests(count, 1), areGrounded(count, 0);
-    std::map<const Island*, std::vector<ContactStage::Foothold>> footholds;
+    ContactStage::Footholds footholds;
     if (w.contactStage) footholds = w.contactStage->footholds();
     for (std::size_t k = 0; k < count; ++k) {
         Island& island = *w.islands[k];
@@ -66,9 +66,8 @@ void endWindow(WorldImpl& w) {
         std::vector<Island::Support> supports;
         if (w.contactStage) supports = w.contactStage->supports(island);
         for (Island::Support& support : supports) support.mayStick = support.mayStick && areGrounded[company] != 0;
-        std::vector<dvec3> places;
-        if (areGrounded[company] != 0)
-            for (const ContactStage::Foothold& foothold : footholds[&island]) places.push_back(foothold.place);
+        std::vector<Island::Foothold> places;
+        if (areGrounded[company] != 0) places = footholds[&island];
         if (!island.rests(seconds, std::move(supports), places)) rests[company] = 0;
     }
     for (std::size_t k = 0; k < count; ++k) {

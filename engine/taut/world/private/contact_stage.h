@@ -73,12 +73,9 @@ class ContactStage {
     // (points of the island) by other bodies, and by edges of colliders. Friction may hold a point if it used at most
     // 0.9 of what Coulomb allows.
     std::vector<Island::Support> supports(const Island& island) const;
-    // Where a solid was pressed so that friction may hold it, by the same rule; by island.
-    struct Foothold {
-        dvec3 place;  // [m]
-        bool isOnCollider;
-    };
-    const std::map<const Island*, std::vector<Foothold>>& footholds() const { return footholds_; }
+    // Where a solid was pressed, by island.
+    using Footholds = std::map<const Island*, std::vector<Island::Foothold>>;
+    const Footholds& footholds() const { return footholds_; }
     // Islands that pressed each other, each two once.
     std::span<const std::pair<const Island*, const Island*>> pressing() const { return pressing_; }
     // Whether anything of the island crossed, or was crossed by, anything at the start of the last tick.
@@ -191,7 +188,7 @@ class ContactStage {
     };
     std::vector<Press> presses_;                                     // (points) empty: nobody asked
     std::vector<std::pair<const Island*, const Island*>> pressing_;  // likewise
-    std::map<const Island*, std::vector<Foothold>> footholds_;       // likewise
+    Footholds footholds_;                                            // likewise
     std::vector<std::int64_t> reached_;                              // companies, in this try
     double weight_ = 0;  // [m/s²] largest acceleration by uniform fields, at the start of the tick
     int instants_ = 0;

@@ -39,7 +39,8 @@ double roomOf(const dvec3& x, const dvec3& way) {
     return most > 0 ? c / most : 1e300;
 }
 
-// The scaling of Nesterov and Todd: a symmetric W, a reflection and a factor, with W z = s / W for s, z in the cone.
+// The scaling of Nesterov and Todd: a symmetric W, a reflection and a factor, with W z = W⁻¹ s for s, z in the
+// cone.
 struct Scaling {
     double factor = 1;
     dvec3 axis{1, 0, 0};
@@ -69,8 +70,8 @@ struct Scaling {
 };
 
 // A row, as the solids see it: u = Σ weight v + spin × arm of up to two of them. The coordinates of s and z are along
-// its axes, and such that both lie in the same cone: s is (n·u + closing, μ t·u, μ b·u), z the impulse by which
-// (n, μ t, μ b) go.
+// its axes, and such that both lie in the same cone: z is the impulse by which (n, μ t, μ b) go, s is
+// (n·u + closing, μ t·u, μ b·u) + softness z.
 struct Equation {
     Row* row = nullptr;
     std::array<std::size_t, 2> solids{none, none};
@@ -79,7 +80,7 @@ struct Equation {
     std::array<dvec3, 3> axes{};                    // unit: its normal, and two across
     std::array<std::array<Six, 3>, 2> gradients{};  // (sides, axes) what velocity and spin of a side give to s
     dvec3 now{0.0}, next{0.0};                      // [N s] its impulse
-    dvec3 offset{0.0};                              // [m/s] s without any impulses
+    dvec3 offset{0.0};                              // [m/s] s without any impulses of these rows
     dvec3 s{0.0}, z{0.0}, wayS{0.0}, wayZ{0.0};     // [m/s], [N s], and by a step
     Scaling scaling;
     dvec3 scaled{0.0};    // W z

@@ -1,8 +1,10 @@
 // What it costs that bodies touch, a point and instant of contact, the steps between the instants left in: a sheet that
-// falls on its edge while it piles up and when it lies, one that hangs and meets nothing, and two that lie on a ball.
+// falls on its edge while it piles up and when it lies, one that hangs and meets nothing, and two that lie on a ball; and
+// boxes that fall into a heap, and that stand in a wall.
 #include <benchmark/benchmark.h>
 
 #include "taut/bodies/cloth.h"
+#include "taut/bodies/solid.h"
 #include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
@@ -61,6 +63,46 @@ world::SceneSpec draped() {
     return spec;
 }
 
+world::SolidSpec box(const glm::dvec3& position) {
+    world::SolidSpec solid;
+    solid.size = glm::dvec3(0.1);
+    solid.thickness = 0.005;
+    solid.position = position;
+    return solid;
+}
+
+world::SceneSpec boxes(const std::vector<world::SolidSpec>& all) {
+    world::SceneSpec spec = scene();
+    for (world::SolidSpec own : all) {
+        own.name = "box" + std::to_string(spec.bodies.size());
+        spec.bodies.add(own);
+    }
+    world::ColliderSpec ground;
+    ground.shape = "plane";
+    ground.friction = spec.contact.friction = 0.5;
+    spec.colliders.push_back(ground);
+    return spec;
+}
+
+// Each turned otherwise, on top of each other in columns.
+world::SceneSpec heap(int count) {
+    std::vector<world::SolidSpec> all;
+    for (int y = 0; y < count; ++y)
+        for (int x = 0; x < count; ++x)
+            for (int z = 0; z < count; ++z) {
+                all.push_back(box({0.16 * x + 0.01 * y, 0.15 + 0.17 * y, 0.16 * z}));
+                all.back().rotation = {1.1 * x + 0.3 * y, 0.7 * z, 0.9 * y};
+            }
+    return boxes(all);
+}
+
+world::SceneSpec wall(int width) {
+    std::vector<world::SolidSpec> all;
+    for (int row = 0; row < width; ++row)
+        for (int k = 0; k < width - row; ++k) all.push_back(box({0.105 * (k + 0.5 * row), 0.05 + 0.1 * row, 0.0}));
+    return boxes(all);
+}
+
 // After so many ticks.
 void touching(benchmark::State& state, const world::SceneSpec& spec, int ticks) {
     world::World world(spec, {.threads = 1});
@@ -78,6 +120,9 @@ BENCHMARK_CAPTURE(touching, piles up, folding(), 25)->Unit(benchmark::kMilliseco
 BENCHMARK_CAPTURE(touching, lies, folding(), 180)->Unit(benchmark::kMillisecond)->Iterations(20);
 BENCHMARK_CAPTURE(touching, meets nothing, hanging(), 10)->Unit(benchmark::kMillisecond)->Iterations(60);
 BENCHMARK_CAPTURE(touching, two on a ball, draped(), 90)->Unit(benchmark::kMillisecond)->Iterations(20);
+BENCHMARK_CAPTURE(touching, 125 boxes fall, heap(5), 20)->Unit(benchmark::kMillisecond)->Iterations(60);
+BENCHMARK_CAPTURE(touching, 1000 boxes fall, heap(10), 20)->Unit(benchmark::kMillisecond)->Iterations(60);
+BENCHMARK_CAPTURE(touching, 55 bricks stand, wall(10), 20)->Unit(benchmark::kMillisecond)->Iterations(60);
 
 }  // namespace
 }  // namespace taut

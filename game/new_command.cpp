@@ -111,9 +111,9 @@ finish = {{ colour = "#c9a36b" }}
 [solid.{name}-ball]                   # flies into it
 shape = "sphere"
 radius = 0.12
-position = [{left}, 0.8, 1.0]
-velocity = [3.2, 0.8, -4.0]
-density_kg_per_m3 = 1500.0
+position = [{x}, 0.8, 1.0]
+velocity = [0.6, 1.0, -3.5]
+density_kg_per_m3 = 900.0
 finish = {{ colour = "#35648f" }}
 )"},
 };

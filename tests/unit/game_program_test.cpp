@@ -234,7 +234,7 @@ TEST(Program, ANewSceneIsRightAndIsNotOverwritten) {
     const TemporaryFolder folder;
     const std::string file = (folder / "own/first.toml").string();
     const Outcome made = run({"new", (folder / "own/first").string(), "--with", "rope", "--with", "cloth", "--with",
-                              "block", "--with", "net", "--with", "solid", "--with", "rope"});
+                              "block", "--with", "net", "--with", "rope", "--with", "solid"});
     EXPECT_EQ(made.code, 0) << made.err;
     EXPECT_TRUE(has(made.out, "taut render " + file + " -o first.mp4\n")) << made.out;
     const Outcome checked = run({"check", file});

@@ -75,8 +75,6 @@ struct Scaling {
 struct Equation {
     Row* row = nullptr;
     std::array<std::size_t, 2> solids{none, none};
-    std::array<double, 2> weights{};
-    std::array<dvec3, 2> arms{};
     std::array<dvec3, 3> axes{};                    // unit: its normal, and two across
     std::array<std::array<Six, 3>, 2> gradients{};  // (sides, axes) what velocity and spin of a side give to s
     dvec3 now{0.0}, next{0.0};                      // [N s] its impulse
@@ -197,6 +195,8 @@ class RigidStep {
         if (row.turns.isEmpty() || !row.shares.isEmpty() || row.softness > 0) return;
         Equation equation;
         equation.row = &row;
+        std::array<double, 2> weights{};
+        std::array<dvec3, 2> arms{};
         for (std::size_t k = 0; k < 4; ++k) {
             if (row.gains[k] == 0) continue;
             const auto at = std::lower_bound(solids_.begin(), solids_.end(), row.slots[k],
@@ -205,17 +205,16 @@ class RigidStep {
             const auto solid = static_cast<std::size_t>(at - solids_.begin());
             const std::size_t side = equation.solids[0] == none || equation.solids[0] == solid ? 0 : 1;
             equation.solids[side] = solid;
-            equation.weights[side] += row.weights[k];
+            weights[side] += row.weights[k];
         }
         for (const Turn& turn : row.turns.of(levers_.turns))
-            equation.arms[equation.solids[0] != none && solids_[equation.solids[0]].slot + 1 == turn.slot ? 0 : 1] =
-                armOf(turn);
+            arms[equation.solids[0] != none && solids_[equation.solids[0]].slot + 1 == turn.slot ? 0 : 1] = armOf(turn);
         const dvec3 normal = vectorOf(row.normal), across = acrossOf(normal);
         equation.axes = {normal, across, glm::cross(normal, across)};
         for (std::size_t side = 0; side < 2 && equation.solids[side] != none; ++side)
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const dvec3 along = axis == 0 ? normal : row.friction * equation.axes[axis];
-                const dvec3 way = equation.weights[side] * along, turn = glm::cross(equation.arms[side], along);
+                const dvec3 way = weights[side] * along, turn = glm::cross(arms[side], along);
                 equation.gradients[side][axis] = {way.x, way.y, way.z, turn.x, turn.y, turn.z};
             }
         equation.softness = softness / row.mass;

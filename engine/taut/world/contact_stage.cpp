@@ -227,10 +227,13 @@ int ContactStage::instantsFor(std::span<const int> surfaces) const {
 }
 
 // Solids that meet only their like have no springs for which an instant could be too long, and rows close their gaps.
+// Where nothing is said to meet, anything may.
 bool ContactStage::areSolid(std::span<const int> surfaces) const {
-    return crossingsBefore().empty() && std::all_of(surfaces.begin(), surfaces.end(), [&](int surface) {
-               return !isOfBody(surface) || bodyOf(surface).spec->isRigid();
-           });
+    const auto isSolid = [](const Body* body) { return body->spec->isRigid(); };
+    if (!crossingsBefore().empty()) return false;
+    if (surfaces.empty()) return std::all_of(bodies_.begin(), bodies_.end(), isSolid);
+    return std::all_of(surfaces.begin(), surfaces.end(),
+                       [&](int surface) { return !isOfBody(surface) || isSolid(&bodyOf(surface)); });
 }
 int ContactStage::fewestFor(std::span<const int> surfaces) const {
     return areSolid(surfaces) ? std::max(fewest_ / fewerForSolids, 1) : fewest_;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "support/piercings.h"
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/solid.h"
 #include "taut/core/private/rigid_motion.h"
 #include "taut/core/trig.h"
@@ -138,6 +139,39 @@ TEST(SolidHull, OfABoxIsTheBox) {
     EXPECT_NEAR(other.mass / one.mass, 1.0, 1e-12);
     EXPECT_LT(glm::distance(one.centre, other.centre), 1e-12);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(other.inverseInertia[k][k] / one.inverseInertia[k][k], 1.0, 1e-9);
+}
+
+// A weld of all points makes one rigid body: two halves fly, fall and lie as the whole does, apart from rounding, and do
+// not touch each other.
+TEST(SolidBox, WeldedOfHalvesMovesAsTheWhole) {
+    const dvec3 velocity(0.4, 1.0, 0.0), spin(2.0, 0.7, 4.0), place(0.0, 0.4, 0.0);
+    const auto thrown = [&](const std::string& name, double side, double length) {
+        SolidSpec part = box(name, place + dvec3(0.5 * side * length, 0.0, 0.0), {length, 0.1, 0.06});
+        part.spin = spin;
+        part.velocity = velocity + glm::cross(spin, part.position - place);
+        return part;
+    };
+    world::SceneSpec whole = scene(), halves = scene();
+    whole.colliders = halves.colliders = {ground(0.0, 0.5)};
+    whole.bodies.add(thrown("whole", 0.0, 0.3));
+    halves.bodies.add(thrown("left", -1.0, 0.15));
+    halves.bodies.add(thrown("right", 1.0, 0.15));
+    world::WeldJoint weld;
+    weld.a = "solid.left@all";
+    weld.b = "solid.right@all";
+    halves.joints.add(weld);
+    World one(whole), two(halves);
+    double furthest = 0;
+    for (int tick = 0; tick < 150; ++tick) {
+        ASSERT_FALSE(one.advance());
+        ASSERT_FALSE(two.advance());
+        const dvec3 middle = 0.5 * (motionOf(two, "solid.left").centre + motionOf(two, "solid.right").centre);
+        furthest = std::max(furthest, glm::distance(middle, motionOf(one, "solid.whole").centre));
+        if (tick == 20) EXPECT_LT(furthest, 1e-9);  // still in the air
+    }
+    EXPECT_LT(glm::length(motionOf(one, "solid.whole").velocity), 1e-3);
+    EXPECT_LT(furthest, 1e-6);
+    EXPECT_NEAR(glm::distance(motionOf(two, "solid.left").centre, motionOf(two, "solid.right").centre), 0.15, 1e-12);
 }
 
 // Without gravity: a ball and a point of a net against a wall, and two balls head on. What two bodies or a body and a

@@ -8,10 +8,12 @@
 #include <optional>
 
 #include "taut/core/error.h"
+#include "taut/core/private/rigid_motion.h"
 #include "taut/mechanics/bending.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
 #include "taut/bodies/joints/constraint.h"
+#include "taut/bodies/private/rigid_constraint.h"
 #include "taut/bodies/private/seam_pairing.h"
 #include "taut/bodies/private/ties.h"
 
@@ -61,6 +63,7 @@ class Planner {
         : bodies_(bodies),
           spec_(spec),
           islands_(bodies.size()),
+          solids_(bodies.size()),
           firstGlobal_(firsts(bodies)),
           welds_(firstGlobalEnd()) {
         int number = 0;
@@ -262,8 +265,52 @@ class Planner {
             report.pairs.push_back({&body(numbers.first), &body(numbers.second), count});
     }
 
+    // The bodies that a side names as a whole, if all are rigid; else none.
+    std::vector<int> wholeSolids(const JointSide& side) const {
+        std::vector<int> found;
+        for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
+            for (const std::string& text : side.targets) {
+                if (!names(text, body(number))) continue;
+                if (parseTarget(text).selector != "all" || !body(number).spec->isRigid()) return {};
+                found.push_back(number);
+                break;
+            }
+        return found;
+    }
+
+    // Each solid of one side and the nearest of the other become one rigid body.
+    void uniteSolids(const JointSpec& weld, const std::vector<int>& as, const std::vector<int>& bs) {
+        if (weld.hasOwnTies())
+            throw Error(ErrorKind::badContent,
+                        at(weld.source) + "a weld of whole solids makes one rigid body of them, which nothing parts or "
+                                          "draws: leave out name, break_N and finish, or name points");
+        JointReport& report = reports_.emplace_back();
+        report.spec = &weld;
+        const auto centre = [&](int number) {
+            const mechanics::Model& model = body(number).model;
+            return core::rigidMotionOf(model.masses, model.positions, model.velocities).centre;
+        };
+        for (const int a : as) {
+            int nearest = -1;
+            double least = HUGE_VAL;
+            for (const int b : bs)
+                if (const double away = glm::distance(centre(a), centre(b)); b != a && away < least)
+                    nearest = b, least = away;
+            if (nearest < 0)
+                throw Error(ErrorKind::badContent, at(weld.source) + "the weld joins \"" + weld.a.text() +
+                                                       "\" to itself; name two solids");
+            islands_.unite(a, nearest);
+            solids_.unite(a, nearest);
+            report.pairs.push_back({&body(a), &body(nearest), body(a).model.pointCount()});
+        }
+    }
+
     // Over 60 lines: it ties each point of one side to the nearest of the other, and reports what it did not tie.
     void addJoint(const JointSpec& joint, int ofScene) {
+        if (joint.isWeld()) {
+            const std::vector<int> solidsOfA = wholeSolids(joint.a), solidsOfB = wholeSolids(joint.b);
+            if (!solidsOfA.empty() && !solidsOfB.empty()) return uniteSolids(joint, solidsOfA, solidsOfB);
+        }
         const std::vector<PointRef> as = points(joint.a, joint.source);
         std::vector<PointRef> bs = points(joint.b, joint.source);
         const auto isOther = [&](const PointRef& p) { return p.body != as.front().body; };
@@ -334,11 +381,28 @@ class Planner {
         for (const bool isWeld : {true, false})  // welds first, as they move points
             for (const JointPair& joint : joints)
                 if (joint.spec->isWeld() == isWeld) tie(plan, joint);
-        for (const Body* body : plan.bodies) body->spec->constrain(plan, *body);
+        addSolids(plan, members);
         plan.origins.resize(plan.springs.size());
         plan.broken.resize(plan.springs.size(), false);
         plan.solver = solverOf(plan);
         return plan;
+    }
+
+    void addSolids(IslandPlan& plan, const std::vector<int>& members) {
+        std::map<int, std::vector<const Body*>> solids;  // by the body that represents them
+        for (const int number : members)
+            if (body(number).spec->isRigid()) solids[solids_.find(number)].push_back(&body(number));
+        for (auto& [number, parts] : solids) {
+            std::vector<int> points;
+            std::vector<dvec3> rest;
+            for (const Body* part : parts) {
+                points.insert(points.end(), part->pointOf.begin(), part->pointOf.end());
+                for (int i = 0; i < part->model.pointCount(); ++i)
+                    rest.push_back(part->model.positions[static_cast<std::size_t>(i)] - jitterOf(*part, i));
+            }
+            plan.constraints.push_back(std::make_shared<RigidConstraint>(std::move(points), std::move(rest)));
+            plan.solids.push_back(std::move(parts));
+        }
     }
 
     void tie(IslandPlan& plan, const JointPair& joint) const {
@@ -472,6 +536,7 @@ class Planner {
     std::span<Body* const> bodies_;
     const SceneSpec& spec_;
     Sets islands_;                  // (bodies)
+    Sets solids_;                   // (bodies) that are one rigid body
     std::vector<int> firstGlobal_;  // (bodies)
     Sets welds_;                    // (points of all bodies)
     std::vector<JointPair> joints_;

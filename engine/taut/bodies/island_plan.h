@@ -75,7 +75,8 @@ struct IslandPlan {
     std::vector<Grip> grips;                    // in the order of grabbing
     std::vector<std::shared_ptr<const Constraint>> constraints;  // shared: to change one, replace it
     std::vector<Carrier> carriers;                               // of the places of constraints, each collider once
-    std::vector<JointTie> ties;                                  // of joints, without welds that merge points
+    std::vector<JointTie> ties;                                  // of joints, without welds that merge bodies or points
+    std::vector<std::vector<const Body*>> solids;                // rigid bodies, together those that are one
 };
 
 // What a joint of the scene has become.

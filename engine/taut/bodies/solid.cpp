@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "taut/bodies/drawing.h"
-#include "taut/bodies/island_plan.h"
 #include "taut/bodies/private/bound_mesh.h"
-#include "taut/bodies/private/rigid_constraint.h"
 #include "taut/collision/private/convex_hull.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
@@ -196,13 +194,6 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
     for (int i = 0; i < 8; ++i)
         for (int k = 0; k < 3; ++k) model.groups[sides[k][(i >> k) & 1]].push_back(mechanics::innerPoints + i);
     return model;
-}
-
-void SolidSpec::constrain(IslandPlan& plan, const Body& body) const {
-    std::vector<dvec3> rest;
-    for (int i = 0; i < body.model.pointCount(); ++i)
-        rest.push_back(body.model.positions[static_cast<std::size_t>(i)] - jitterOf(body, i));
-    plan.constraints.push_back(std::make_shared<RigidConstraint>(body.pointOf, std::move(rest)));
 }
 
 std::unique_ptr<BodyDrawing> SolidSpec::drawing(const Body& body) const {

@@ -25,7 +25,6 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     bool isRound() const { return shape == "sphere" || shape == "capsule"; }
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
-    void constrain(IslandPlan& plan, const Body& body) const override;
     bool isRigid() const override { return true; }
     std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
     const MeshSource* meshSource() const override { return this; }

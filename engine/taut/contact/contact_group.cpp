@@ -47,10 +47,6 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
 void ContactGroup::setSolids(std::vector<Solid> solids) {
     solids_ = std::move(solids);
     solver_.setSolids(solids_, static_cast<std::size_t>(elements_.pointCount()));
-    isSolid_.assign(elements_.surfaces().size(), 0);
-    for (const Solid& solid : solids_)
-        for (int i : solid.points)
-            if (const int surface = elements_.surfaceOf(i); surface >= 0) isSolid_[static_cast<std::size_t>(surface)] = 1;
 }
 
 void ContactGroup::setCarried(CarriedPoints carried) {
@@ -186,7 +182,7 @@ void ContactGroup::selectActive(const Instant& instant) {
         const double depth = -std::max(pair.gap(), 0.0) - glm::dot(pair.normal, way);
         result_.deepest = std::max(result_.deepest, depth / pair.thickness);
     }
-    if (!solids_.empty()) keepCorners(elements_, isSolid_, instant.x0, active_);
+    if (!solids_.empty()) keepCorners(elements_, instant.x0, active_);
 }
 
 void ContactGroup::solveActive(const Instant& instant) {

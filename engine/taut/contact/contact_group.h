@@ -190,7 +190,6 @@ class ContactGroup {
     std::vector<ContactConstraint> active_;                // pairs of tested_ that the solver gets
     std::vector<std::vector<ContactConstraint>> perTask_;  // (tasks) scratch
     std::vector<Solid> solids_;
-    std::vector<char> isSolid_;  // (surfaces)
     CarriedPoints carried_;
     ContactSolver solver_;
     std::map<int, int> squeezed_;  // points; the rank of the driven surface that still presses, -1: none

@@ -26,6 +26,8 @@ struct ContactSurface {
     // Surfaces with the same bond belong to one body. Its parts are close at rest, so they keep at most restShare of
     // their distance at rest.
     int bond = 0;
+    // Surfaces with the same number, from 0, are of one rigid body. They do not meet. -1: not rigid.
+    int solid = -1;
     // A collider's corners and edges, which the group does not move. It has no triangles: points meet the faces of
     // colliders in `collision`. Two rigid surfaces never touch.
     bool isRigid = false;

@@ -81,6 +81,7 @@ class Elements {
     bool mayMeet(int surfaceA, int surfaceB) const {
         const ContactSurface &a = surface(surfaceA), &b = surface(surfaceB);
         if (isStill(surfaceA) && isStill(surfaceB)) return false;
+        if (a.solid >= 0 && a.solid == b.solid) return false;
         if (surfaceA == surfaceB) return a.meetsItself && !a.isOfCollider();
         if (a.isOfCollider() || b.isOfCollider())
             return a.isOfCollider() != b.isOfCollider() && a.meetsRigid && b.meetsRigid;

@@ -13,7 +13,7 @@ constexpr double stillShare = 0.01;    // of the error: how far a point may go i
 constexpr double holdingShare = 0.98;  // of Coulomb's limit: up to there all friction of a solid holds it
 
 bool isOneSolid(const IslandPlan& plan) {
-    return plan.bodies.size() == 1 && plan.bodies[0]->spec->isRigid() && plan.constraints.size() == 1;
+    return plan.solids.size() == 1 && plan.solids[0].size() == plan.bodies.size() && plan.constraints.size() == 1;
 }
 
 // Whether a rigid body stays: what presses it at places that are not on one line keeps it from tipping, and all its

@@ -112,8 +112,6 @@ struct BodySpec {
 
     // At rest and free; for arrays, one copy. Throws core::Error(badContent) with file, line and column.
     virtual mechanics::Model build(const SceneSpec& scene) const = 0;
-    // Adds what holds its points together besides springs to the plan, which has them already.
-    virtual void constrain(IslandPlan&, const Body&) const {}
     // Whether its points keep their distances, so that what presses one presses all.
     virtual bool isRigid() const { return false; }
     // Whether a surface that goes with its points meets others in their place.

@@ -68,6 +68,17 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     return surface;
 }
 
+namespace {
+
+// The number of the solid that a body is of, where those of its plan begin at `first`; -1: of none.
+int solidOf(const IslandPlan& plan, const Body& body, int first) {
+    for (std::size_t k = 0; k < plan.solids.size(); ++k)
+        if (std::count(plan.solids[k].begin(), plan.solids[k].end(), &body) > 0) return first + static_cast<int>(k);
+    return -1;
+}
+
+}  // namespace
+
 ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec,
                            const TickTime& now, StepFollowing& pace,
                            const std::function<std::vector<TouchedCollider>()>& colliders)
@@ -83,11 +94,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         for (const Body* body : island->plan().bodies) {
             if (!body->spec->facesMeet()) continue;
             surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
-            if (body->spec->isRigid()) {
-                std::vector<int>& solid = solids_.emplace_back();
-                for (int i : body->pointOf) solid.push_back(offset + i);
-                std::sort(solid.begin(), solid.end());
-            }
+            surfaces.back().solid = solidOf(island->plan(), *body, static_cast<int>(solids_.size()));
             if (body->spec->meetsCollidersAsWhole()) wholes_.push_back(static_cast<int>(bodies_.size()));
             if (CarriedSurface own = carriedSurface(*body); !own.points.empty()) {
                 for (mechanics::CarriedPoint& point : own.points)
@@ -99,6 +106,12 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
                 const int point = offset + body->pointOf[i];
                 rest[static_cast<std::size_t>(point)] = body->model.positions[i] - jitterOf(*body, static_cast<int>(i));
             }
+        }
+        for (const auto& bodies : island->plan().solids) {
+            std::vector<int>& solid = solids_.emplace_back();
+            for (const Body* body : bodies)
+                for (int i : body->pointOf) solid.push_back(offset + i);
+            std::sort(solid.begin(), solid.end());
         }
         islands_.push_back(island.get());
         parts_.push_back({island.get(), offset, static_cast<int>(rest.size())});

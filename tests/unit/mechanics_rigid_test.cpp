@@ -40,6 +40,33 @@ TEST(Rigid, PropertiesOfAPolyhedronAreExact) {
     EXPECT_NEAR(tetrahedron.spread[0][0], 3.0 / 80.0, 1e-15);  // V a² 3/80
 }
 
+// A polyhedron of many sides in the shape comes near it by 2/3 (2π/n)² and less.
+TEST(Rigid, PropertiesOfRoundShapesAreThoseOfFinePolyhedra) {
+    constexpr int n = 1000;
+    constexpr double radius = 0.3, height = 0.5;
+    for (const bool isCone : {false, true}) {
+        std::vector<dvec3> x{{0.0, -0.5 * height, 0.0}, {0.0, 0.5 * height, 0.0}};
+        std::vector<std::array<int, 3>> triangles;
+        for (int k = 0; k < n; ++k) {
+            const double angle = 2 * pi * k / n;
+            for (const double y : {-0.5 * height, 0.5 * height})
+                x.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+            const int a = 2 + 2 * k, b = 2 + 2 * ((k + 1) % n);
+            triangles.push_back({0, a, b});
+            if (isCone)
+                triangles.push_back({1, b, a});
+            else
+                triangles.insert(triangles.end(), {{a, a + 1, b}, {b, a + 1, b + 1}, {1, b + 1, a + 1}});
+        }
+        const MassProperties fine = massPropertiesOf(x, triangles);
+        const MassProperties own =
+            isCone ? massPropertiesOfCone(radius, height) : massPropertiesOfCylinder(radius, height);
+        EXPECT_NEAR(own.volume / fine.volume, 1.0, 3e-5);
+        EXPECT_LT(glm::distance(own.centre, fine.centre), 1e-9);
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(own.spread[k][k] / fine.spread[k][k], 1.0, 3e-5);
+    }
+}
+
 TEST(Rigid, PointsHaveTheInertiaOfTheBody) {
     RigidShape capsule;
     capsule.positions = {{0.0, -0.2, 0.0}, {0.0, 0.2, 0.0}};

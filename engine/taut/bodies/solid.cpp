@@ -8,6 +8,7 @@
 #include "taut/bodies/drawing.h"
 #include "taut/bodies/private/bound_mesh.h"
 #include "taut/collision/private/convex_hull.h"
+#include "taut/core/trig.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/closed_mesh.h"
@@ -28,7 +29,7 @@ namespace {
 
 constexpr float creaseAngle = 0.6F;  // [rad] drawn edges of a mesh that are sharper stay sharp
 
-const std::vector<std::string> solidShapes{"box", "sphere", "capsule", "mesh", "hull"};
+const std::vector<std::string> solidShapes{"box", "sphere", "capsule", "cylinder", "cone", "mesh", "hull"};
 
 // Corner i is on the positive side of axis k if bit k of i is set.
 void addBox(const dvec3& half, mechanics::RigidShape& shape) {
@@ -43,6 +44,33 @@ void addBox(const dvec3& half, mechanics::RigidShape& shape) {
         shape.triangles.push_back({0, u | v, u});
         shape.triangles.push_back({0, v, u | v});
     }
+}
+
+// A prism of `sides` with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is 0.
+void addPrism(double radius, double radiusAbove, double low, double high, mechanics::RigidShape& shape) {
+    constexpr int sides = 24;
+    const auto add = [&](double r, double y, int k) {
+        const double angle = 2.0 * core::pi * k / sides;
+        shape.positions.emplace_back(r * core::cosine(angle), y, r * core::sine(angle));
+    };
+    const bool hasTip = !(radiusAbove > 0);
+    add(0.0, low, 0);
+    for (int k = 0; k < sides; ++k) add(radius, low, k);
+    const int top = static_cast<int>(shape.positions.size());
+    add(0.0, high, 0);
+    for (int k = 0; k < sides && !hasTip; ++k) add(radiusAbove, high, k);
+    for (int k = 0; k < sides; ++k) {
+        const int a = 1 + k, b = 1 + (k + 1) % sides;
+        shape.triangles.push_back({0, a, b});
+        if (hasTip) {
+            shape.triangles.push_back({top, b, a});
+            continue;
+        }
+        shape.triangles.push_back({a, top + a, b});
+        shape.triangles.push_back({b, top + a, top + b});
+        shape.triangles.push_back({top, top + b, top + a});
+    }
+    shape.axis = {0, top};
 }
 
 // The least convex body around the points.
@@ -113,9 +141,10 @@ Section SolidSpec::section() {
             .number("edge", &SolidSpec::edge, "m", notNegative, "Rounding of its edges as they are drawn.")
             .only({"box"})
             .number("radius", &SolidSpec::radius, "m", lengthRange, "Its radius.")
-            .only({"sphere", "capsule"})
-            .number("height", &SolidSpec::height, "m", lengthRange, "Along y, between the centres of its half spheres.")
-            .only({"capsule"})
+            .only({"sphere", "capsule", "cylinder", "cone"})
+            .number("height", &SolidSpec::height, "m", lengthRange,
+                    "Along y; of a capsule, between the centres of its half spheres.")
+            .only({"capsule", "cylinder", "cone"})
             .text("mesh", &SolidSpec::mesh, Role::mesh, "OBJ or glTF file; its surfaces are closed, but for a hull.")
             .required()
             .only({"mesh", "hull"})
@@ -140,18 +169,25 @@ Section SolidSpec::section() {
                                         "leave thickness out");
             return;
         }
-        const double least = std::min({solid.size.x, solid.size.y, solid.size.z});
-        if (solid.shape == "box" && !(2.0 * solid.thickness < least)) {
+        const double most = solid.mostThickness();
+        if (!(solid.thickness < most)) {
             if (input.table.find("thickness") != nullptr)
                 input.problems.addError(input.at("thickness"),
-                                        fmt::format("the thickness goes into the box from all sides: it must be less "
-                                                    "than half of its least edge, {:.3g} m",
-                                                    0.5 * least));
+                                        fmt::format("the thickness goes into the {} from all sides: it must be less "
+                                                    "than the radius of the largest ball in it, {:.3g} m",
+                                                    solid.shape, most));
             else
-                solid.thickness = 0.1 * least;
+                solid.thickness = 0.2 * most;
         }
     };
     return section;
+}
+
+double SolidSpec::mostThickness() const {
+    if (shape == "box") return 0.5 * std::min({size.x, size.y, size.z});
+    if (shape == "cylinder") return std::min(radius, 0.5 * height);
+    if (shape == "cone") return radius * height / (std::sqrt(height * height + radius * radius) + radius);
+    return HUGE_VAL;
 }
 
 mechanics::Model SolidSpec::build(const SceneSpec&) const {
@@ -163,6 +199,14 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
         made.positions = {{0.0, -0.5 * height, 0.0}, {0.0, 0.5 * height, 0.0}};
         made.lines = {{0, 1}};
         made.properties = mechanics::massPropertiesOfCapsule(radius, height);
+    } else if (shape == "cylinder") {
+        addPrism(radius - thickness, radius - thickness, thickness - 0.5 * height, 0.5 * height - thickness, made);
+        made.properties = mechanics::massPropertiesOfCylinder(radius, height);
+    } else if (shape == "cone") {
+        const double side = std::sqrt(height * height + radius * radius);
+        addPrism(radius - thickness * (side + radius) / height, 0.0, thickness - 0.5 * height,
+                 0.5 * height - thickness * side / radius, made);
+        made.properties = mechanics::massPropertiesOfCone(radius, height);
     } else if (shape != "box" && meshData != nullptr) {
         std::vector<dvec3> points;
         for (const dvec3& x : meshData->positions) points.push_back(scale * x);
@@ -189,6 +233,9 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
     made.place = position;
     made.dragRate = drag;
     mechanics::Model model = mechanics::buildRigid(made);
+    if (model.axis[0] >= 0)
+        for (int i = mechanics::innerPoints; i < model.pointCount(); ++i)
+            model.groups[i < model.axis[1] ? "bottom" : "top"].push_back(i);
     if (shape != "box") return model;
     static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
     for (int i = 0; i < 8; ++i)
@@ -201,6 +248,9 @@ std::unique_ptr<BodyDrawing> SolidSpec::drawing(const Body& body) const {
     if (shape == "sphere") return std::make_unique<SolidDrawing>(body, view::sphereMesh(r));
     if (shape == "capsule")
         return std::make_unique<SolidDrawing>(body, view::capsuleMesh(r, static_cast<float>(height)));
+    if (shape == "cylinder")
+        return std::make_unique<SolidDrawing>(body, view::cylinderMesh(r, static_cast<float>(height)));
+    if (shape == "cone") return std::make_unique<SolidDrawing>(body, view::coneMesh(r, static_cast<float>(height)));
     if (shape == "box")
         return std::make_unique<SolidDrawing>(body, view::boxMesh(0.5 * size, static_cast<float>(edge)));
     std::vector<glm::vec3> positions;

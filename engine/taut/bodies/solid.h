@@ -9,10 +9,10 @@ namespace taut::world {
 // Sharp edges are rounded by the thickness as it touches: what is drawn is what others keep from.
 struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     static constexpr const char* kindName = "solid";
-    std::string shape = "box";   // box, sphere, capsule, mesh, hull
+    std::string shape = "box";   // box, sphere, capsule, cylinder, cone, mesh, hull
     dvec3 size{0.5, 0.5, 0.5};   // [m] of a box
     double radius = 0.25;        // [m]
-    double height = 0.5;         // [m] of a capsule, between the centres of its half spheres
+    double height = 0.5;         // [m] of a cylinder or cone; of a capsule between the centres of its half spheres
     double scale = 1.0;          // of a mesh or hull
     dvec3 position{0.0};         // [m] of its origin
     dvec3 rotation{0.0};         // [rad]
@@ -23,6 +23,8 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
 
     SolidSpec() { touch = Touch::others, thickness = 0.002; }
     bool isRound() const { return shape == "sphere" || shape == "capsule"; }
+    // [m] Radius of the largest ball in a shape that has sharp edges; of others without bound.
+    double mostThickness() const;
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     bool isRigid() const override { return true; }

@@ -8,6 +8,7 @@
 #include "taut/contact/closest_points.h"
 #include "taut/contact/flat_patches.h"
 #include "taut/contact/rigid_side.h"
+#include "taut/contact/round_solids.h"
 
 namespace taut::contact {
 namespace {
@@ -182,7 +183,9 @@ void ContactGroup::selectActive(const Instant& instant) {
         const double depth = -std::max(pair.gap(), 0.0) - glm::dot(pair.normal, way);
         result_.deepest = std::max(result_.deepest, depth / pair.thickness);
     }
-    if (!solids_.empty()) keepCorners(elements_, instant.x0, active_);
+    if (solids_.empty()) return;
+    roundOff(elements_, instant.x0, active_);
+    keepCorners(elements_, instant.x0, active_);
 }
 
 void ContactGroup::solveActive(const Instant& instant) {

@@ -67,8 +67,8 @@ void keepCorners(const Elements& elements, std::span<const dvec3> x,
                 const ContactConstraint& pair = pairs[p];
                 if (std::abs(glm::dot(pair.normal, first.normal)) < 1.0 - sameNormal) return false;
                 if (std::abs(pair.distance - first.distance) > near) return false;
-                dvec3 place(0.0);
-                for (std::size_t k = 0; k < static_cast<std::size_t>(pair.firstSide()); ++k)
+                dvec3 place = pair.place;
+                for (std::size_t k = 0; !pair.isPlaced && k < static_cast<std::size_t>(pair.firstSide()); ++k)
                     place += pair.weights[k] * x[static_cast<std::size_t>(pair.points[k])];
                 places.push_back({glm::dot(place, across), glm::dot(place, other), p});
                 return true;

@@ -378,7 +378,8 @@ void ContactSolver::addRow(int source, const Problem& problem) {
             // Where the sides meet. Each is brought there by a shift of its own.
             const bool isFirst = static_cast<int>(i) < pair.firstSide();
             const double way = (isFirst ? -pair.firstShare : 1.0 - pair.firstShare) * pair.distance;
-            addTerm(pair.points[i], pair.weights[i], placeOf(pair.points[i]) + way * pair.normal, problem);
+            addTerm(pair.points[i], pair.weights[i],
+                    pair.isPlaced ? pair.place : placeOf(pair.points[i]) + way * pair.normal, problem);
         }
         row.closing = closingOf(pair.gap());
     } else {
@@ -391,7 +392,8 @@ void ContactSolver::addRow(int source, const Problem& problem) {
         key = keyOf(contact, number);
         row.normal = four(contact.normal);
         row.friction = contact.friction;
-        addTerm(contact.point, 1.0, placeOf(contact.point) - contact.thickness * contact.normal, problem);
+        addTerm(contact.point, 1.0, placeOf(contact.point) + contact.aside - contact.thickness * contact.normal,
+                problem);
         row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
         if (contact.isWhole) row.closing += closingOf(contact.gap);
         terms_.push_back({addSlot(contact.carried, contact.carried), -1.0, 0.0});

@@ -82,7 +82,8 @@ struct KinematicContact {
     // The solver resolves it like a pair's: of a point of a solid, or a carried one.
     bool isWhole = false;
     double gap = 0.0;          // [m] at x0
-    double thickness = 0.0;    // [m] from the point to where the impulse acts
+    double thickness = 0.0;    // [m] from there to where the impulse acts
+    dvec3 aside{0.0};          // [m] from the point to what touches: see round_solids.h
     double restitution = 0.0;  // [-]
 };
 

@@ -123,6 +123,7 @@ struct Model {
     std::vector<bool> held;              // inverse mass 0
     std::vector<glm::dvec2> uv;          // [m] along the material; (0, 0) where it has none
     int innerPoints = 0;                 // the first points touch nothing: a rigid body's (rigid.h)
+    std::array<int, 2> axis{-1, -1};     // of a solid of revolution: in the middle of its ends, or at its tip; -1: none
 
     std::vector<Spring> springs;
     std::vector<std::array<int, 3>> triangles;  // the surface, counter-clockwise seen from its front; empty for ropes

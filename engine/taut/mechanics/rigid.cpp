@@ -86,6 +86,18 @@ MassProperties massPropertiesOfCapsule(double radius, double height) {
     return {cylinder + ball, dvec3(0.0), dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
 }
 
+MassProperties massPropertiesOfCylinder(double radius, double height) {
+    const double volume = glm::pi<double>() * radius * radius * height;
+    const double across = volume * radius * radius / 4, along = volume * height * height / 12;
+    return {volume, dvec3(0.0), dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
+}
+
+MassProperties massPropertiesOfCone(double radius, double height) {
+    const double volume = glm::pi<double>() * radius * radius * height / 3;
+    const double across = 3 * volume * radius * radius / 20, along = 3 * volume * height * height / 80;
+    return {volume, {0.0, -0.25 * height, 0.0}, dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
+}
+
 Model buildRigid(const RigidShape& shape) {
     const std::size_t count = shape.positions.size();
     const double density = shape.mass / shape.properties.volume;
@@ -136,6 +148,8 @@ Model buildRigid(const RigidShape& shape) {
     for (int i = 0; i < model.pointCount(); ++i) model.groups["all"].push_back(i);
     for (int i = 0; i < innerPoints; ++i) model.groups["inner"].push_back(i);
     model.innerPoints = innerPoints;
+    for (std::size_t k = 0; k < 2; ++k)
+        if (shape.axis[k] >= 0) model.axis[k] = shape.axis[k] + innerPoints;
     return model;
 }
 

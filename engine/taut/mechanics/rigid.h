@@ -25,11 +25,15 @@ MassProperties massPropertiesOf(std::span<const dvec3> positions, std::span<cons
 MassProperties massPropertiesOfBall(double radius);
 // Axis y; `height` between the centres of its half balls.
 MassProperties massPropertiesOfCapsule(double radius, double height);
+// About y, between -height/2 and height/2, of a cylinder or a cone with its tip up.
+MassProperties massPropertiesOfCylinder(double radius, double height);
+MassProperties massPropertiesOfCone(double radius, double height);
 
 struct RigidShape {
     std::vector<dvec3> positions;  // [m] of what touches, in the body's own axes
     std::vector<std::array<int, 3>> triangles;
     std::vector<std::array<int, 2>> lines;  // a capsule's
+    std::array<int, 2> axis{-1, -1};        // of a solid of revolution: in the middle of its ends, or at its tip
     MassProperties properties;
     double mass = 1;      // [kg]
     dmat3 axes{1.0};      // columns: the body's axes in the scene

@@ -8,6 +8,7 @@
 #include "taut/bodies/private/bare_faces.h"
 #include "taut/bodies/private/carried_surface.h"
 #include "taut/contact/penetration.h"
+#include "taut/contact/round_solids.h"
 #include "taut/core/private/parallel.h"
 #include "taut/core/private/rigid_motion.h"
 
@@ -42,6 +43,28 @@ bool touches(const IslandPlan& plan) {
         plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return body->spec->facesMeet(); });
 }
 
+namespace {
+
+// In points of the model. Triangles at the middle of an end have sides of the ring around it.
+contact::ContactSurface::Revolution revolutionOf(const mechanics::Model& model) {
+    contact::ContactSurface::Revolution found;
+    found.ends = model.axis;
+    const auto at = [&](int i) { return model.positions[static_cast<std::size_t>(i)]; };
+    const double length = glm::distance(at(model.axis[0]), at(model.axis[1]));
+    for (std::size_t k = 0; k < 2; ++k)
+        for (std::array<int, 3> t : model.triangles) {
+            std::rotate(t.begin(), std::find(t.begin(), t.end(), model.axis[k]), t.end());
+            const dvec3 middle = at(model.axis[k]), edge = 0.5 * (at(t[1]) + at(t[2]));
+            const bool isSide = std::abs(glm::dot(edge - middle, at(model.axis[1 - k]) - middle)) > 0.5 * length * length;
+            if (t[0] != model.axis[k] || isSide) continue;
+            found.radii[k] = glm::distance(at(t[1]), middle);
+            found.sag = std::max(found.sag, found.radii[k] - glm::distance(edge, middle));
+        }
+    return found;
+}
+
+}  // namespace
+
 contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     const mechanics::Model& model = body.model;
     contact::ContactSurface surface;
@@ -65,6 +88,11 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
             if (s.kind == mechanics::SpringKind::structural) surface.lines.push_back({at(s.a), at(s.b)});
     for (int i = model.innerPoints; i < model.pointCount(); ++i)
         if (isOutside[static_cast<std::size_t>(i)]) surface.points.push_back(at(i));
+    if (model.axis[0] >= 0) {
+        surface.revolution = revolutionOf(model);
+        for (int& end : surface.revolution.ends) end = at(end);
+        surface.thickness += surface.revolution.sag;
+    }
     return surface;
 }
 
@@ -355,7 +383,8 @@ void ContactStage::forEachNearCollider(double seconds, const Each& each) const {
             const auto k = static_cast<std::size_t>(i);
             const double way = seconds * std::sqrt(glm::dot(v_[k], v_[k]));
             found.clear();
-            island.colliders().findNear(x1_[k], (1.0 + nearShare) * spec.thickness + way, island.step(), found);
+            const double thickness = elements().surface(whole).thickness;
+            island.colliders().findNear(x1_[k], (1.0 + nearShare) * thickness + way, island.step(), found);
             for (const auto& surface : found) each(i, spec, surface);
         }
     }
@@ -377,8 +406,9 @@ void ContactStage::addWholeContacts(double h) {
             contact.thickness = spec.thickness;
             contact.restitution = surface.material.restitution * spec.restitution;
             // Where it came from, so that what it goes in this instant is no overlap.
-            contact.gap =
-                surface.distance - spec.thickness - glm::dot(surface.away, x1_[k] - x0_[k]) + h * contact.speed;
+            const dvec3 from = contact::ridgeAt(elements(), i, surface.away, x0_);
+            contact.aside = from - x0_[k];
+            contact.gap = surface.distance - spec.thickness + glm::dot(surface.away, from - x1_[k]) + h * contact.speed;
         });
     std::stable_sort(kinematic_.begin(), kinematic_.end(),
                      [](const auto& a, const auto& b) { return a.point < b.point; });

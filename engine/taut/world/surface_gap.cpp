@@ -27,6 +27,7 @@ contact::ContactSurface loneSurface(const Body& body, int offset, int bond) {
         for (int& i : triangle) renumber(i);
     for (std::array<int, 2>& line : surface.lines)
         for (int& i : line) renumber(i);
+    surface.revolution = {};
     surface.meetsItself = false;
     surface.meetsOthers = true;
     return surface;

@@ -120,8 +120,15 @@ TEST_F(Solids, WhatCannotBeOneIsRefused) {
               "s.toml:4:13: error: the thickness of a sphere is its radius\n  thickness = 0.1\n              ^ leave "
               "thickness out");
     EXPECT_EQ(complaint("[solid.box]\nshape = \"box\"\nsize = [1, 0.2, 1]\nthickness = 0.1\n"),
-              "s.toml:5:13: error: the thickness goes into the box from all sides: it must be less than half of its "
-              "least edge, 0.1 m\n  thickness = 0.1\n              ^");
+              "s.toml:5:13: error: the thickness goes into the box from all sides: it must be less than the radius of "
+              "the largest ball in it, 0.1 m\n  thickness = 0.1\n              ^");
+    EXPECT_NE(complaint("[solid.hat]\nshape = \"cone\"\nradius = 0.3\nheight = 0.4\nthickness = 0.16\n")
+                  .find("the largest ball in it, 0.15 m"),
+              std::string::npos);
+    EXPECT_NE(complaint("[solid.a]\nshape = \"box\"\n[solid.b]\nshape = \"box\"\nposition = [1, 0, 0]\n[[joint]]\n"
+                        "a = \"solid.a@all\"\nb = \"solid.b@all\"\nbreak_N = 9\n")
+                  .find("s.toml:7:1: error: a weld of whole solids makes one rigid body of them"),
+              std::string::npos);
     EXPECT_EQ(complaint("[solid.ball]\nshape = \"sphere\"\nmass_kg = 2\ndensity_kg_per_m3 = 900\n"),
               "s.toml:4:11: error: a solid has either mass_kg or density_kg_per_m3\n  mass_kg = 2\n            ^ leave "
               "one out");

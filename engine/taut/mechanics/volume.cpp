@@ -121,7 +121,9 @@ template <class Real>
 void VolumePreservation<Real>::addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const {
     const std::ptrdiff_t stride = motion.stride;
     for (const VolumeCell& cell : cells_) {
-        const Corners p = cornersOf(cell, motion.x, stride), w = cornersOf(cell, u, stride);
+        const Corners w = cornersOf(cell, u, stride);
+        if (std::all_of(w.begin(), w.end(), [](const dvec3& own) { return own == dvec3(0.0); })) continue;
+        const Corners p = cornersOf(cell, motion.x, stride);
         const Corners g = gradientsOf(p);
         const double change = volumeOf(p) / cell.restVolume - 1.0;
         double along = 0;

@@ -97,53 +97,52 @@ struct Feet {
     const dvec3& corner(int k) const { return x[static_cast<std::size_t>(pair.points[static_cast<std::size_t>(k)])]; }
     double weight(int k) const { return std::abs(pair.weights[static_cast<std::size_t>(k)]); }
     // The corners of the feature that a foot is on: of a face, an edge, or one alone; of a pair of edges, of the edge.
+    // Those of no length or area have one alone.
     std::vector<int> feature(int side) const {
         std::vector<int> corners;
         for (int k = first(side); k < last(side); ++k)
             if (!pair.isPoint || weight(k) > inside) corners.push_back(k);
+        const auto way = [&](std::size_t k) { return corner(corners[k]) - corner(corners[0]); };
+        const bool isFlat = (corners.size() == 2 && way(1) == dvec3(0.0)) ||
+                            (corners.size() == 3 && glm::cross(way(1), way(2)) == dvec3(0.0));
+        if (isFlat) corners.resize(1);
         return corners;
     }
     dvec3 outward(int side) const { return side == 0 ? -pair.normal : pair.normal; }
 };
 
-// Moves the foot on a face or an edge along it, so that the impulse acts there.
-void moveFoot(Feet& feet, int side, const dvec3& way) {
-    const int first = feet.first(side), count = feet.last(side) - first;
+// Moves the foot along a face or an edge with these corners, so that the impulse acts there.
+void moveFoot(Feet& feet, int side, const std::vector<int>& corners, const dvec3& way) {
     const double sign = side == 0 ? 1.0 : -1.0;
-    const auto weight = [&](int k) -> double& { return feet.pair.weights[static_cast<std::size_t>(first + k)]; };
-    const dvec3 a = feet.corner(first), ab = feet.corner(first + 1) - a;
+    const auto add = [&](std::size_t k, double share) {
+        feet.pair.weights[static_cast<std::size_t>(corners[k])] += sign * share;
+        feet.pair.weights[static_cast<std::size_t>(corners[0])] -= sign * share;
+    };
+    const dvec3 a = feet.corner(corners[0]), ab = feet.corner(corners[1]) - a;
     feet.at[side] += way;
-    if (count == 2) {
-        const double share = glm::dot(way, ab) / glm::dot(ab, ab);
-        weight(0) -= sign * share;
-        weight(1) += sign * share;
-        return;
-    }
-    const dvec3 ac = feet.corner(first + 2) - a, normal = glm::cross(ab, ac);
+    if (corners.size() == 2) return add(1, glm::dot(way, ab) / glm::dot(ab, ab));
+    const dvec3 ac = feet.corner(corners[2]) - a, normal = glm::cross(ab, ac);
     const double square = glm::dot(normal, normal);
-    const double b = glm::dot(normal, glm::cross(way, ac)) / square, c = glm::dot(normal, glm::cross(ab, way)) / square;
-    weight(0) -= sign * (b + c);
-    weight(1) += sign * b;
-    weight(2) += sign * c;
+    add(1, glm::dot(normal, glm::cross(way, ac)) / square);
+    add(2, glm::dot(normal, glm::cross(ab, way)) / square);
 }
 
 // A corner of the prism, at a face that says the normal. The ridge is beside it, or the corner is off the ridge, and
 // the impulse acts as if it were not.
-void touchFace(Feet& feet, int own, const dvec3& out) {
+void touchFace(Feet& feet, int own, const std::vector<int>& corners, const dvec3& out) {
     const Mantle& mantle = *feet.mantles[own];
     const dvec3 before = feet.at[own], outward = feet.outward(own);
     const double z = mantle.along(before);
     const dvec3 middle = mantle.middleAt(z);
     feet.at[own] = middle + (mantle.isNextTo(before, out) ? mantle.radiusAt(z) : glm::dot(before - middle, out)) * out;
     const dvec3 way = feet.at[own] - before;
-    moveFoot(feet, 1 - own, way - glm::dot(way, outward) * outward);
+    moveFoot(feet, 1 - own, corners, way - glm::dot(way, outward) * outward);
 }
 
 // The place between two where a line is nearest to the round solid: from there on it goes away. None if that is not
 // between them. What is as far everywhere stays at `before`.
 std::optional<dvec3> nearestBetween(const Mantle& mantle, const dvec3& a, const dvec3& b, const dvec3& before) {
     const double size = glm::distance(a, b);
-    if (!(size > 0)) return before;
     const dvec3 edge = (b - a) / size;
     const auto leaves = [&](double s) {
         const dvec3 place = a + s * edge;
@@ -183,7 +182,7 @@ bool pointAt(Feet& feet, int own, const std::vector<int>& corners) {
         const std::optional<dvec3> found = nearestBetween(mantle, middle(a), middle(b), middle(place));
         if (!found) return false;
         const dvec3 edge = (b - a) / glm::distance(a, b);
-        moveFoot(feet, other, glm::dot(*found - place, edge) * edge);
+        moveFoot(feet, other, corners, glm::dot(*found - place, edge) * edge);
         place = *found;
     } else if (isRound) {
         place = others->middleAt(others->along(place));
@@ -205,7 +204,7 @@ bool roundOff(Feet& feet, int own) {
     if (sine < flat || !mantle.isAround(feet.at[own])) return true;
     const std::vector<int> corners = feet.feature(1 - own);
     if (corners.size() == 3)
-        touchFace(feet, own, across / sine);
+        touchFace(feet, own, corners, across / sine);
     else if (!pointAt(feet, own, corners))
         return false;
     pair.distance = glm::dot(feet.outward(own), feet.at[1 - own] - feet.at[own]);

@@ -271,7 +271,8 @@ class Planner {
         for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
             for (const std::string& text : side.targets) {
                 if (!names(text, body(number))) continue;
-                if (parseTarget(text).selector != "all" || !body(number).spec->isRigid()) return {};
+                const std::string selector = parseTarget(text).selector;
+                if ((!selector.empty() && selector != "all") || !body(number).spec->isRigid()) return {};
                 found.push_back(number);
                 break;
             }

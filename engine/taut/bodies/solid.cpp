@@ -70,7 +70,7 @@ void addPrism(double radius, double radiusAbove, double low, double high, mechan
         shape.triangles.push_back({b, top + a, top + b});
         shape.triangles.push_back({top, top + b, top + a});
     }
-    shape.axis = {0, top};
+    shape.revolution = {{0, top}, {radius, radiusAbove}, radius * (1.0 - core::cosine(core::pi / sides))};
 }
 
 // The least convex body around the points.
@@ -233,9 +233,9 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
     made.place = position;
     made.dragRate = drag;
     mechanics::Model model = mechanics::buildRigid(made);
-    if (model.axis[0] >= 0)
+    if (const int top = model.revolution.ends[1]; top >= 0)
         for (int i = mechanics::innerPoints; i < model.pointCount(); ++i)
-            model.groups[i < model.axis[1] ? "bottom" : "top"].push_back(i);
+            model.groups[i < top ? "bottom" : "top"].push_back(i);
     if (shape != "box") return model;
     static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
     for (int i = 0; i < 8; ++i)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 
 namespace taut::contact {
 
@@ -25,8 +26,7 @@ struct ContactConstraint {
     double recovery = 1.0;     // 0 … 1: share by which an overlap is taken back, see convexityOf()
     double firstShare = 0.5;   // of the thickness that is the first side's
     double restitution = 0.0;  // speed of parting over that of closing [-]
-    dvec3 place{0.0};          // [m] where an impulse acts on solids, if isPlaced; else between the closest points
-    bool isPlaced = false;
+    std::optional<dvec3> place{};  // [m] where an impulse acts on solids; none: between the closest places
     double softness = 0.0;     // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]

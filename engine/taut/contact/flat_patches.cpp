@@ -47,8 +47,7 @@ std::vector<Spot> hullOf(std::vector<Spot> places, double near) {
 
 }  // namespace
 
-void keepCorners(const Elements& elements, std::span<const dvec3> x,
-                 std::vector<ContactConstraint>& pairs) {
+void keepCorners(const Elements& elements, std::span<const dvec3> x, std::vector<ContactConstraint>& pairs) {
     std::map<std::pair<int, int>, std::vector<std::size_t>> ofSolids;
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         const int a = elements.surfaceOf(pairs[p].points[0]), b = elements.surfaceOf(pairs[p].points[3]);
@@ -67,8 +66,8 @@ void keepCorners(const Elements& elements, std::span<const dvec3> x,
                 const ContactConstraint& pair = pairs[p];
                 if (std::abs(glm::dot(pair.normal, first.normal)) < 1.0 - sameNormal) return false;
                 if (std::abs(pair.distance - first.distance) > near) return false;
-                dvec3 place = pair.place;
-                for (std::size_t k = 0; !pair.isPlaced && k < static_cast<std::size_t>(pair.firstSide()); ++k)
+                dvec3 place = pair.place.value_or(dvec3(0.0));
+                for (std::size_t k = 0; !pair.place && k < static_cast<std::size_t>(pair.firstSide()); ++k)
                     place += pair.weights[k] * x[static_cast<std::size_t>(pair.points[k])];
                 places.push_back({glm::dot(place, across), glm::dot(place, other), p});
                 return true;

@@ -13,7 +13,6 @@ namespace taut::contact {
 
 // Drops pairs of two solids inside the hull of others of these that are on the same plane and as near, to a thousandth
 // of the thickness. x: (points) [m].
-void keepCorners(const Elements& elements, std::span<const dvec3> x,
-                 std::vector<ContactConstraint>& pairs);
+void keepCorners(const Elements& elements, std::span<const dvec3> x, std::vector<ContactConstraint>& pairs);
 
 }  // namespace taut::contact

@@ -61,10 +61,11 @@ class Mantle {
     }
     // Whether edges of the prism that make an angle of this cosine with the axis are lines of its side, not diagonals.
     bool isLine(double lean) const { return lean > (1 - rounding) * std::sqrt(1 - slope_ * slope_); }
-    // Whether the ridge in this direction (unit, across the axis) is no further from a corner than half of a side.
-    bool isNextTo(const dvec3& place, const dvec3& out) const {
-        const double z = along(place);
-        return glm::dot(place - middleAt(z), out) > radiusAt(z) * cosine_ * (1 - rounding);
+    // Of a corner of the prism, the place of the ridge in this direction (unit, across the axis) if that is no further
+    // than half of a side, else its own as if it were not beside the ridge.
+    dvec3 ridgeAt(const dvec3& corner, const dvec3& out) const {
+        const double z = along(corner), radius = radiusAt(z), own = glm::dot(corner - middleAt(z), out);
+        return middleAt(z) + (own > radius * cosine_ * (1 - rounding) ? radius : own) * out;
     }
 
   private:
@@ -127,14 +128,10 @@ void moveFoot(Feet& feet, int side, const std::vector<int>& corners, const dvec3
     add(2, glm::dot(normal, glm::cross(ab, way)) / square);
 }
 
-// A corner of the prism, at a face that says the normal. The ridge is beside it, or the corner is off the ridge, and
-// the impulse acts as if it were not.
+// A corner of the prism, at a face that says the normal.
 void touchFace(Feet& feet, int own, const std::vector<int>& corners, const dvec3& out) {
-    const Mantle& mantle = *feet.mantles[own];
     const dvec3 before = feet.at[own], outward = feet.outward(own);
-    const double z = mantle.along(before);
-    const dvec3 middle = mantle.middleAt(z);
-    feet.at[own] = middle + (mantle.isNextTo(before, out) ? mantle.radiusAt(z) : glm::dot(before - middle, out)) * out;
+    feet.at[own] = feet.mantles[own]->ridgeAt(before, out);
     const dvec3 way = feet.at[own] - before;
     moveFoot(feet, 1 - own, corners, way - glm::dot(way, outward) * outward);
 }
@@ -209,7 +206,6 @@ bool roundOff(Feet& feet, int own) {
         return false;
     pair.distance = glm::dot(feet.outward(own), feet.at[1 - own] - feet.at[own]);
     pair.place = feet.at[0] - pair.firstShare * pair.distance * pair.normal;
-    pair.isPlaced = true;
     return true;
 }
 
@@ -256,11 +252,8 @@ dvec3 ridgeAt(const Elements& elements, int corner, const dvec3& normal, std::sp
     const std::optional<Mantle> mantle = mantleOf(elements, elements.surfaceOf(corner), x);
     if (!mantle) return place;
     const dvec3 across = acrossAxis(-normal, mantle->axis());
-    const double sine = length(across), z = mantle->along(place);
-    if (sine < flat || !mantle->isAround(place)) return place;
-    const dvec3 middle = mantle->middleAt(z), out = across / sine;
-    if (mantle->isNextTo(place, out)) return middle + mantle->radiusAt(z) * out;
-    return middle + glm::dot(place - middle, out) * out;
+    const double sine = length(across);
+    return sine < flat || !mantle->isAround(place) ? place : mantle->ridgeAt(place, across / sine);
 }
 
 void roundOff(const Elements& elements, std::span<const dvec3> x, std::vector<ContactConstraint>& pairs) {
@@ -281,7 +274,7 @@ void roundOff(const Elements& elements, std::span<const dvec3> x, std::vector<Co
             for (const int side : {1, 0})  // of a pair of two, a face takes its normal from the other's axis first
                 if (feet.mantles[side] && !roundOff(feet, side)) return true;
             for (const int side : {0, 1})
-                if (pair.isPlaced && !feet.mantles[side] && !isNearest(feet, side, elements)) return true;
+                if (pair.place && !feet.mantles[side] && !isNearest(feet, side, elements)) return true;
             return false;
         });
 }

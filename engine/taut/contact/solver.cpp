@@ -378,8 +378,8 @@ void ContactSolver::addRow(int source, const Problem& problem) {
             // Where the sides meet. Each is brought there by a shift of its own.
             const bool isFirst = static_cast<int>(i) < pair.firstSide();
             const double way = (isFirst ? -pair.firstShare : 1.0 - pair.firstShare) * pair.distance;
-            addTerm(pair.points[i], pair.weights[i],
-                    pair.isPlaced ? pair.place : placeOf(pair.points[i]) + way * pair.normal, problem);
+            const dvec3 place = pair.place.value_or(placeOf(pair.points[i]) + way * pair.normal);
+            addTerm(pair.points[i], pair.weights[i], place, problem);
         }
         row.closing = closingOf(pair.gap());
     } else {

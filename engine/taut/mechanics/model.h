@@ -112,6 +112,13 @@ struct FreeformBending {
     bool isEmpty() const { return rest.empty(); }
 };
 
+// A solid of revolution, whose triangles are a prism or a pyramid in it.
+struct Revolution {
+    std::array<int, 2> ends{-1, -1};    // points in their middle, or the tip; -1: it is none
+    std::array<double, 2> radii{0, 0};  // [m] of the ends, 0: a tip
+    double sag = 0;                     // [m] how far it is outside of its triangles at most
+};
+
 struct Model {
     // (points)
     std::vector<glm::dvec3> positions;   // [m]
@@ -123,7 +130,7 @@ struct Model {
     std::vector<bool> held;              // inverse mass 0
     std::vector<glm::dvec2> uv;          // [m] along the material; (0, 0) where it has none
     int innerPoints = 0;                 // the first points touch nothing: a rigid body's (rigid.h)
-    std::array<int, 2> axis{-1, -1};     // of a solid of revolution: in the middle of its ends, or at its tip; -1: none
+    Revolution revolution;
 
     std::vector<Spring> springs;
     std::vector<std::array<int, 3>> triangles;  // the surface, counter-clockwise seen from its front; empty for ropes

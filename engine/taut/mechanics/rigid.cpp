@@ -148,8 +148,9 @@ Model buildRigid(const RigidShape& shape) {
     for (int i = 0; i < model.pointCount(); ++i) model.groups["all"].push_back(i);
     for (int i = 0; i < innerPoints; ++i) model.groups["inner"].push_back(i);
     model.innerPoints = innerPoints;
-    for (std::size_t k = 0; k < 2; ++k)
-        if (shape.axis[k] >= 0) model.axis[k] = shape.axis[k] + innerPoints;
+    model.revolution = shape.revolution;
+    if (shape.revolution.ends[0] >= 0)
+        for (int& end : model.revolution.ends) end += innerPoints;
     return model;
 }
 

@@ -33,7 +33,7 @@ struct RigidShape {
     std::vector<dvec3> positions;  // [m] of what touches, in the body's own axes
     std::vector<std::array<int, 3>> triangles;
     std::vector<std::array<int, 2>> lines;  // a capsule's
-    std::array<int, 2> axis{-1, -1};        // of a solid of revolution: in the middle of its ends, or at its tip
+    Revolution revolution;
     MassProperties properties;
     double mass = 1;      // [kg]
     dmat3 axes{1.0};      // columns: the body's axes in the scene

@@ -30,6 +30,13 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// The number of the solid that a body is of, where those of its plan begin at `first`; -1: of none.
+int solidOf(const IslandPlan& plan, const Body& body, int first) {
+    for (std::size_t k = 0; k < plan.solids.size(); ++k)
+        if (std::count(plan.solids[k].begin(), plan.solids[k].end(), &body) > 0) return first + static_cast<int>(k);
+    return -1;
+}
+
 }  // namespace
 
 int fewestInstants(double tickSeconds) {
@@ -42,28 +49,6 @@ bool touches(const IslandPlan& plan) {
     return std::any_of(
         plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return body->spec->facesMeet(); });
 }
-
-namespace {
-
-// In points of the model. Triangles at the middle of an end have sides of the ring around it.
-contact::ContactSurface::Revolution revolutionOf(const mechanics::Model& model) {
-    contact::ContactSurface::Revolution found;
-    found.ends = model.axis;
-    const auto at = [&](int i) { return model.positions[static_cast<std::size_t>(i)]; };
-    const double length = glm::distance(at(model.axis[0]), at(model.axis[1]));
-    for (std::size_t k = 0; k < 2; ++k)
-        for (std::array<int, 3> t : model.triangles) {
-            std::rotate(t.begin(), std::find(t.begin(), t.end(), model.axis[k]), t.end());
-            const dvec3 middle = at(model.axis[k]), edge = 0.5 * (at(t[1]) + at(t[2]));
-            const bool isSide = std::abs(glm::dot(edge - middle, at(model.axis[1 - k]) - middle)) > 0.5 * length * length;
-            if (t[0] != model.axis[k] || isSide) continue;
-            found.radii[k] = glm::distance(at(t[1]), middle);
-            found.sag = std::max(found.sag, found.radii[k] - glm::distance(edge, middle));
-        }
-    return found;
-}
-
-}  // namespace
 
 contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     const mechanics::Model& model = body.model;
@@ -88,24 +73,12 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
             if (s.kind == mechanics::SpringKind::structural) surface.lines.push_back({at(s.a), at(s.b)});
     for (int i = model.innerPoints; i < model.pointCount(); ++i)
         if (isOutside[static_cast<std::size_t>(i)]) surface.points.push_back(at(i));
-    if (model.axis[0] >= 0) {
-        surface.revolution = revolutionOf(model);
-        for (int& end : surface.revolution.ends) end = at(end);
-        surface.thickness += surface.revolution.sag;
+    if (const mechanics::Revolution& own = model.revolution; own.ends[0] >= 0) {
+        surface.revolution = {{at(own.ends[0]), at(own.ends[1])}, own.radii, own.sag};
+        surface.thickness += own.sag;
     }
     return surface;
 }
-
-namespace {
-
-// The number of the solid that a body is of, where those of its plan begin at `first`; -1: of none.
-int solidOf(const IslandPlan& plan, const Body& body, int first) {
-    for (std::size_t k = 0; k < plan.solids.size(); ++k)
-        if (std::count(plan.solids[k].begin(), plan.solids[k].end(), &body) > 0) return first + static_cast<int>(k);
-    return -1;
-}
-
-}  // namespace
 
 ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec,
                            const TickTime& now, StepFollowing& pace,

@@ -1,6 +1,7 @@
 // Soft bodies of a mesh: what touches is the mesh, not the cells that carry it.
 #include <memory>
 
+#include "taut/world/private/body_surfaces.h"
 #include "touching_scenes.h"
 
 namespace taut::test::touching {
@@ -89,6 +90,7 @@ TEST(MeshBlock, LiesOnItsMesh) {
             for (const glm::vec3& x : drawn(world, "block.cube")) lowest = std::min(lowest, static_cast<double>(x.y));
             EXPECT_GT(lowest, 0.9 * own.thickness) << i;
         }
+        EXPECT_NEAR(world::BodySurfaces(world.select("block.cube")).lowest().x.y, lowest, 1e-6);
         EXPECT_LT(lowest, 1.1 * own.thickness);
         EXPECT_GE(world.metrics().contacts, 4);
         double below = 0;

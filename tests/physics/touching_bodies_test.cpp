@@ -2,7 +2,7 @@
 #include "support/knots.h"
 #include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
-#include "taut/world/private/surface_gap.h"
+#include "taut/world/private/body_surfaces.h"
 #include "touching_scenes.h"
 
 namespace taut::test::touching {
@@ -306,7 +306,7 @@ TEST(TouchingCut, FacesBaredInABlockAreMet) {
     spec.bodies.add(net);
     World world(spec);
     world::CutAction cut;
-    world::SurfaceGap gap(world.select("net.ball"), world.select("block.jelly"));
+    world::BodySurfaces gap(world.select("net.ball"), world.select("block.jelly"));
     cut.target = "block.jelly";
     cut.planePoint = dvec3(0.0, 0.12, 0.0);
     cut.planeNormal = dvec3(0.0, 1.0, 0.0);
@@ -317,7 +317,7 @@ TEST(TouchingCut, FacesBaredInABlockAreMet) {
         if (x.y < 0.12 && std::abs(x.x) < 0.01 && std::abs(x.z) < 0.01) under = std::max(under, x.y);
     EXPECT_NEAR(positionsOf(world, "net.ball")[0].y - under, keep, 0.2 * keep);
     EXPECT_GT(under, 0.09);
-    EXPECT_NEAR(gap.measure(), keep, 0.2 * keep);
+    EXPECT_NEAR(gap.gap(), keep, 0.2 * keep);
     World resumed(spec);
     resumed.restore(world.save());
     EXPECT_FALSE(advance(world, 5));

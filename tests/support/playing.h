@@ -14,7 +14,7 @@
 #include "taut/spec/spec.h"
 #include "taut/view/frame_view.h"
 #include "taut/world/components.h"
-#include "taut/world/private/surface_gap.h"
+#include "taut/world/private/body_surfaces.h"
 #include "taut/world/world.h"
 
 namespace taut::support {
@@ -45,7 +45,7 @@ inline world::Metrics askEverything(world::World& world) {
         (void)world.points(bodies.back());
         (void)world.positions(bodies.back());
     }
-    if (bodies.size() > 1) (void)world::SurfaceGap(bodies[0], bodies[1]).measure();
+    if (bodies.size() > 1) (void)world::BodySurfaces(bodies[0], bodies[1]).gap();
     world.registry().each<world::BodyPart>([&](ecs::Entity body, const auto&) { (void)world.pointHashes(body); });
     for (bool debug : {false, true}) (void)world.view(debug);
     (void)world.viewAhead(0.001);

@@ -1,6 +1,7 @@
 // Every function of the language in a small scene whose answer is known from theory.
 #include <cmath>
 
+#include "taut/bodies/solid.h"
 #include "taut/check/private/function_table.h"
 #include "taut/check/private/shadow.h"
 #include "taut/core/error.h"
@@ -37,6 +38,40 @@ TEST(CheckFunctions, HighestAndLowestPointsAreNamed) {
     EXPECT_EQ(placeIn(world, "lowest(rope.*)"), "rope.r@#0 at [0, 1, 0]");
     EXPECT_EQ(placeIn(world, "height(rope.r@ends)"), "rope.r@ends, point 2 of 2 at [0, 3, 0]");
     EXPECT_EQ(placeIn(world, "height(rope.r@start)"), "rope.r@start at [0, 1, 0]");
+}
+
+// A ball, a box on an edge, a cylinder and a cone aslant; angles by a triangle with sides 3, 4 and 5.
+TEST(CheckFunctions, SolidsEndWhereTheyAreDrawn) {
+    const std::string aslant = "rotation_deg = [0, 0, 36.86989764584402]\n";
+    const world::World world(sceneOf(
+        "[solid.ball]\nshape = \"sphere\"\nradius = 0.5\nposition = [0, 1, 0]\n"
+        "[solid.box]\nshape = \"box\"\nsize = [4, 3, 1]\nthickness = 0\nposition = [9, 5, 0]\n" + aslant +
+        "[solid.can]\nshape = \"cylinder\"\nradius = 1\nheight = 4\nthickness = 0.01\nposition = [0, 9, 0]\n" +
+        aslant + "[solid.hat]\nshape = \"cone\"\nradius = 1\nheight = 4\nthickness = 0\nposition = [0, 20, 0]\n" +
+        aslant + "[rope.r]\nends = [[3, 1, -1], [3, 1, 1]]\nsegments = 1\n"));
+    EXPECT_NEAR(valueIn(world, "lowest(solid.ball)"), 0.5, rounding);
+    EXPECT_NEAR(valueIn(world, "height(solid.ball)"), 1.5, rounding);
+    EXPECT_EQ(placeIn(world, "height(solid.ball)"), "solid.ball at [0, 1.5, 0]");
+    EXPECT_NEAR(valueIn(world, "lowest(solid.box)"), 5 - 2 * 0.6 - 1.5 * 0.8, rounding);
+    // Of the rim of a disc, the radius of what is left within the thickness, which is rounded.
+    EXPECT_NEAR(valueIn(world, "height(solid.can)"), 9 + 1.99 * 0.8 + 0.99 * 0.6 + 0.01, rounding);
+    EXPECT_NEAR(valueIn(world, "lowest(solid.hat)"), 20 - 2 * 0.8 - 0.6, rounding);
+    EXPECT_NEAR(valueIn(world, "height(solid.hat)"), 20 + 2 * 0.8, rounding);
+    EXPECT_NEAR(valueIn(world, "lowest(solid.*)"), 0.5, rounding);
+    EXPECT_NEAR(valueIn(world, "gap(solid.ball, rope.r)"), 3 - 0.5, rounding);
+    EXPECT_NEAR(valueIn(world, "gap(solid.*, rope.r)"), 3 - 0.5, rounding);
+    // A mesh is drawn as it is, and others keep a thickness away.
+    world::SceneSpec scene = sceneOf("[rope.r]\nends = [[3, 0, -1], [3, 0, 1]]\nsegments = 1\n");
+    world::SolidSpec gem;
+    gem.name = "gem";
+    gem.shape = "hull";
+    auto mesh = std::make_shared<world::MeshData>();
+    mesh->positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    gem.meshData = mesh;
+    scene.bodies.add(gem);
+    const world::World other(scene);
+    EXPECT_NEAR(valueIn(other, "lowest(solid.gem)"), -1.0, rounding);
+    EXPECT_NEAR(valueIn(other, "gap(solid.gem, rope.r)"), 2.0, rounding);
 }
 
 // A push of (2, 0, 0) N s on 1 kg and of (0, 3, 0) N s on 3 kg.

@@ -4,7 +4,7 @@
 #include "support/timelines.h"
 #include "taut/bodies/net.h"
 #include "taut/advice/rehearsal.h"
-#include "taut/world/private/surface_gap.h"
+#include "taut/world/private/body_surfaces.h"
 #include "taut/advice/contact_doubts.h"
 
 namespace taut::world {

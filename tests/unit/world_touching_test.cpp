@@ -4,7 +4,7 @@
 #include "support/scenes.h"
 #include "support/timelines.h"
 #include "taut/bodies/net.h"
-#include "taut/world/private/surface_gap.h"
+#include "taut/world/private/body_surfaces.h"
 
 namespace taut::world {
 namespace {
@@ -159,8 +159,8 @@ TEST(TouchingWorld, WhatIsFrozenStopsWhatComesAndStays) {
         const std::vector<dvec3> kept = positionsOf(world, "cloth.square");
         EXPECT_FALSE(test::advance(world, 10));
         EXPECT_EQ(positionsOf(world, "cloth.square"), kept) << above;
-        SurfaceGap gap(world.select("net.ball"), world.select("cloth.square"));
-        EXPECT_NEAR(gap.measure(), keep, 1e-6) << above;
+        BodySurfaces gap(world.select("net.ball"), world.select("cloth.square"));
+        EXPECT_NEAR(gap.gap(), keep, 1e-6) << above;
     }
 }
 

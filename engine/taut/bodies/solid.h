@@ -6,7 +6,8 @@
 
 namespace taut::world {
 
-// Sharp edges are rounded by the thickness as it touches: what is drawn is what others keep from.
+// Sharp edges are rounded by the thickness as it touches: what is drawn is what others keep from, of meshes by the
+// thickness.
 struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     static constexpr const char* kindName = "solid";
     std::string shape = "box";   // box, sphere, capsule, cylinder, cone, mesh, hull
@@ -28,6 +29,7 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     bool isRigid() const override { return true; }
+    double rounding() const override { return shape == "mesh" || shape == "hull" ? 0.0 : thickness; }
     std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
     const MeshSource* meshSource() const override { return this; }
 };

@@ -14,7 +14,7 @@
 #include "taut/world/world_info.h"
 
 namespace taut::world {
-class SurfaceGap;
+class BodySurfaces;
 class World;
 }
 
@@ -61,10 +61,10 @@ struct Outcome {
 struct Claim;
 class Now;
 
-// What targets name in a world, and what is between two of them, each found once as long as no body comes or goes.
+// What targets name in a world, and the surfaces of two of them, each found once as long as no body comes or goes.
 struct Selections {
     std::map<std::string, world::Selection> of;
-    std::map<std::pair<std::string, std::string>, std::shared_ptr<world::SurfaceGap>> gaps;
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<world::BodySurfaces>> surfaces;
 };
 
 class Check {

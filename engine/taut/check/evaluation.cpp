@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "taut/check/private/function_table.h"
+#include "taut/bodies/body.h"
 #include "taut/core/error.h"
-#include "taut/world/private/surface_gap.h"
+#include "taut/spec/targets.h"
+#include "taut/world/private/body_surfaces.h"
 #include "taut/world/world.h"
 
 namespace taut::check {
@@ -38,7 +40,22 @@ std::vector<std::array<glm::dvec3, 3>> Now::triangles(const std::string& bodies)
     return world_.triangles(selection(bodies));
 }
 
-world::SurfaceGap& Now::gap(const std::string& first, const std::string& second) const {
+world::BodySurfaces* Now::surfaces(const std::string& target) const {
+    const auto& parts = selection(target).parts;
+    const bool isWhole = world::parseTarget(target).selector.empty();
+    const auto endsElsewhere = [](const auto& part) { return part.body->spec->meetsCollidersAsWhole(); };
+    if (!isWhole || std::none_of(parts.begin(), parts.end(), endsElsewhere)) return nullptr;
+    return &surfacesOf(target, target);
+}
+
+world::BodySurfaces& Now::surfacesOf(const std::string& first, const std::string& second) const {
+    const world::Selection &a = selection(first), &b = selection(second);
+    std::shared_ptr<world::BodySurfaces>& surfaces = selections_.surfaces[{first, second}];
+    if (!surfaces || surfaces->generation() != a.generation) surfaces = std::make_shared<world::BodySurfaces>(a, b);
+    return *surfaces;
+}
+
+world::BodySurfaces& Now::gap(const std::string& first, const std::string& second) const {
     const world::Selection &a = selection(first), &b = selection(second);
     for (const auto& [name, found] : {std::pair(first, &a), std::pair(second, &b)})
         if (found->parts.empty())
@@ -47,9 +64,7 @@ world::SurfaceGap& Now::gap(const std::string& first, const std::string& second)
     if (a.parts.size() == 1 && b.parts.size() == 1 && a.parts[0].body == b.parts[0].body)
         throw core::Error(core::ErrorKind::badContent,
                           fmt::format("{} and {} are the same body, with nothing in between", first, second));
-    std::shared_ptr<world::SurfaceGap>& gap = selections_.gaps[{first, second}];
-    if (!gap || gap->generation() != a.generation) gap = std::make_shared<world::SurfaceGap>(a, b);
-    return *gap;
+    return surfacesOf(first, second);
 }
 
 bool Expression::isMeasured() const {

@@ -1,6 +1,6 @@
 // What is measured between bodies.
 #include "taut/check/private/function_table.h"
-#include "taut/world/private/surface_gap.h"
+#include "taut/world/private/body_surfaces.h"
 
 namespace taut::check {
 
@@ -9,7 +9,7 @@ namespace {
 using Arguments = std::span<const Expression>;
 
 Quantity gap(const Now& now, Arguments a) {
-    return {glm::dvec3(now.gap(a[0].target, a[1].target).measure(), 0, 0)};
+    return {glm::dvec3(now.gap(a[0].target, a[1].target).gap(), 0, 0)};
 }
 Quantity touching(const Now& now, Arguments a) {
     return {glm::dvec3(now.gap(a[0].target, a[1].target).areNear() ? 1 : 0, 0, 0)};

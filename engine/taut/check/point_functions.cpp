@@ -1,10 +1,14 @@
 // What is measured at points.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "taut/bodies/body.h"
 #include "taut/check/private/function_table.h"
 #include "taut/check/private/places.h"
+#include "taut/world/private/body_surfaces.h"
 
 namespace taut::check {
 
@@ -38,11 +42,9 @@ dvec3 weightedMean(const PointsNow& points, const std::vector<dvec3>& values) {
     return sum / mass;
 }
 
-double up(const PointsNow& points, std::size_t i) {
-    return points.x[i].y;
-}
-double down(const PointsNow& points, std::size_t i) {
-    return -points.x[i].y;
+template <int up>
+double upwards(const PointsNow& points, std::size_t i) {
+    return up * points.x[i].y;
 }
 double speed(const PointsNow& points, std::size_t i) {
     return std::sqrt(glm::dot(points.v[i], points.v[i]));
@@ -80,6 +82,21 @@ std::string placeOfLargest(const Now& now, Arguments a) {
     return extremePoint(now, a[0].target, measure);
 }
 
+// How far up or down whole bodies reach, or points. up: 1 or -1.
+template <int up>
+Quantity reach(const Now& now, Arguments a) {
+    if (world::BodySurfaces* surfaces = now.surfaces(a[0].target))
+        return numberOf((up > 0 ? surfaces->highest() : surfaces->lowest()).x.y);
+    return largestOf<upwards<up>, up>(now, a);
+}
+template <int up>
+std::string placeOfReach(const Now& now, Arguments a) {
+    world::BodySurfaces* surfaces = now.surfaces(a[0].target);
+    if (surfaces == nullptr) return placeOfLargest<upwards<up>>(now, a);
+    const auto [body, x] = up > 0 ? surfaces->highest() : surfaces->lowest();
+    return fmt::format("{} at [{:.4g}, {:.4g}, {:.4g}]", body->fullName(), x.x, x.y, x.z);
+}
+
 }  // namespace
 
 std::vector<Function> pointFunctions() {
@@ -97,10 +114,10 @@ std::vector<Function> pointFunctions() {
          {}},
         {"speed", points, false, false, "m/s", "Speed of the fastest of the points.", largestOf<speed>,
          placeOfLargest<speed>},
-        {"height", points, false, false, "m", "Height y of the highest of the points.", largestOf<up>,
-         placeOfLargest<up>},
-        {"lowest", points, false, false, "m", "Height y of the lowest of the points.", largestOf<down, -1>,
-         placeOfLargest<down>},
+        {"height", points, false, false, "m", "Height y of the highest of the points, or of a whole body.", reach<1>,
+         placeOfReach<1>},
+        {"lowest", points, false, false, "m", "Height y of the lowest of the points, or of a whole body.", reach<-1>,
+         placeOfReach<-1>},
     };
 }
 

@@ -114,6 +114,8 @@ struct BodySpec {
     virtual mechanics::Model build(const SceneSpec& scene) const = 0;
     // Whether its points keep their distances, so that what presses one presses all.
     virtual bool isRigid() const { return false; }
+    // [m] How far from the points and triangles of its model it ends.
+    virtual double rounding() const { return 0.0; }
     // Whether a surface that goes with its points meets others in their place.
     virtual bool hasCarriedSurface() const { return false; }
     // Whether it meets colliders in contact with bodies, not point by point as its island moves.

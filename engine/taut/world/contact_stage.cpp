@@ -80,13 +80,29 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     return surface;
 }
 
+void carry(const CarriedSurface& own, const std::function<int(int)>& numberOf, contact::ContactSurface& surface,
+           std::vector<dvec3>& rest, std::vector<contact::CarriedPoint>& carried) {
+    if (own.points.empty()) return;
+    const int first = static_cast<int>(rest.size());
+    rest.insert(rest.end(), own.rest.begin(), own.rest.end());
+    for (const mechanics::CarriedPoint& point : own.points) {
+        carried.push_back({point.points, point.weights});
+        for (int& i : carried.back().by) i = numberOf(i);
+    }
+    surface.points.resize(own.points.size());
+    std::iota(surface.points.begin(), surface.points.end(), first);
+    surface.triangles.clear();
+    for (const std::array<int, 3>& t : own.triangles)
+        surface.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
 ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec,
                            const TickTime& now, StepFollowing& pace,
                            const std::function<std::vector<TouchedCollider>()>& colliders)
     : spec_(spec), tickSeconds_(1.0 / now.ticksPerSecond), fewest_(fewestInstants(tickSeconds_)), pace_(pace) {
     std::vector<contact::ContactSurface> surfaces;
     std::vector<dvec3> rest;
-    std::vector<std::pair<std::size_t, CarriedSurface>> carried;  // by surface
+    std::vector<int> offsets;  // (bodies) of their island's points
     for (const auto& island : islands) {
         if (!touches(island->plan())) continue;
         const int offset = static_cast<int>(rest.size());
@@ -97,11 +113,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
             surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
             surfaces.back().solid = solidOf(island->plan(), *body, static_cast<int>(solids_.size()));
             if (body->spec->meetsCollidersAsWhole()) wholes_.push_back(static_cast<int>(bodies_.size()));
-            if (CarriedSurface own = carriedSurface(*body); !own.points.empty()) {
-                for (mechanics::CarriedPoint& point : own.points)
-                    for (int& i : point.points) i = offset + body->pointOf[static_cast<std::size_t>(i)];
-                carried.emplace_back(bodies_.size(), std::move(own));
-            }
+            offsets.push_back(offset);
             bodies_.push_back(body);
             for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
                 const int point = offset + body->pointOf[i];
@@ -120,16 +132,9 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     if (islands_.empty()) return;
     const int firstCarried = static_cast<int>(rest.size());
     std::vector<contact::CarriedPoint> carriedPoints;
-    for (const auto& [number, own] : carried) {
-        contact::ContactSurface& surface = surfaces[number];
-        const int first = static_cast<int>(rest.size());
-        rest.insert(rest.end(), own.rest.begin(), own.rest.end());
-        for (const mechanics::CarriedPoint& point : own.points) carriedPoints.push_back({point.points, point.weights});
-        surface.points.resize(own.points.size());
-        std::iota(surface.points.begin(), surface.points.end(), first);
-        surface.triangles.clear();
-        for (const std::array<int, 3>& t : own.triangles)
-            surface.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        const auto numberOf = [&](int i) { return offsets[k] + bodies_[k]->pointOf[static_cast<std::size_t>(i)]; };
+        carry(carriedSurface(*bodies_[k]), numberOf, surfaces[k], rest, carriedPoints);
     }
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return body->spec->facesMeetColliders(); }))
         colliders_ = ColliderSurfaces(colliders(), now.start(), surfaces, rest);

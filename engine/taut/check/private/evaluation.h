@@ -33,11 +33,15 @@ class Now {
     const world::PointsNow& points(const std::string& target) const;
     // (triangles) corners [m]; none if there are no such bodies.
     std::vector<std::array<glm::dvec3, 3>> triangles(const std::string& bodies) const;
-    // The same, or if they are one and the same body.
-    world::SurfaceGap& gap(const std::string& first, const std::string& second) const;
+    // Of a target that names whole bodies, with solids or meshes among them, which end elsewhere than at their points;
+    // null for others.
+    world::BodySurfaces* surfaces(const std::string& target) const;
+    // Throws core::Error(badContent) if there are no such bodies, or if they are one and the same.
+    world::BodySurfaces& gap(const std::string& first, const std::string& second) const;
 
   private:
     const world::Selection& selection(const std::string& target) const;
+    world::BodySurfaces& surfacesOf(const std::string& first, const std::string& second) const;
 
     const world::World& world_;
     Selections& selections_;

@@ -31,6 +31,7 @@
 #include <span>
 #include <vector>
 
+#include "taut/bodies/private/carried_surface.h"
 #include "taut/contact/contact_group.h"
 #include "taut/island/private/island.h"
 #include "taut/spec/spec.h"
@@ -47,6 +48,11 @@ bool touches(const IslandPlan& plan);
 
 // The surface of a body. Its points have their island numbers plus `offset`.
 contact::ContactSurface surfaceOf(const Body& body, int offset, int bond);
+
+// Puts what a body carries in place of its surface, if it carries any: its points follow those that are there in
+// `rest`. numberOf(point of the model): in `rest`.
+void carry(const CarriedSurface& own, const std::function<int(int)>& numberOf, contact::ContactSurface& surface,
+           std::vector<dvec3>& rest, std::vector<contact::CarriedPoint>& carried);
 
 class ContactStage {
   public:

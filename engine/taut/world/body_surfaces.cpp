@@ -1,12 +1,14 @@
-#include "taut/world/private/surface_gap.h"
+#include "taut/world/private/body_surfaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
-#include "taut/contact/crossings.h"
-#include "taut/contact/contact_group.h"
 #include "taut/bodies/body.h"
+#include "taut/bodies/private/carried_surface.h"
+#include "taut/contact/contact_group.h"
+#include "taut/contact/crossings.h"
 #include "taut/island/private/island.h"
 #include "taut/world/private/contact_stage.h"
 
@@ -45,7 +47,7 @@ std::size_t goneAroundIn(std::span<const Body* const> bodies) {
 
 }  // namespace
 
-SurfaceGap::SurfaceGap(const Selection& first, const Selection& second) : generation_(first.generation) {
+BodySurfaces::BodySurfaces(const Selection& first, const Selection& second) : generation_(first.generation) {
     TAUT_EXPECTS(first.generation == second.generation);
     const auto add = [&](const Selection& selection, std::vector<bool>& isOf) {
         for (const Selection::Part& part : selection.parts) {
@@ -63,7 +65,7 @@ SurfaceGap::SurfaceGap(const Selection& first, const Selection& second) : genera
     build();
 }
 
-void SurfaceGap::build() {
+void BodySurfaces::build() {
     std::vector<contact::ContactSurface> surfaces;
     std::vector<glm::dvec3> rest;
     for (const Body* body : bodies_) {
@@ -72,6 +74,15 @@ void SurfaceGap::build() {
         const std::vector<glm::dvec3>& start = body->model.positions;
         rest.insert(rest.end(), start.begin(), start.end());
     }
+    const int firstCarried = static_cast<int>(rest.size());
+    std::vector<contact::CarriedPoint> carried;
+    int first = 0;
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+        const auto numberOf = [&](int i) { return first + i; };
+        carry(carriedSurface(*bodies_[s]), numberOf, surfaces[s], rest, carried);
+        first += bodies_[s]->model.pointCount();
+    }
+    carried_ = {firstCarried, std::move(carried)};
     damage_.assign(bodies_.size(), 0);
     goneAround_ = goneAroundIn(bodies_);
     x_.resize(rest.size());
@@ -79,7 +90,7 @@ void SurfaceGap::build() {
     patches_ = std::make_unique<contact::Bvh>(*elements_);
 }
 
-void SurfaceGap::look() {
+void BodySurfaces::look() {
     if (goneAroundIn(bodies_) != goneAround_) build();
     std::size_t offset = 0;
     bool isOther = false;
@@ -94,12 +105,13 @@ void SurfaceGap::look() {
             static_cast<int>(s), [&](std::size_t triangle) { return body.damage.isTriangleGone(triangle); },
             [&](int a, int b) { return body.damage.isSevered(a - first, b - first); });
     }
+    for (int i = carried_.first(); i < carried_.end(); ++i) x_[static_cast<std::size_t>(i)] = carried_.valueAt(i, x_);
     if (!isOther) return;
     elements_->refresh();
     patches_->takeBalls();
 }
 
-bool SurfaceGap::cross(const std::vector<bool>& first, const std::vector<bool>& second) {
+bool BodySurfaces::cross(const std::vector<bool>& first, const std::vector<bool>& second) {
     const auto isOf = [](const std::vector<bool>& side, int surface) {
         return side[static_cast<std::size_t>(surface)];
     };
@@ -112,7 +124,7 @@ bool SurfaceGap::cross(const std::vector<bool>& first, const std::vector<bool>& 
 }
 
 // Expects sides without a common body.
-double SurfaceGap::distance(const std::vector<bool>& first, const std::vector<bool>& second) {
+double BodySurfaces::distance(const std::vector<bool>& first, const std::vector<bool>& second) {
     if (!any(first) || !any(second)) return std::numeric_limits<double>::infinity();
     if (cross(first, second)) return 0;
     return contact::distanceBetween(
@@ -121,7 +133,7 @@ double SurfaceGap::distance(const std::vector<bool>& first, const std::vector<bo
 }
 
 // Bodies on both sides are measured against the others, one at a time.
-double SurfaceGap::least(std::vector<bool> first, const std::vector<bool>& second) {
+double BodySurfaces::least(std::vector<bool> first, const std::vector<bool>& second) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         if (!first[s] || !second[s]) continue;
@@ -134,29 +146,62 @@ double SurfaceGap::least(std::vector<bool> first, const std::vector<bool>& secon
     return std::min(least, distance(first, second));
 }
 
-double SurfaceGap::measure() {
-    look();
-    return least(isFirst_, isSecond_);
-}
-
-// Compares the surfaces of one thickness with those of another.
-bool SurfaceGap::areNear() {
-    look();
-    const auto thickness = [&](std::size_t s) { return elements_->surface(static_cast<int>(s)).thickness; };
-    const auto thicknesses = [&](const std::vector<bool>& side) {
+template <class Radius, class Each>
+void BodySurfaces::forRadii(const Radius& radius, const Each& each) {
+    const auto radii = [&](const std::vector<bool>& side) {
         std::set<double> all;
         for (std::size_t s = 0; s < bodies_.size(); ++s)
-            if (side[s]) all.insert(thickness(s));
+            if (side[s]) all.insert(radius(s));
         return all;
     };
-    const auto ofThickness = [&](std::vector<bool> side, double t) {
-        for (std::size_t s = 0; s < bodies_.size(); ++s) side[s] = side[s] && thickness(s) == t;
+    const auto ofRadius = [&](std::vector<bool> side, double r) {
+        for (std::size_t s = 0; s < bodies_.size(); ++s) side[s] = side[s] && radius(s) == r;
         return side;
     };
-    for (double a : thicknesses(isFirst_))
-        for (double b : thicknesses(isSecond_))
-            if (least(ofThickness(isFirst_, a), ofThickness(isSecond_, b)) <= contact::nearShare * (a + b)) return true;
-    return false;
+    for (double a : radii(isFirst_))
+        for (double b : radii(isSecond_)) each(a, b, least(ofRadius(isFirst_, a), ofRadius(isSecond_, b)));
+}
+
+double BodySurfaces::gap() {
+    look();
+    double gap = std::numeric_limits<double>::infinity();
+    forRadii([&](std::size_t s) { return bodies_[s]->spec->rounding(); },
+             [&](double a, double b, double least) { gap = std::min(gap, std::max(0.0, least - a - b)); });
+    return gap;
+}
+
+bool BodySurfaces::areNear() {
+    look();
+    bool areNear = false;
+    forRadii([&](std::size_t s) { return elements_->surface(static_cast<int>(s)).thickness; },
+             [&](double a, double b, double least) { areNear = areNear || least <= contact::nearShare * (a + b); });
+    return areNear;
+}
+
+// up: 1 or -1.
+BodySurfaces::Place BodySurfaces::furthest(double up) {
+    look();
+    Place furthest{nullptr, {}};
+    std::size_t first = 0;
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+        const Body& body = *bodies_[s];
+        const auto look = [&](const glm::dvec3& x) {
+            const glm::dvec3 place = x + glm::dvec3(0.0, up * body.spec->rounding(), 0.0);
+            if (furthest.body == nullptr || !(up * place.y <= up * furthest.x.y)) furthest = {&body, place};
+        };
+        if (const mechanics::Revolution& round = body.model.revolution; round.ends[0] >= 0) {
+            const auto end = [&](std::size_t k) { return x_[first + static_cast<std::size_t>(round.ends[k])]; };
+            const glm::dvec3 axis = glm::normalize(end(1) - end(0));
+            const glm::dvec3 across = glm::dvec3(0.0, 1.0, 0.0) - axis.y * axis;  // upwards, in the plane of an end
+            const double length = glm::length(across);
+            for (std::size_t k = 0; k < 2; ++k)
+                look(length > 0 ? end(k) + up * round.radii[k] / length * across : end(k));
+        } else {
+            for (const int i : elements_->surface(static_cast<int>(s)).points) look(x_[static_cast<std::size_t>(i)]);
+        }
+        first += body.pointOf.size();
+    }
+    return furthest;
 }
 
 }  // namespace taut::world

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "taut/check/private/function_table.h"
 #include "taut/bodies/body.h"
+#include "taut/check/private/function_table.h"
 #include "taut/core/error.h"
 #include "taut/spec/targets.h"
 #include "taut/world/private/body_surfaces.h"

@@ -1,7 +1,7 @@
 // The surfaces of whole bodies as they are now; made once, for many questions. Bodies need not touch.
 //
-// A cloth, a rope or a net ends at its points, without its thickness. A solid ends where it is drawn, with edges rounded
-// by its thickness (BodySpec::rounding()). A block that is made of a mesh ends at that, until it is torn.
+// A cloth, a rope or a net ends at its points, without its thickness. A solid ends where it is drawn, with edges
+// rounded by its thickness (BodySpec::rounding()). A block that is made of a mesh ends at that, until it is torn.
 #pragma once
 
 #include <memory>
@@ -42,7 +42,8 @@ class BodySurfaces {
     bool cross(const std::vector<bool>& first, const std::vector<bool>& second);
     double distance(const std::vector<bool>& first, const std::vector<bool>& second);
     double least(std::vector<bool> first, const std::vector<bool>& second);
-    // Calls each(a, b, least distance) for the surfaces of one `radius` a of the first with those of one b of the second.
+    // Calls each(a, b, least distance) for the surfaces of one `radius` a of the first with those of one b of the
+    // second.
     template <class Radius, class Each>
     void forRadii(const Radius& radius, const Each& each);
     Place furthest(double up);

@@ -98,7 +98,9 @@ void BodySurfaces::look() {
         const Body& body = *bodies_[s];
         const int first = static_cast<int>(offset);
         for (int i : body.pointOf) x_[offset++] = body.island->position(i);
-        if (damage_[s] == body.damage.edges().size()) continue;
+        const std::vector<int>& points = elements_->surface(static_cast<int>(s)).points;
+        const bool isCarried = !points.empty() && carried_.has(points.front());  // until torn, and built anew
+        if (isCarried || damage_[s] == body.damage.edges().size()) continue;
         damage_[s] = body.damage.edges().size();
         isOther = true;
         elements_->setGone(

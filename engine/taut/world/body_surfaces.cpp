@@ -187,7 +187,7 @@ BodySurfaces::Place BodySurfaces::furthest(double up) {
     std::size_t first = 0;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         const Body& body = *bodies_[s];
-        const auto look = [&](const glm::dvec3& x) {
+        const auto compare = [&](const glm::dvec3& x) {
             const glm::dvec3 place = x + glm::dvec3(0.0, up * body.spec->rounding(), 0.0);
             if (furthest.body == nullptr || !(up * place.y <= up * furthest.x.y)) furthest = {&body, place};
         };
@@ -197,9 +197,9 @@ BodySurfaces::Place BodySurfaces::furthest(double up) {
             const glm::dvec3 across = glm::dvec3(0.0, 1.0, 0.0) - axis.y * axis;  // upwards, in the plane of an end
             const double length = glm::length(across);
             for (std::size_t k = 0; k < 2; ++k)
-                look(length > 0 ? end(k) + up * round.radii[k] / length * across : end(k));
+                compare(length > 0 ? end(k) + up * round.radii[k] / length * across : end(k));
         } else {
-            for (const int i : elements_->surface(static_cast<int>(s)).points) look(x_[static_cast<std::size_t>(i)]);
+            for (const int i : elements_->surface(static_cast<int>(s)).points) compare(x_[static_cast<std::size_t>(i)]);
         }
         first += body.pointOf.size();
     }

@@ -1,7 +1,8 @@
 #!/bin/sh
 # Builds taut and cuts a minute of film with titles from the shipped scenes: out/film/taut.mp4. `film.sh demo` cuts its
 # first 15 s, out/demo/taut.mp4, and keeps the frames of every shot. `film.sh stills` makes the pictures of scenes in the
-# README and that of the fabrics in the manual. TAUT_SIZE=1280x720 makes film and pictures smaller.
+# README and, for the manual, those of fabrics and of a figure that is dressed. TAUT_SIZE=1280x720 makes film and
+# pictures smaller.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 case ${1-film} in
@@ -26,6 +27,8 @@ if [ "${1-film}" = stills ]; then
     "$taut" render "$root/assets/pictures/fabrics.toml" -o "$out/fabrics.png" --at 2.5 --size 1400x680 --samples 16 \
         -y --quiet
     ffmpeg -v error -y -i "$out/fabrics.png" -q:v 3 "$root/assets/pictures/fabrics.jpg"
+    "$taut" render dress -o "$out/dress-#.png" --at 0,0.6,1.5,4 --size 480x720 --samples 16 -y --quiet
+    ffmpeg -v error -y -i "$out/dress-%d.png" -vf tile=4x1 -frames:v 1 -q:v 3 "$root/assets/pictures/dress.jpg"
     # Scene and moment, twelve of them side by side; the last one as its springs.
     inputs= n=0
     for still in bear:4.4 domino:1.75 balloon:1.35 dress:10.9 bridge:2 cradle:1 curtain:1.5 twist:3.8 jelly:1 \
@@ -41,7 +44,7 @@ if [ "${1-film}" = stills ]; then
     ffmpeg -v error -y $inputs -filter_complex \
         "xstack=inputs=12:grid=4x3" -q:v 3 \
         "$root/assets/pictures/scenes.jpg"
-    echo "Stills: $root/assets/pictures/*-still.jpg, fabrics.jpg, scenes.jpg"
+    echo "Stills: $root/assets/pictures/*-still.jpg, fabrics.jpg, dress.jpg, scenes.jpg"
     exit 0
 fi
 

@@ -32,7 +32,7 @@ if [ "${1-film}" = stills ]; then
     # Scene and moment, twelve of them side by side; the last one as its springs.
     inputs= n=0
     for still in bear:4.4 domino:1.75 balloon:1.35 dress:10.9 bridge:2 cradle:1 curtain:1.5 twist:3.8 jelly:1 \
-        poncho:1.2 drape:1.7 drape:1.7:--debug; do
+        ring:2.8 drape:1.7 drape:1.7:--debug; do
         scene=${still%%:*} rest=${still#*:}
         moment=${rest%%:*} flag=${rest#"$moment"}
         # shellcheck disable=SC2086  # a word or none

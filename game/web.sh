@@ -47,4 +47,4 @@ cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTAUT_UNITY=24
     -DTAUT_BULLET_SOURCE="$bullet/src" -DTAUT_DEFLATE_SOURCE="$deflate" >"$build.log" 2>&1 ||
     { tail -n 30 "$build.log" >&2; exit 1; }
 cmake --build "$build" >>"$build.log" 2>&1 || { grep -A 12 -E 'error|FAILED' "$build.log" | head -n 60 >&2; exit 1; }
-echo "$build/game/web/taut: $(gzip -9 -c "$build/game/web/taut/taut.wasm" | wc -c) bytes of WebAssembly, compressed"
+echo "$build/game/web/taut: $(wc -c <"$build/game/web/taut/taut.wasm.gz") bytes of WebAssembly, compressed"

@@ -1,10 +1,12 @@
-// Builds the rows of the field table. Each field is one call, which turns a member pointer into functions that write
-// and read it.
+// Builds the rows of the field table. Each field is one call with a pointer to its member. A row keeps how many bytes
+// that is into the struct; how members are written and read is said once for each type, in field_list.cpp.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,20 +19,26 @@
 
 namespace taut::fields {
 
-// Numbers of a vector member, in order.
-template <int N, class Scalar>
-std::vector<double> numbersOf(const glm::vec<N, Scalar, glm::defaultp>& vector) {
-    std::vector<double> numbers;
-    for (int i = 0; i < N; ++i) numbers.push_back(static_cast<double>(vector[i]));
-    return numbers;
-}
+// Lets the row write and read a member. Numbers of the struct are `factor` times those of a file. A value that is not
+// given is an optional without one; of lists of places and numbers, an empty one.
+template <class Member>
+void bind(Field& row, std::size_t offset, double factor = 1.0);
+void bindStepLength(Field& row, std::size_t offset);               // std::optional<double>
+void bindFlagOr(Field& row, std::size_t flag, std::size_t other);  // two of bool: the choice sets the other
+void bindChoice(Field& row, std::size_t offset);                   // an enumeration of int, in the order of the choices
+void bindEntry(Field& row, std::size_t offset, double standard);   // NumberMap, at the row's key
+template <class Place>
+void bindSegment(Field& row, std::size_t start, std::size_t end);  // two places
+void enterAt(Field& row, std::size_t offset);                      // the struct of a table inside
 
-template <class Vector>
-Vector vectorOf(const std::vector<double>& numbers, std::size_t first = 0) {
-    Vector vector;
-    for (int i = 0; i < Vector::length(); ++i)
-        vector[i] = static_cast<typename Vector::value_type>(numbers[first + static_cast<std::size_t>(i)]);
-    return vector;
+Field& addField(std::vector<Field>& rows, std::string_view key, FieldKind kind, std::string_view unit, Range range,
+                std::string_view help);
+
+using NumberMap = std::map<std::string, double, std::less<>>;
+
+template <class Member>
+Member& memberAt(void* spec, std::size_t offset) {
+    return *reinterpret_cast<Member*>(static_cast<std::byte*>(spec) + offset);
 }
 
 template <class Spec>
@@ -40,42 +48,22 @@ class FieldList {
     template <class Number, class Base>  // double or std::optional<double>, of the struct or its base
     FieldList& number(const char* key, Number Base::*member, const char* unit, Range range, const char* help,
                       double factor = 1.0) {
-        return add(
-            key, FieldKind::number, unit, range, help,
-            [=](Spec& s, const Value& value) { s.*member = std::get<double>(value) * factor; },
-            [=](const Spec& s) -> Value {
-                if constexpr (std::is_same_v<Number, double>)
-                    return s.*member / factor;
-                else
-                    return s.*member ? Value(*(s.*member) / factor) : Value();
-            });
+        bind<Number>(add(key, FieldKind::number, unit, range, help), offsetOf(member), factor);
+        return *this;
     }
     // A number of a part of the struct.
     template <class Number, class Part, class Base>  // double or std::optional<double>
     FieldList& number(const char* key, Part Base::*part, Number Part::*member, const char* unit, Range range,
                       const char* help) {
-        return add(
-            key, FieldKind::number, unit, range, help,
-            [=](Spec& s, const Value& value) { (s.*part).*member = std::get<double>(value); },
-            [=](const Spec& s) -> Value {
-                if constexpr (std::is_same_v<Number, double>)
-                    return (s.*part).*member;
-                else
-                    return (s.*part).*member ? Value(*((s.*part).*member)) : Value();
-            });
+        bind<Number>(add(key, FieldKind::number, unit, range, help), offsetOf(part, member));
+        return *this;
     }
     // One of several numbers in a map, found by its key; `standard` is its value if it is not given.
-    template <class Numbers, class Base>
-    FieldList& entry(std::string_view key, Numbers Base::*member, std::string_view unit, Range range, double standard,
+    template <class Base>
+    FieldList& entry(std::string_view key, NumberMap Base::*member, std::string_view unit, Range range, double standard,
                      std::string_view help) {
-        const std::string name(key);
-        return add(
-            name.c_str(), FieldKind::number, std::string(unit).c_str(), range, std::string(help).c_str(),
-            [=](Spec& s, const Value& value) { (s.*member)[name] = std::get<double>(value); },
-            [=](const Spec& s) -> Value {
-                const auto found = (s.*member).find(name);
-                return found == (s.*member).end() ? standard : found->second;
-            });
+        bindEntry(add(key, FieldKind::number, unit, range, help), offsetOf(member), standard);
+        return *this;
     }
     template <class Number, class Base>
     FieldList& degrees(const char* key, Number Base::*member, Range range, const char* help) {
@@ -83,290 +71,152 @@ class FieldList {
     }
     template <class Whole, class Base>  // int or std::int64_t, or std::optional<int>
     FieldList& whole(const char* key, Whole Base::*member, const char* unit, Range range, const char* help) {
-        return add(
-            key, FieldKind::whole, unit, range, help,
-            [=](Spec& s, const Value& value) {
-                if constexpr (std::is_integral_v<Whole>)
-                    s.*member = static_cast<Whole>(std::get<std::int64_t>(value));
-                else
-                    s.*member = static_cast<int>(std::get<std::int64_t>(value));
-            },
-            [=](const Spec& s) -> Value {
-                if constexpr (std::is_integral_v<Whole>)
-                    return static_cast<std::int64_t>(s.*member);
-                else
-                    return s.*member ? Value(static_cast<std::int64_t>(*(s.*member))) : Value();
-            });
+        bind<Whole>(add(key, FieldKind::whole, unit, range, help), offsetOf(member));
+        return *this;
     }
     // A whole number of a part of the struct.
     template <class Part, class Base>
     FieldList& whole(const char* key, Part Base::*part, int Part::*member, const char* unit, Range range,
                      const char* help) {
-        return add(
-            key, FieldKind::whole, unit, range, help,
-            [=](Spec& s, const Value& value) { (s.*part).*member = static_cast<int>(std::get<std::int64_t>(value)); },
-            [=](const Spec& s) -> Value { return static_cast<std::int64_t>((s.*part).*member); });
+        bind<int>(add(key, FieldKind::whole, unit, range, help), offsetOf(part, member));
+        return *this;
     }
     FieldList& flag(const char* key, bool Spec::*member, const char* help) {
-        return add(
-            key, FieldKind::flag, "", anyNumber, help,
-            [=](Spec& s, const Value& value) { s.*member = std::get<bool>(value); },
-            [=](const Spec& s) -> Value { return s.*member; });
+        bind<bool>(add(key, FieldKind::flag, "", anyNumber, help), offsetOf(member));
+        return *this;
     }
     // A flag, or a word that sets both it and another.
     FieldList& flagOr(const char* key, bool Spec::*member, const char* word, bool Spec::*other, const char* help) {
-        add(
-            key, FieldKind::flagOrChoice, "", anyNumber, help,
-            [=](Spec& s, const Value& value) {
-                const bool* flag = std::get_if<bool>(&value);
-                s.*member = flag == nullptr || *flag;
-                s.*other = flag == nullptr;
-            },
-            [=](const Spec& s) -> Value { return s.*other ? Value(std::string(word)) : Value(s.*member); });
-        last().choices = {word};
+        add(key, FieldKind::flagOrChoice, "", anyNumber, help).choices = {word};
+        bindFlagOr(last(), offsetOf(member), offsetOf(other));
         return *this;
     }
     template <class Text, class Base>  // std::string or std::optional<std::string>
     FieldList& text(const char* key, Text Base::*member, Role role, const char* help) {
-        return add(
-                   key, FieldKind::text, "", anyNumber, help,
-                   [=](Spec& s, const Value& value) { s.*member = std::get<std::string>(value); },
-                   [=](const Spec& s) -> Value {
-                       if constexpr (std::is_same_v<Text, std::string>)
-                           return s.*member;
-                       else
-                           return s.*member ? Value(*(s.*member)) : Value();
-                   })
-            .role(role);
+        bind<Text>(add(key, FieldKind::text, "", anyNumber, help), offsetOf(member));
+        return this->role(role);
     }
     template <class Text, class Base>
     FieldList& choice(const char* key, Text Base::*member, std::vector<std::string> choices, const char* help) {
-        text(key, member, Role::none, help);
-        last().kind = FieldKind::choice;
-        last().choices = std::move(choices);
-        return *this;
-    }
-    // The choices are the enumerators in order, counted from 0.
-    template <class Enum, class Base>
-    requires std::is_enum_v<Enum> FieldList& choice(const char* key, Enum Base::*member,
-                                                    std::vector<std::string> choices, const char* help) {
-        add(
-            key, FieldKind::choice, "", anyNumber, help,
-            [=](Spec& s, const Value& value) {
-                for (std::size_t i = 0; i < choices.size(); ++i)
-                    if (choices[i] == std::get<std::string>(value)) s.*member = static_cast<Enum>(i);
-            },
-            [=](const Spec& s) -> Value { return choices[static_cast<std::size_t>(s.*member)]; });
-        last().choices = std::move(choices);
+        add(key, FieldKind::choice, "", anyNumber, help).choices = std::move(choices);
+        if constexpr (std::is_enum_v<Text>) {  // the choices are the enumerators in order, counted from 0
+            static_assert(sizeof(Text) == sizeof(int));
+            bindChoice(last(), offsetOf(member));
+        } else {
+            bind<Text>(last(), offsetOf(member));
+        }
         return *this;
     }
     // "auto", which is none, or a number.
     FieldList& stepLength(const char* key, std::optional<double> Spec::*member, const char* help) {
-        return add(
-            key, FieldKind::stepLength, "s", Range{1e-9, 1.0}, help,
-            [=](Spec& s, const Value& value) {
-                if (const double* number = std::get_if<double>(&value))
-                    s.*member = *number;
-                else
-                    s.*member = std::nullopt;
-            },
-            [=](const Spec& s) -> Value { return s.*member ? Value(*(s.*member)) : Value(std::string("auto")); });
+        bindStepLength(add(key, FieldKind::stepLength, "s", Range{1e-9, 1.0}, help), offsetOf(member));
+        return *this;
     }
     template <int N, class Scalar, class Base>
     FieldList& vector(const char* key, glm::vec<N, Scalar, glm::defaultp> Base::*member, const char* unit, Range range,
                       const char* help, double factor = 1.0) {
-        using Vector = glm::vec<N, Scalar, glm::defaultp>;
-        constexpr bool isWhole = std::is_integral_v<Scalar>;
-        add(
-            key, isWhole ? FieldKind::wholeVector : FieldKind::vector, unit, range, help,
-            [=](Spec& s, const Value& value) {
-                s.*member = vectorOf<Vector>(std::get<std::vector<double>>(value));
-                if constexpr (!isWhole) s.*member *= factor;
-            },
-            [=](const Spec& s) -> Value {
-                std::vector<double> numbers = numbersOf(s.*member);
-                for (double& number : numbers) number /= factor;
-                return numbers;
-            });
-        last().components = N;
-        return *this;
+        const FieldKind kind = std::is_integral_v<Scalar> ? FieldKind::wholeVector : FieldKind::vector;
+        return ofNumbers<N>(key, kind, member, unit, range, help, factor);
     }
     // A vector that may be left out.
     template <int N, class Base>
     FieldList& vector(const char* key, std::optional<glm::vec<N, double, glm::defaultp>> Base::*member,
                       const char* unit, Range range, const char* help, double factor = 1.0) {
-        using Vector = glm::vec<N, double, glm::defaultp>;
-        add(
-            key, FieldKind::vector, unit, range, help,
-            [=](Spec& s, const Value& value) {
-                s.*member = vectorOf<Vector>(std::get<std::vector<double>>(value)) * factor;
-            },
-            [=](const Spec& s) -> Value { return s.*member ? Value(numbersOf(*(s.*member) / factor)) : Value(); });
-        last().components = N;
-        return *this;
+        return ofNumbers<N>(key, FieldKind::vector, member, unit, range, help, factor);
     }
     template <class Vector, class Base>  // dvec3 or std::optional<dvec3>
     FieldList& rotation(const char* key, Vector Base::*member, const char* help) {
         return vector(key, member, "degrees", Range{-1e6, 1e6}, help, core::radians(1.0));
     }
     FieldList& direction(const char* key, glm::dvec3 Spec::*member, const char* help) {
-        vector(key, member, "", Range{-1e6, 1e6}, help);
-        last().kind = FieldKind::direction;
-        return *this;
+        return ofNumbers<3>(key, FieldKind::direction, member, "", Range{-1e6, 1e6}, help);
     }
     template <class Colour, class Base>  // dvec3 or std::optional<dvec3>
     FieldList& colour(const char* key, Colour Base::*member, const char* help) {
-        add(
-            key, FieldKind::colour, "", share, help,
-            [=](Spec& s, const Value& value) {
-                s.*member = vectorOf<glm::dvec3>(std::get<std::vector<double>>(value));
-            },
-            [=](const Spec& s) -> Value {
-                if constexpr (std::is_same_v<Colour, glm::dvec3>)
-                    return numbersOf(s.*member);
-                else
-                    return s.*member ? Value(numbersOf(*(s.*member))) : Value();
-            });
-        last().components = 3;
-        return *this;
+        return ofNumbers<3>(key, FieldKind::colour, member, "", share, help);
     }
     FieldList& segment(const char* key, glm::dvec3 Spec::*start, glm::dvec3 Spec::*end, const char* help) {
-        add(
-            key, FieldKind::segment, "m", Range{-1e6, 1e6}, help,
-            [=](Spec& s, const Value& value) {
-                s.*start = vectorOf<glm::dvec3>(std::get<std::vector<double>>(value));
-                s.*end = vectorOf<glm::dvec3>(std::get<std::vector<double>>(value), 3);
-            },
-            [=](const Spec& s) -> Value {
-                std::vector<double> numbers = numbersOf(s.*start);
-                for (const double number : numbersOf(s.*end)) numbers.push_back(number);
-                return numbers;
-            });
-        last().components = 3;
-        return *this;
+        return segmentOf<3>(key, start, end, "m", Range{-1e6, 1e6}, help);
     }
     // Two points that may be left out, of two or three numbers each.
     template <int N>
     FieldList& segment(const char* key, std::optional<glm::vec<N, double, glm::defaultp>> Spec::*start,
                        std::optional<glm::vec<N, double, glm::defaultp>> Spec::*end, const char* unit, Range range,
                        const char* help) {
-        using Vector = glm::vec<N, double, glm::defaultp>;
-        add(
-            key, FieldKind::segment, unit, range, help,
-            [=](Spec& s, const Value& value) {
-                s.*start = vectorOf<Vector>(std::get<std::vector<double>>(value));
-                s.*end = vectorOf<Vector>(std::get<std::vector<double>>(value), N);
-            },
-            [=](const Spec& s) -> Value {
-                if (!(s.*start) || !(s.*end)) return {};
-                std::vector<double> numbers = numbersOf(*(s.*start));
-                for (const double number : numbersOf(*(s.*end))) numbers.push_back(number);
-                return numbers;
-            });
-        last().components = N;
-        return *this;
+        return segmentOf<N>(key, start, end, unit, range, help);
     }
     template <int N, class Base>
     FieldList& places(const char* key, std::vector<glm::vec<N, double, glm::defaultp>> Base::*member, const char* unit,
                       Range range, const char* help) {
-        using Vector = glm::vec<N, double, glm::defaultp>;
-        add(
-            key, FieldKind::places, unit, range, help,
-            [=](Spec& s, const Value& value) {
-                const auto& numbers = std::get<std::vector<double>>(value);
-                (s.*member).clear();
-                for (std::size_t i = 0; i < numbers.size(); i += N)
-                    (s.*member).push_back(vectorOf<Vector>(numbers, i));
-            },
-            [=](const Spec& s) -> Value {
-                if ((s.*member).empty()) return {};
-                std::vector<double> numbers;
-                for (const Vector& place : s.*member)
-                    for (const double number : numbersOf(place)) numbers.push_back(number);
-                return numbers;
-            });
-        last().components = N;
-        return *this;
+        return ofNumbers<N>(key, FieldKind::places, member, unit, range, help);
     }
     FieldList& wholes(const char* key, std::vector<int> Spec::*member, Range range, const char* help) {
-        return add(
-            key, FieldKind::wholes, "", range, help,
-            [=](Spec& s, const Value& value) {
-                (s.*member).clear();
-                for (const double number : std::get<std::vector<double>>(value))
-                    (s.*member).push_back(static_cast<int>(number));
-            },
-            [=](const Spec& s) -> Value { return std::vector<double>((s.*member).begin(), (s.*member).end()); });
+        bind<std::vector<int>>(add(key, FieldKind::wholes, "", range, help), offsetOf(member));
+        return *this;
     }
     // What another field may hold.
     FieldList& numbers(const char* key, std::vector<double> Spec::*member, const char* help) {
-        return add(
-            key, FieldKind::numbers, "", anyNumber, help,
-            [=](Spec& s, const Value& value) { s.*member = std::get<std::vector<double>>(value); },
-            [=](const Spec& s) -> Value { return (s.*member).empty() ? Value() : Value(s.*member); });
+        bind<std::vector<double>>(add(key, FieldKind::numbers, "", anyNumber, help), offsetOf(member));
+        return *this;
     }
     FieldList& texts(const char* key, std::vector<std::string> Spec::*member, Role role, const char* help) {
-        return add(
-                   key, FieldKind::texts, "", anyNumber, help,
-                   [=](Spec& s, const Value& value) { s.*member = std::get<std::vector<std::string>>(value); },
-                   [=](const Spec& s) -> Value { return s.*member; })
-            .role(role);
+        bind<std::vector<std::string>>(add(key, FieldKind::texts, "", anyNumber, help), offsetOf(member));
+        return this->role(role);
     }
 
     // A text or several, of a part of the struct.
     template <class Part, class Base>
     FieldList& targets(const char* key, Part Base::*part, std::vector<std::string> Part::*member, Role role,
                        const char* help) {
-        return add(
-                   key, FieldKind::oneOrMoreTexts, "", anyNumber, help,
-                   [=](Spec& s, const Value& value) {
-                       (s.*part).*member = std::get<std::vector<std::string>>(value);
-                   },
-                   [=](const Spec& s) -> Value { return (s.*part).*member; })
-            .role(role);
+        bind<std::vector<std::string>>(add(key, FieldKind::oneOrMoreTexts, "", anyNumber, help),
+                                       offsetOf(part, member));
+        return this->role(role);
     }
 
     // A table inside that may be left out, of a part of the struct.
     template <class Inside, class Part, class Base>
     FieldList& tableOr(const char* key, Part Base::*part, std::optional<Inside> Part::*member, Section section,
                        const char* help) {
-        return addInside(
-            key, FieldKind::table, std::move(section), help,
-            [=](Spec& s, const core::Source&) -> void* { return &((s.*part).*member).emplace(); });
+        addInside(key, FieldKind::table, std::move(section), help).enter =
+            [offset = offsetOf(part, member)](void* spec, const core::Source&) -> void* {
+            return &memberAt<std::optional<Inside>>(spec, offset).emplace();
+        };
+        return *this;
     }
     // A table inside, for a member of the struct, or for the struct itself.
     template <class Part, class Base>
     FieldList& table(const char* key, Part Base::*member, Section section, const char* help) {
-        return addInside(
-            key, FieldKind::table, std::move(section), help,
-            [=](Spec& s, const core::Source&) -> void* { return &(s.*member); });
+        return tableAt(key, offsetOf(member), std::move(section), help);
     }
     template <class Part, class Base>
     FieldList& table(const char* key, std::optional<Part> Base::*member, Section section, const char* help) {
-        return addInside(
-            key, FieldKind::table, std::move(section), help,
-            [=](Spec& s, const core::Source&) -> void* { return s.*member ? &*(s.*member) : &(s.*member).emplace(); });
+        addInside(key, FieldKind::table, std::move(section), help).enter =
+            [offset = offsetOf(member)](void* spec, const core::Source&) -> void* {
+            auto& part = memberAt<std::optional<Part>>(spec, offset);
+            return part ? &*part : &part.emplace();
+        };
+        return *this;
     }
     FieldList& tableOfSelf(const char* key, Section section, const char* help) {
-        return addInside(
-            key, FieldKind::table, std::move(section), help, [](Spec& s, const core::Source&) -> void* { return &s; });
+        return tableAt(key, 0, std::move(section), help);
     }
     template <class Entry, class Base>
     FieldList& tables(const char* key, std::vector<Entry> Base::*member, Section section, const char* help) {
-        addInside(key, FieldKind::tables, std::move(section), help, [=](Spec& s, const core::Source& source) -> void* {
-            Entry& entry = (s.*member).emplace_back();
+        Field& row = addInside(key, FieldKind::tables, std::move(section), help);
+        row.enter = [offset = offsetOf(member)](void* spec, const core::Source& source) -> void* {
+            Entry& entry = memberAt<std::vector<Entry>>(spec, offset).emplace_back();
             if constexpr (requires { entry.source; }) entry.source = source;
             return &entry;
-        });
-        last().entries = [=](void* spec) {
+        };
+        row.entries = [offset = offsetOf(member)](void* spec) {
             std::vector<void*> entries;
-            for (Entry& entry : static_cast<Spec*>(spec)->*member) entries.push_back(&entry);
+            for (Entry& entry : memberAt<std::vector<Entry>>(spec, offset)) entries.push_back(&entry);
             return entries;
         };
         return *this;
     }
 
-    // These four functions change the field that was added last.
+    // These functions change the field that was added last.
     FieldList& required() {
         last().required = true;
         return *this;
@@ -399,34 +249,48 @@ class FieldList {
 
   private:
     Field& last() { return fields_.back(); }
-
-    template <class Write, class Read>
-    FieldList& add(const char* key, FieldKind kind, const char* unit, Range range, const char* help, Write write,
-                   Read read) {
-        Field& field = fields_.emplace_back();
-        field.key = key;
-        field.kind = kind;
-        field.unit = unit;
-        field.range = range;
-        field.help = help;
-        field.write = [write](void* spec, const Value& value) { write(*static_cast<Spec*>(spec), value); };
-        field.read = [read](const void* spec) { return read(*static_cast<const Spec*>(spec)); };
+    Field& add(std::string_view key, FieldKind kind, std::string_view unit, Range range, std::string_view help) {
+        return addField(fields_, key, kind, unit, range, help);
+    }
+    Field& addInside(const char* key, FieldKind kind, Section section, const char* help) {
+        add(key, kind, "", anyNumber, help).inside.push_back(std::move(section));
+        return last();
+    }
+    FieldList& tableAt(const char* key, std::size_t offset, Section section, const char* help) {
+        enterAt(addInside(key, FieldKind::table, std::move(section), help), offset);
         return *this;
     }
-    template <class Enter>
-    FieldList& addInside(const char* key, FieldKind kind, Section section, const char* help, Enter enter) {
-        Field& field = fields_.emplace_back();
-        field.key = key;
-        field.kind = kind;
-        field.help = help;
-        field.inside.push_back(std::move(section));
-        field.enter = [enter](void* spec, const core::Source& source) {
-            return enter(*static_cast<Spec*>(spec), source);
-        };
+    template <int N, class Member, class Base>
+    FieldList& ofNumbers(const char* key, FieldKind kind, Member Base::*member, const char* unit, Range range,
+                         const char* help, double factor = 1.0) {
+        bind<Member>(add(key, kind, unit, range, help), offsetOf(member), factor);
+        last().components = N;
         return *this;
+    }
+    template <int N, class Place>
+    FieldList& segmentOf(const char* key, Place Spec::*start, Place Spec::*end, const char* unit, Range range,
+                         const char* help) {
+        bindSegment<Place>(add(key, FieldKind::segment, unit, range, help), offsetOf(start), offsetOf(end));
+        last().components = N;
+        return *this;
+    }
+    // [bytes] from the start of the struct.
+    template <class Member>
+    std::size_t distanceTo(const Member& member) const {
+        return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&member) -
+                                        reinterpret_cast<const std::byte*>(&sample_));
+    }
+    template <class Member, class Base>
+    std::size_t offsetOf(Member Base::*member) const {
+        return distanceTo(sample_.*member);
+    }
+    template <class Part, class Base, class Member>
+    std::size_t offsetOf(Part Base::*part, Member Part::*member) const {
+        return distanceTo((sample_.*part).*member);
     }
 
     std::vector<Field> fields_;
+    const Spec sample_{};  // in which it is seen where members are
 };
 
 }  // namespace taut::fields

@@ -5,8 +5,12 @@
 #include <cmath>
 
 #include "support/network.h"
+#include "taut/bodies/rope.h"
+#include "taut/forces/wind.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/private/stability.h"
+#include "taut/spec/spec.h"
+#include "taut/world/world.h"
 
 namespace taut::test::hanging {
 namespace {
@@ -51,6 +55,40 @@ TEST(HangingRope, StretchesUnderItsOwnWeightByTheTheoryAtEveryResolution) {
         // In the middle three quarters of it have come together.
         if (segments % 2 == 0)
             EXPECT_NEAR(x[x.size() / 2].y, 2 - 0.5 * length - 0.75 * stretch, 1e-9) << segments << " segments";
+    }
+}
+
+// In an even wind a rope hangs straight, at the angle θ where weight and drag across it are the same all along:
+// μ g sin θ = ½ρ C_D d (U cos θ)². Nothing acts along it.
+TEST(HangingRope, StandsStraightAndAslantInAWind) {
+    constexpr double mass = 0.05, diameter = 0.02, speed = 6.0;
+    world::SceneSpec spec;
+    world::RopeSpec rope;
+    rope.name = "line";
+    rope.start = {0, 2, 0};
+    rope.end = {0, 1, 0};
+    rope.segments = 10;
+    rope.mass = mass;
+    rope.stretch = 500.0;
+    rope.dampingTime = 1e-3;
+    rope.drag = 1.0;
+    rope.thickness = diameter / 2;
+    rope.hold = {"start"};
+    spec.bodies.add(rope);
+    world::WindSpec wind;
+    wind.name = "air";
+    wind.velocity = {speed, 0, 0};
+    wind.drag = 1.1;
+    wind.on = {"rope.line"};
+    spec.forces.add(wind);
+    world::World world(spec);
+    for (int i = 0; i < 600; ++i) ASSERT_FALSE(world.advance());
+    const double ratio = 0.5 * 1.2 * 1.1 * diameter * speed * speed / (mass * g);
+    const double sine = (std::sqrt(1.0 + 4.0 * ratio * ratio) - 1.0) / (2.0 * ratio);
+    const std::vector<dvec3> x = world.points("rope.line").x;
+    for (std::size_t i = 1; i < x.size(); ++i) {
+        const dvec3 way = x[i] - x[0];
+        EXPECT_NEAR(way.x / glm::length(way), sine, 1e-3) << i;  // it is a thousandth longer than at rest
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -11,6 +12,7 @@
 #include "taut/bodies/solid.h"
 #include "taut/core/private/rigid_motion.h"
 #include "taut/core/trig.h"
+#include "taut/forces/wind.h"
 #include "touching_scenes.h"
 
 namespace taut::test::touching {
@@ -36,7 +38,8 @@ SolidSpec box(const std::string& name, const dvec3& position, const dvec3& size)
     return spec;
 }
 
-SolidSpec round(const std::string& shape, const std::string& name, const dvec3& position, double radius, double height) {
+SolidSpec round(const std::string& shape, const std::string& name, const dvec3& position, double radius,
+                double height) {
     SolidSpec spec = ball(name, position, radius);
     spec.shape = shape;
     spec.height = height;
@@ -59,6 +62,31 @@ world::ColliderSpec slope(double angle, double friction) {
 void advanceBy(World& world, double seconds) {
     for (int i = static_cast<int>(std::lround(seconds / world.tickSeconds())); i > 0; --i)
         ASSERT_FALSE(world.advance());
+}
+
+// In still air it comes to fall with √(2 m g / ρ C_D A), where A is what is seen of it from below.
+TEST(Solid, FallsAtTheSpeedAtWhichTheAirCarriesIt) {
+    world::SceneSpec spec = scene();
+    world::WindSpec air;
+    air.name = "air";
+    air.on = {"solid.*"};
+    air.drag = 0.8;
+    spec.forces.add(air);
+    const std::map<std::string, double> seen{{"ball", core::pi * 0.01},
+                                             {"capsule", core::pi * 0.01 + 0.2 * 0.3},
+                                             {"box", 0.196 * 0.296}};  // less its thickness of 2 mm on every side
+    spec.bodies.add(ball("ball", {0, 0, 0}));
+    spec.bodies.add(box("box", {2, 0, 0}, {0.2, 0.1, 0.3}));
+    SolidSpec capsule = round("capsule", "capsule", {4, 0, 0}, 0.1, 0.3);
+    capsule.thickness = 0.1;
+    capsule.rotation.x = core::radians(90.0);
+    spec.bodies.add(capsule);
+    for (world::BodySpec& body : spec.bodies) dynamic_cast<SolidSpec&>(body).mass = 0.05;
+    World world(spec);
+    advanceBy(world, 4.0);
+    for (const auto& [name, area] : seen)
+        EXPECT_NEAR(-motionOf(world, "solid." + name).velocity.y, std::sqrt(2 * 0.05 * g / (1.2 * 0.8 * area)), 1e-3)
+            << name;
 }
 
 // They roll at g sin θ over 1 plus the square of the radius of gyration over that of the ball, 2/5, or of the cylinder,
@@ -236,8 +264,8 @@ TEST(SolidHull, OfABoxIsTheBox) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(other.inverseInertia[k][k] / one.inverseInertia[k][k], 1.0, 1e-9);
 }
 
-// A weld of all points makes one rigid body: two halves fly, fall and lie as the whole does, apart from rounding, and do
-// not touch each other.
+// A weld of all points makes one rigid body: two halves fly, fall and lie as the whole does, apart from rounding, and
+// do not touch each other.
 TEST(SolidBox, WeldedOfHalvesMovesAsTheWhole) {
     const dvec3 velocity(0.4, 1.0, 0.0), spin(2.0, 0.7, 4.0), place(0.0, 0.4, 0.0);
     const auto thrown = [&](const std::string& name, double side, double length) {
@@ -293,8 +321,8 @@ TEST(Solid, BouncesByTheFactorsOfBothSides) {
     World world(spec);
     advanceBy(world, 0.5);
     EXPECT_NEAR(motionOf(world, "solid.ball0").velocity.y, 0.8 * 0.5, 1e-9);
-    EXPECT_NEAR(motionOf(world, "solid.ball2").velocity.y - motionOf(world, "solid.ball1").velocity.y,
-                2.0 * 0.9 * 0.5, 1e-9);
+    EXPECT_NEAR(motionOf(world, "solid.ball2").velocity.y - motionOf(world, "solid.ball1").velocity.y, 2.0 * 0.9 * 0.5,
+                1e-9);
     EXPECT_NEAR(world.points("net.net").v[0].y, 0.8 * 0.25, 1e-9);
 }
 
@@ -448,8 +476,8 @@ TEST(SolidBox, StandsInAStackAndSleeps) {
     spec.solver.sleepError = 1e-3;
     spec.colliders = {ground(0.0, 0.6)};
     for (int k = 0; k < count; ++k) {
-        SolidSpec crate = box("box" + std::to_string(k), {0.002 * (k % 3), 0.05 + 0.1001 * k, 0.001 * (k % 2)},
-                              dvec3(0.1));
+        SolidSpec crate =
+            box("box" + std::to_string(k), {0.002 * (k % 3), 0.05 + 0.1001 * k, 0.001 * (k % 2)}, dvec3(0.1));
         crate.rotation = {0.0, 0.05 * k, 0.0};
         crate.thickness = 0.01;
         spec.bodies.add(crate);

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "taut/core/private/instruction_set.h"
-#include "taut/mechanics/private/anchor.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/mass_spring_system.h"
+#include "taut/mechanics/private/anchor.h"
 #include "taut/mechanics/private/volume.h"
 #include "taut/mechanics/private/wind.h"
 
@@ -124,12 +124,17 @@ TEST(ImplicitProducts, AreTheDerivativesOfVolumeForcesAtRestShape) {
 }
 
 // Broadside, u along n, the drag's share is the whole derivative; lift has none of its own along n and is switched off.
+// Of rods and balls it is that for any wind.
 TEST(ImplicitProducts, AreTheDerivativesOfTheDragOfAClothBroadsideToTheWind) {
     const Model model = cloth();
     const auto system = systemOf(model);
     WindSettings settings;
     settings.lift = 0.0;
     system->add(std::make_unique<Wind<double>>(model.triangles, dvec3(0, 0, 6.0), settings));
+    const dvec3 aslant(2.0, -5.0, 3.0);
+    system->add(std::make_unique<Wind<double>>(
+        WindTargets{.rounds = {{.a = 0, .b = 7, .width = 0.1}, {.a = 3, .b = 3, .area = 0.05}}},
+        LinearPath{aslant, aslant}, settings));
     const Planes x = planesOf(*system, model.positions), v(x.size(), 0.0);
     const Planes u = planesOf(*system, randomVectors(model.positions.size(), 1.0, 3));
     constexpr double e = 1e-6;
@@ -149,8 +154,11 @@ TEST(ImplicitProducts, AreSymmetricAndNeverNegative) {
     const Model block = buildBlock({.cells = {3, 3, 3}, .young = 1e4, .bulk = 3e4, .dampingTime = 1e-3});
     const auto system = systemOf(block);
     system->add(std::make_unique<VolumePreservation<double>>(block.cells, block.positions));
-    system->add(std::make_unique<Wind<double>>(std::vector<Wind<double>::Triangle>{{0, 1, 5}, {3, 9, 30}, {12, 40, 7}},
-                                               dvec3(3, -5, 2), WindSettings{}));
+    const dvec3 flow(3, -5, 2);
+    system->add(std::make_unique<Wind<double>>(
+        WindTargets{.triangles = {{0, 1, 5}, {3, 9, 30}, {12, 40, 7}},
+                    .rounds = {{.a = 2, .b = 9, .width = 0.3}, {.a = 5, .b = 5, .area = 0.2}}},
+        LinearPath{flow, flow}, WindSettings{}));
     const std::size_t n = block.positions.size();
     for (unsigned seed = 1; seed < 6; ++seed) {
         std::vector<dvec3> places = randomVectors(n, 0.3, seed);

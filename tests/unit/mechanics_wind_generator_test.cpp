@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "mechanics_planar_state.h"
+#include "support/eigenvalues.h"
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/private/wind.h"
-#include "mechanics_planar_state.h"
-#include "support/eigenvalues.h"
 
 namespace taut::mechanics {
 namespace {
@@ -184,6 +184,25 @@ TEST(Wind, DegenerateTrianglesStayFinite) {
             EXPECT_TRUE(std::isfinite(f.x) && std::isfinite(f.y) && std::isfinite(f.z));
             EXPECT_LT(glm::length(f), 1e-6);  // areas are 0 but for float rounding of coordinates near 1
         }
+}
+
+// The formulas of the header: across a rod counts alone, on a ball all does, on one side of a triangle half of the
+// sheet's.
+TEST(Wind, ActsOnRodsAndBallsAndOnOneSide) {
+    PlanarState<double> state(std::vector<dvec3>{{0, 0, 0}, {0.3, 0.4, 0}, {2, 0, 0}, {0, 0, 1}},
+                              std::vector<double>(4, 0.1));
+    const dvec3 flow(5, 0, 2), axis(0.6, 0.8, 0), across = flow - glm::dot(flow, axis) * axis;
+    const auto forces = [&](const WindTargets& targets) {
+        return state.forces(Wind<double>(targets, LinearPath{flow, flow}, settings(1.1, 0.6)));
+    };
+    const std::vector<dvec3> rod = forces({.rounds = {{.a = 0, .b = 1, .width = 0.02}}});
+    const dvec3 drag = 0.5 * 1.2 * 1.1 * 0.02 * 0.5 * glm::length(across) * across;
+    for (std::size_t end : {0U, 1U}) EXPECT_LT(glm::length(rod[end] - 0.5 * drag), windRounding);
+    const std::vector<dvec3> ball = forces({.rounds = {{.a = 2, .b = 2, .area = 0.07}}});
+    EXPECT_LT(glm::length(ball[2] - 0.5 * 1.2 * 1.1 * 0.07 * glm::length(flow) * flow), windRounding);
+    const std::vector<dvec3> sheet = forces({.triangles = {{0, 1, 3}}});
+    const std::vector<dvec3> side = forces({.triangles = {{0, 1, 3}}, .sides = {0.5}});
+    for (std::size_t i : {0U, 1U, 3U}) EXPECT_LT(glm::length(side[i] - 0.5 * sheet[i]), windRounding);
 }
 
 TEST(Wind, VelocityRisesEvenlyBetweenItsTimes) {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
+#include "taut/core/trig.h"
+#include "taut/forces/force.h"
 #include "taut/mechanics/private/wind.h"
 #include "taut/spec/common_rows.h"
-#include "taut/forces/force.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {
@@ -17,12 +18,34 @@ using fields::Section;
 
 namespace {
 
+// The triangles of a body, or, where it has none, its springs as rods and the ends of a round solid as balls.
+void addTo(mechanics::WindTargets& targets, const Body& body) {
+    const mechanics::Model& model = body.model;
+    const bool hasInside = body.spec->isRigid() || !model.cells.empty();
+    const auto pointOf = [&](int i) { return body.pointOf[static_cast<std::size_t>(i)]; };
+    for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+        if (body.damage.isTriangleGone(t)) continue;
+        const auto& [a, b, c] = model.triangles[t];
+        const auto at = [&](int i) { return model.positions[static_cast<std::size_t>(i)]; };
+        targets.triangles.push_back({pointOf(a), pointOf(b), pointOf(c)});
+        targets.sides.push_back(hasInside ? 0.5 : 1.0);
+        targets.plateAir.push_back(model.plateAir * 0.5 * glm::length(glm::cross(at(b) - at(a), at(c) - at(a))));
+    }
+    if (!model.triangles.empty()) return;
+    const double radius = body.spec->thickness;
+    for (const mechanics::Spring& spring : model.springs)
+        if (spring.kind == mechanics::SpringKind::structural && !body.damage.isSevered(spring.a, spring.b))
+            targets.rounds.push_back({.a = pointOf(spring.a), .b = pointOf(spring.b), .width = 2 * radius});
+    if (!body.spec->isRigid()) return;
+    const int ends = model.pointCount() - model.innerPoints;
+    for (int i = model.innerPoints; i < model.pointCount(); ++i)
+        targets.rounds.push_back({.a = pointOf(i), .b = pointOf(i), .area = core::pi * radius * radius / ends});
+}
+
 class WindForce final : public ForceOf<WindForce> {
   public:
     WindForce(const WindSpec& wind, double airDensity)
-        : ForceOf(wind.fullName()),
-          velocity_{wind.velocity, wind.velocity},
-          targets_(wind.surroundedBodies()) {
+        : ForceOf(wind.fullName()), velocity_{wind.velocity, wind.velocity}, targets_(wind.surroundedBodies()) {
         settings_.airDensity = airDensity;
         settings_.drag = wind.drag;
         settings_.lift = wind.lift;
@@ -31,26 +54,16 @@ class WindForce final : public ForceOf<WindForce> {
 
     template <class Real>
     std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan& plan) const {
-        std::vector<std::array<int, 3>> triangles;
-        std::vector<double> plateAir;  // [kg]
+        mechanics::WindTargets targets;
         bool doesFlutter = false;
         for (const Body* body : plan.bodies) {
             if (!actsOn(*body)) continue;
             doesFlutter = doesFlutter || body->model.plateAir > 0;
-            for (std::size_t t = 0; t < body->model.triangles.size(); ++t) {
-                if (body->damage.isTriangleGone(t)) continue;
-                triangles.push_back(body->model.triangles[t]);
-                const auto at = [&](std::size_t k) {
-                    return body->model.positions[static_cast<std::size_t>(triangles.back()[k])];
-                };
-                const double area = 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
-                plateAir.push_back(body->model.plateAir * area);
-                for (int& i : triangles.back()) i = body->pointOf[static_cast<std::size_t>(i)];
-            }
+            addTo(targets, *body);
         }
-        if (triangles.empty()) return nullptr;
-        if (!doesFlutter) plateAir.clear();
-        return std::make_unique<mechanics::Wind<Real>>(triangles, velocity_, settings_, plateAir);
+        if (targets.triangles.empty() && targets.rounds.empty()) return nullptr;
+        if (!doesFlutter) targets.plateAir.clear();
+        return std::make_unique<mechanics::Wind<Real>>(targets, velocity_, settings_);
     }
     void changeEvenly(const WindForce& from, const WindForce& to, double t0, double t1) {
         velocity_ = mechanics::LinearPath::between(from.velocity_.to, to.velocity_.to, t0, t1);
@@ -94,18 +107,18 @@ Section WindSpec::section() {
                       .whole("seed", &WindSpec::gustSeed, "", Range{0.0, 1e12}, "Seed: the same gusts each time.")
                       .take();
     Section section;
-    section.help = "Moving air; acts on surfaces.";
-    section.fields =
-        FieldList<WindSpec>()
-            .vector("velocity", &WindSpec::velocity, "m/s", Range{-1e3, 1e3}, "Mean velocity.")
-            .ramps(Affects::forces)
-            .tableOfSelf("gust", gust, "How it changes in space and time.")
-            .number("drag", &WindSpec::drag, "", Range{0.0, 100.0}, "Drag coefficient across the flow.")
-            .ramps(Affects::forces)
-            .number("lift", &WindSpec::lift, "", Range{0.0, 100.0}, "Lift coefficient.")
-            .ramps(Affects::forces)
-            .texts("on", &WindSpec::on, Role::bodies, "Bodies it acts on, e.g. \"cloth.*\"; every cloth if not given.")
-            .take();
+    section.help = "Moving air.";
+    section.fields = FieldList<WindSpec>()
+                         .vector("velocity", &WindSpec::velocity, "m/s", Range{-1e3, 1e3}, "Mean velocity.")
+                         .ramps(Affects::forces)
+                         .tableOfSelf("gust", gust, "How it changes in space and time.")
+                         .number("drag", &WindSpec::drag, "", Range{0.0, 100.0}, "Drag coefficient across the flow.")
+                         .ramps(Affects::forces)
+                         .number("lift", &WindSpec::lift, "", Range{0.0, 100.0}, "Lift coefficient.")
+                         .ramps(Affects::forces)
+                         .texts("on", &WindSpec::on, Role::anyBodies,
+                                "Bodies it acts on, e.g. \"cloth.*\"; every cloth if not given.")
+                         .take();
     return section;
 }
 

@@ -34,20 +34,24 @@ struct Facet {
 
 template <class Real>
 Wind<Real>::Wind(std::span<const Triangle> triangles, const glm::dvec3& velocity, const WindSettings& settings)
-    : Wind(triangles, LinearPath{velocity, velocity}, settings) {}
+    : Wind({.triangles = {triangles.begin(), triangles.end()}}, LinearPath{velocity, velocity}, settings) {}
 
 template <class Real>
-Wind<Real>::Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings,
-                 std::span<const double> plateAir)
-    : triangles_(triangles.begin(), triangles.end()),
-      plateAir_(plateAir.begin(), plateAir.end()),
-      runs_(triangles),
+Wind<Real>::Wind(const WindTargets& targets, const LinearPath& velocity, const WindSettings& settings)
+    : triangles_(targets.triangles),
+      sides_(targets.sides),
+      plateAir_(targets.plateAir.begin(), targets.plateAir.end()),
+      rounds_(targets.rounds),
+      runs_(triangles_),
       weight_(runs_.sources().size()),
       velocity_(velocity),
       settings_(settings),
       addBatch_(TAUT_IN_USE(addWind<Real>)) {
-    for (std::size_t lane = 0; lane < weight_.size(); ++lane)
-        weight_[lane] = runs_.sources()[lane] >= 0 ? Real(1) : Real(0);
+    if (sides_.empty()) sides_.assign(triangles_.size(), 1.0);
+    for (std::size_t lane = 0; lane < weight_.size(); ++lane) {
+        const int source = runs_.sources()[lane];
+        weight_[lane] = source >= 0 ? static_cast<Real>(sides_[static_cast<std::size_t>(source)]) : Real(0);
+    }
     if (triangles_.empty()) return;
     firstPoint_ = triangles_[0][0];
     int last = firstPoint_;
@@ -84,6 +88,46 @@ double Wind<Real>::workingSpeed() const {
 template <class Real>
 void Wind<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
     TAUT_EXPECTS(first == 0 && last == motion.count);
+    if (!triangles_.empty()) addTriangles(motion, f);
+    if (!plateAir_.empty()) addFlutter(motion, f);
+    const auto pressure = static_cast<Real>(0.25 * settings_.airDensity * settings_.drag);  // half for each end
+    for (const Round& round : rounds_) {
+        const Past air = past(round, motion);
+        const Vec force = pressure * air.area * std::sqrt(glm::dot(air.u, air.u)) * air.u;
+        for (const int i : {round.a, round.b})
+            for (int axis = 0; axis < 3; ++axis) f[axis * motion.stride + i] += force[axis];
+    }
+}
+
+template <class Real>
+auto Wind<Real>::wayAlong(const Round& round, const Motion<Real>& motion) -> Vec {
+    const auto along = [&](std::ptrdiff_t axis) {
+        return motion.x[round.b + axis * motion.stride] - motion.x[round.a + axis * motion.stride];
+    };
+    return {along(0), along(1), along(2)};
+}
+
+template <class Real>
+auto Wind<Real>::past(const Round& round, const Motion<Real>& motion) const -> Past {
+    const auto middle = [&](const Real* planes) {
+        const auto at = [&](std::ptrdiff_t axis) {
+            return (planes[round.a + axis * motion.stride] + planes[round.b + axis * motion.stride]) / Real(2);
+        };
+        return Vec(at(0), at(1), at(2));
+    };
+    Past air{Vec(airVelocity(glm::dvec3(middle(motion.x)), motion.t)) - middle(motion.v), Vec(Real(0)),
+             static_cast<Real>(round.area)};
+    const Vec way = wayAlong(round, motion);
+    const Real length = std::sqrt(glm::dot(way, way));
+    if (!(length > 0)) return air;
+    air.axis = way / length;
+    air.u -= glm::dot(air.u, air.axis) * air.axis;
+    air.area = static_cast<Real>(round.width) * length;
+    return air;
+}
+
+template <class Real>
+void Wind<Real>::addTriangles(const Motion<Real>& motion, Real* f) const {
     GustWaves<Real> gust;
     WindBatch<Real> batch{};
     batch.lanes = runs_.lanes();
@@ -105,13 +149,11 @@ void Wind<Real>::addForces(const Motion<Real>& motion, int first, int last, Real
         batch.gust = &gust;
     }
     addBatch_(batch);
-    if (!plateAir_.empty()) addFlutter(motion, f);
 }
 
 // Scalar: few bodies ask for it.
 template <class Real>
 void Wind<Real>::addFlutter(const Motion<Real>& motion, Real* f) const {
-    using Vec = glm::vec<3, Real>;
     const auto at = [](const Real* planes, std::ptrdiff_t stride, int i) {
         return Vec(planes[i], planes[i + stride], planes[i + 2 * stride]);
     };
@@ -155,9 +197,17 @@ void Wind<Real>::linearise(const Motion<Real>& motion, double, double damping) {
         const glm::dvec3 normal = size > 0.0 ? cross / size : glm::dvec3(0.0);
         const glm::dvec3 mean = (vectorAt(motion.v, a) + vectorAt(motion.v, b) + vectorAt(motion.v, c)) / 3.0;
         const glm::dvec3 air = flow - mean;
-        const double pressure = 0.25 * settings_.airDensity * size * settings_.drag * std::abs(glm::dot(air, normal));
+        const double pressure =
+            0.25 * settings_.airDensity * sides_[t] * size * settings_.drag * std::abs(glm::dot(air, normal));
         for (int axis = 0; axis < 3; ++axis) resistances_[t].normal[axis] = static_cast<Real>(normal[axis]);
         resistances_[t].each = static_cast<Real>(damping * std::max(0.0, pressure) / 9.0);
+    }
+    roundResistances_.clear();
+    for (const Round& round : rounds_) {
+        const Past air = past(round, motion);
+        const Real speed = std::sqrt(glm::dot(air.u, air.u));
+        const auto drag = static_cast<Real>(damping * std::max(0.0, 0.5 * settings_.airDensity * settings_.drag) / 4.0);
+        roundResistances_.push_back({air.axis, speed > 0 ? air.u / speed : Vec(Real(0)), drag * air.area * speed});
     }
 }
 
@@ -176,6 +226,14 @@ void Wind<Real>::addProduct(int stride, const Real* u, Real* out) const {
             for (int i : {a, b, c}) out[p * stride + i] += product;
         }
     }
+    for (std::size_t k = 0; k < rounds_.size(); ++k) {
+        const auto& [a, b, width, area] = rounds_[k];
+        const auto& [axis, along, each] = roundResistances_[k];
+        const Vec sum(u[a] + u[b], u[stride + a] + u[stride + b], u[2 * stride + a] + u[2 * stride + b]);
+        const Vec product = each * (sum - glm::dot(sum, axis) * axis + glm::dot(sum, along) * along);
+        for (int p = 0; p < 3; ++p)
+            for (const int i : {a, b}) out[p * stride + i] += product[p];
+    }
 }
 
 template <class Real>
@@ -185,6 +243,14 @@ void Wind<Real>::addDiagonal(int stride, Real* out) const {
             const Real normal = resistances_[t].normal[p];
             for (int i : triangles_[t]) out[p * stride + i] += resistances_[t].each * (Real(1) + normal * normal);
         }
+    for (std::size_t k = 0; k < rounds_.size(); ++k) {
+        const auto& [a, b, width, area] = rounds_[k];
+        const auto& [axis, along, each] = roundResistances_[k];
+        const Real pairs = a == b ? 2 : 1;  // a ball is both of its ends
+        for (int p = 0; p < 3; ++p)
+            for (const int i : {a, b})
+                out[p * stride + i] += pairs * each * (Real(1) - axis[p] * axis[p] + along[p] * along[p]);
+    }
 }
 
 template <class Real>
@@ -198,7 +264,8 @@ void Wind<Real>::addStability(const Motion<Real>& motion, StabilityShare& share)
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
         const auto& [a, b, c] = triangles_[t];
         const double area = 0.5 * glm::length(glm::cross(at(b) - at(a), at(c) - at(a)));
-        const double damping = 0.5 * settings_.airDensity * area * speed * slope / 3.0;  // [kg/s] of each corner
+        const double damping =
+            0.5 * settings_.airDensity * sides_[t] * area * speed * slope / 3.0;  // [kg/s] of a corner
         for (int i : {a, b, c})
             share.dampingRate[static_cast<std::size_t>(i)] += damping * static_cast<double>(motion.inverseMass[i]);
         if (plateAir_.empty()) continue;
@@ -212,6 +279,14 @@ void Wind<Real>::addStability(const Motion<Real>& motion, StabilityShare& share)
             share.dampingRate[own] += rate * static_cast<double>(motion.inverseMass[own]);
             share.stiffness[own] += rate * speed * all;
         }
+    }
+    for (const Round& round : rounds_) {
+        const Vec way = wayAlong(round, motion);
+        const double across = round.area + round.width * std::sqrt(static_cast<double>(glm::dot(way, way)));
+        const double damping =
+            0.5 * settings_.airDensity * std::abs(settings_.drag) * across * speed;  // [kg/s] of an end
+        for (const int i : {round.a, round.b})
+            share.dampingRate[static_cast<std::size_t>(i)] += damping * static_cast<double>(motion.inverseMass[i]);
     }
 }
 

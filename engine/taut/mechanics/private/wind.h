@@ -1,4 +1,5 @@
-// Air that moves past triangles: drag and lift, steady or in gusts. It knows no cloth, and not the rest of the scene.
+// Air that moves past triangles, rods and balls: drag and lift, steady or in gusts. It knows no cloth, and not the rest
+// of the scene.
 //
 // Let u be the mean of the air's velocities relative to a triangle's points, n its normal turned along u, A its area:
 //
@@ -6,7 +7,12 @@
 //
 // Across the flow (n ∥ u) this is the flat plate's drag ½ρ A C_D u². At an angle α between plate and flow, drag is
 // ∝ A sin α, the area that the flow sees. Lift is at a right angle to u towards n, and is ½ρ A C_L u² sin α cos α.
-// Both vanish edge-on. Cloth is edge-on much of the time, and a lift C_L |u|² n would jump there with the sign of n.
+// Both vanish edge-on. Cloth is edge-on much of the time, and a lift C_L |u|² n would jump there with the sign of n. Of
+// a body with an inside each triangle has air on one side only, which is half of a plate's force: what it has across
+// the flow, front and back, is then C_D again.
+//
+// A rod takes what flows across it (Hoerner 1965): F = ½ρ C_D 2rL |u⊥| u⊥, half to each end. A ball of area A = π r²
+// has F = ½ρ C_D A |u| u.
 //
 // Flutter. The air that a stiff plate pushes before it has momentum along the normal only, so a plate that slides at a
 // slant is turned broadside (Munk's moment, -m_a w u × n with w along the normal and u along the plate). A plate that
@@ -33,8 +39,8 @@
 #include <vector>
 
 #include "taut/mechanics/force_generator.h"
-#include "taut/mechanics/private/index_runs.h"
 #include "taut/mechanics/linear_path.h"
+#include "taut/mechanics/private/index_runs.h"
 #include "taut/mechanics/private/noise.h"
 #include "taut/mechanics/private/wind_kernel.h"
 
@@ -50,7 +56,21 @@ struct WindSettings {
     bool operator==(const WindSettings&) const = default;
 };
 
-// One flow over a set of triangles. Do not put two winds on the same triangles: each would resist the other. Add their
+// What the air moves past; all points are those of a Motion.
+struct WindTargets {
+    std::vector<std::array<int, 3>> triangles{};
+    std::vector<double> sides{};     // (triangles) 1, or ½ where the air is on one side only; empty: 1
+    std::vector<double> plateAir{};  // (triangles) [kg] makes them flutter; empty: none
+    // A rod from a to b, or a ball at a point, which is a and b.
+    struct Round {
+        int a = 0, b = 0;
+        double width = 0;  // [m] of a rod
+        double area = 0;   // [m²] of a ball
+    };
+    std::vector<Round> rounds{};
+};
+
+// One flow over a set of targets. Do not put two winds on the same ones: each would resist the other. Add their
 // velocities instead.
 template <class Real>
 class Wind final : public ForceGenerator<Real> {
@@ -58,10 +78,8 @@ class Wind final : public ForceGenerator<Real> {
     using Triangle = std::array<int, 3>;  // points
 
     // Uses the kernel of the current instruction set.
+    Wind(const WindTargets& targets, const LinearPath& velocity, const WindSettings& settings);
     Wind(std::span<const Triangle> triangles, const glm::dvec3& velocity, const WindSettings& settings);
-    // plateAir (triangles) [kg] makes them flutter; empty: none.
-    Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings,
-         std::span<const double> plateAir = {});
 
     // The steady flow [m/s]: constant, or changing evenly from `from` to `to` between t0 and t1 [s].
     void setVelocity(const glm::dvec3& velocity) { velocity_ = {velocity, velocity, 0.0, 0.0}; }
@@ -80,23 +98,38 @@ class Wind final : public ForceGenerator<Real> {
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
     // K is left out. Of C it takes the drag's share in the steady flow, ½ρA C_D (|u·n| I + u nᵀ). It replaces u by its
     // part along n in the second term: ½ρA C_D |u·n| (I + nnᵀ) is symmetric and positive. Each pair of corners gets a
-    // ninth.
+    // ninth. Of a rod it is ½ρ C_D 2rL |u⊥| (I - eeᵀ + u⊥u⊥ᵀ/|u⊥|²), a quarter to each pair of ends.
     void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
     void addProduct(int stride, const Real* u, Real* out) const override;
     void addDiagonal(int stride, Real* out) const override;
     // Adds dampingRate at the working speed U, for the areas at the motion's positions.
     // |∂F/∂u| <= ½ρA U (2 C_D + 3/2 C_L): drag has at most 2 (broadside). Lift, in polar terms of u, has
     // √(sin² 2α + cos² 2α) in the plane of u and n, and sin² α across it. Each corner has a third of the force and of
-    // the mean velocity, so its row sums to 1/3 of that. Flutter adds m U (2 |g_k| + 5/3 Σ|g|) to corner k.
+    // the mean velocity, so its row sums to 1/3 of that; of a rod to ½ of ½ρA U 2 C_D. Flutter adds m U (2 |g_k| + 5/3
+    // Σ|g|) to corner k.
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
   private:
+    using Round = WindTargets::Round;
+    using Vec = glm::vec<3, Real>;
+
+    void addTriangles(const Motion<Real>& motion, Real* f) const;
     void addFlutter(const Motion<Real>& motion, Real* f) const;
+    // Of a round target: how it moves through the air [m/s], of a rod across itself, the area that it has across the
+    // flow [m²], and the axis of a rod, or 0.
+    struct Past {
+        Vec u, axis;
+        Real area;
+    };
+    Past past(const Round& round, const Motion<Real>& motion) const;
+    static Vec wayAlong(const Round& round, const Motion<Real>& motion);  // [m] from a to b
 
     std::vector<Triangle> triangles_;
+    std::vector<double> sides_;   // (triangles)
     std::vector<Real> plateAir_;  // (triangles) [kg]; empty: none
+    std::vector<Round> rounds_;
     IndexRuns<3> runs_;
-    core::AlignedArray<Real> weight_;  // (lanes) 1, or 0 for a lane without a triangle
+    core::AlignedArray<Real> weight_;  // (lanes) of the triangle's sides, or 0 for a lane without one
     int firstPoint_ = 0, pointCount_ = 0;
     mutable core::AlignedArray<Real> slip_, packed_;  // scratch of the kernel
     LinearPath velocity_;
@@ -107,6 +140,11 @@ class Wind final : public ForceGenerator<Real> {
         Real each;       // for a pair of corners
     };
     std::vector<Resistance> resistances_;  // (triangles)
+    struct RoundResistance {
+        Vec axis, along;  // of the rod, and of the flow across it
+        Real each;        // for a pair of ends
+    };
+    std::vector<RoundResistance> roundResistances_;  // (rounds)
 };
 
 extern template class Wind<float>;

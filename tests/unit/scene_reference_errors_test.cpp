@@ -265,13 +265,13 @@ TEST(SceneErrors, ReferencesToWhatIsNotThereAreReported) {
          "s.toml:6:7: error: \"cloth.c@all\" names points, not a body\n"
          "  on = [\"cloth.c@all\"]\n"
          "        ^ write cloth.c"},
-        {"a wind on a rope",
+        {"a filling of a rope",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"
-         "[wind.w]\n"
-         "on = [\"rope.r\"]\n",
+         "[filling.w]\n"
+         "in = [\"rope.r\"]\n",
          "s.toml:5:7: error: a rope has no surface\n"
-         "  on = [\"rope.r\"]\n"
+         "  in = [\"rope.r\"]\n"
          "        ^ bodies with a surface are cloth, block"},
         {"a spring to no point",
          "[net.n]\n"

@@ -77,7 +77,7 @@ Edges edgesOf(std::span<const Triangle> triangles, std::span<const int> one) {
 }
 
 // ½ (b - a) × (c - a): of a triangle its area, along its normal.
-dvec3 areaOf(const dvec3& a, const dvec3& b, const dvec3& c) {
+inline dvec3 areaOf(const dvec3& a, const dvec3& b, const dvec3& c) {
     return 0.5 * glm::cross(b - a, c - a);
 }
 
@@ -169,13 +169,18 @@ template <class Real>
 void Filling<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
     TAUT_EXPECTS(first == 0 && last == motion.count);
     for (const Chamber& chamber : chambers_) {
-        const bool isPumped = law_.keeps == FillingKeeps::pressure;
-        const double volume = isPumped ? 0.0 : volumeOf(chamber, motion);
-        const double third = stateOf(chamber, volume, motion.t).excess / 3.0;
+        areas_.clear();
+        const dvec3 origin = vectorAt(motion.x, motion.stride, chamber.triangles[0][0]);
+        double threefold = 0.0;  // of the volume, as enclosed() has it
         for (const auto& [a, b, c] : chamber.triangles) {
-            const dvec3 force =
-                third * areaOf(vectorAt(motion.x, motion.stride, a), vectorAt(motion.x, motion.stride, b),
-                               vectorAt(motion.x, motion.stride, c));
+            const dvec3 from = vectorAt(motion.x, motion.stride, a);
+            areas_.push_back(areaOf(from, vectorAt(motion.x, motion.stride, b), vectorAt(motion.x, motion.stride, c)));
+            threefold += glm::dot(from - origin, areas_.back());
+        }
+        const double third = stateOf(chamber, threefold / 3.0, motion.t).excess / 3.0;
+        for (std::size_t k = 0; k < areas_.size(); ++k) {
+            const auto& [a, b, c] = chamber.triangles[k];
+            const dvec3 force = third * areas_[k];
             for (int axis = 0; axis < 3; ++axis) {
                 const Real each = static_cast<Real>(force[axis]);
                 Real* plane = f + static_cast<std::ptrdiff_t>(axis) * motion.stride;
@@ -201,7 +206,7 @@ double Filling<Real>::potentialEnergy(const Motion<Real>& motion, const std::vec
             case FillingKeeps::pressure: energy -= pressure * v; break;
             case FillingKeeps::amount: {
                 const double inside = (law_.outside + pressure) * v0, least = leastShare * v0;
-                energy += law_.outside * v - inside * std::log(std::max(v, least) / v0);
+                energy += law_.outside * (v - v0) - inside * std::log(std::max(v, least) / v0);
                 if (v < least) energy += inside / least * (least - v);
                 break;
             }

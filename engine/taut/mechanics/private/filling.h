@@ -5,9 +5,9 @@
 // that is Δp ∂V/∂x of each point exactly, without any sum of forces or torques.
 //
 //   keeps      Δp                           potential energy
-//   pressure   P                            -P V                            a pump
-//   amount     (p₀ + P) V₀/V - p₀           p₀ V - (p₀ + P) V₀ ln(V/V₀)     a sealed gas, always as warm as the air
-//   volume     P + K (1 - V/V₀)             ½ K (V - V₀)²/V₀ - P V          a liquid
+//   pressure   P                            -P V                                  a pump
+//   amount     (p₀ + P) V₀/V - p₀           p₀ (V - V₀) - (p₀ + P) V₀ ln(V/V₀)    a sealed gas, always as warm as the air
+//   volume     P + K (1 - V/V₀)             ½ K (V - V₀)²/V₀ - P V                a liquid
 //
 // P is the pressure at the first volume V₀, p₀ that of the air outside, K a bulk modulus. Below V₀/1000 a gas presses
 // as it does there.
@@ -86,7 +86,8 @@ class Filling final : public ForceGenerator<Real> {
         std::vector<int> points;
         std::vector<Real> of;  // (3 · points) √(stiffness · slope) g, point by point
     };
-    std::vector<Slope> slopes_;  // (chambers) as linearise() found them
+    std::vector<Slope> slopes_;              // (chambers) as linearise() found them
+    mutable std::vector<glm::dvec3> areas_;  // (triangles) scratch
 };
 
 extern template class Filling<float>;

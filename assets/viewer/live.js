@@ -3,6 +3,7 @@
 
 const playing = 'M8 5h3v14H8zM14 5h3v14h-3z', paused = 'M8 5l11 7-11 7z';
 const tickBudget = 0.045;    // [s] of wall time for the ticks of a picture
+const betweenBudget = 0.008; // and for some of those that are due still, between two pictures
 const panelPause = 100;      // [ms] between two looks at the figures
 const typingPause = 400;     // [ms] after a key until the scene is read again
 const slowPicture = 1 / 30, fastPicture = 1 / 50;  // [s] longer ones are drawn coarser, shorter ones finer
@@ -44,13 +45,16 @@ class LivePage {
     this.isFollowing = true;  // the scene's camera, until somebody takes hold of it
     this.isEdited = false;
     this.steps = 0;  // single ticks that are asked for
-    this.before = null;  // [ms]
+    this.before = this.computed = null;  // [ms] of the last picture, of the last ticks
+    this.between = new MessageChannel();
+    this.between.port1.onmessage = () => this.catchUp();
+    this.isBetween = false;  // a message is on its way
     this.pointer = null;  // that holds a point
     this.place = {x: 0, y: 0};  // of the pointer, in shares of width and height
     this.rate = {pictures: 0, real: 1};
     this.lookedAt = 0;  // [ms]
     this.fineness = 0;  // of look.js
-    this.pace = {pictures: 0, wall: 0, computing: 0, patience: 2, changed: 0, wasFiner: false};  // [s] since the fineness was last thought of
+    this.pace = {pictures: 0, wall: 0, computing: 0, betweens: 0, patience: 2, changed: 0, wasFiner: false};  // [s] since the fineness was last thought of
     this.graph = new EnergyGraph(element('graph'), element('legend'));
     for (const name of given.methods) element('method').add(new Option(name, name));
     for (const [key, meaning] of help) {
@@ -343,17 +347,42 @@ class LivePage {
     this.picture.camera.lookAt(this.controls.target);
   }
 
-  // The ticks that are due.
-  compute(wall) {
-    const {session} = this, speed = Number(element('speed').value);
+  // The ticks that are due, as far as there is time [s] for them. Where they are not done, it goes on between pictures.
+  compute(budget) {
+    const {session} = this, speed = Number(element('speed').value), now = performance.now();
+    const wall = this.computed === null ? 0 : (now - this.computed) / 1000;
+    this.computed = now;
     if (this.pointer !== null) session.lead(this.place.x, this.place.y, this.aspect, this.eye);
     const wanted = this.steps;
     this.steps = 0;
     if (!this.isPlaying) return wanted > 0 ? session.step(wanted) : null;
-    const moment = session.advance(wall, speed, tickBudget);
-    const part = Math.min(1, 2 * wall);
-    if (wall > 0 && moment.due > 0) this.rate.real += part * (Math.min(1, moment.done / moment.due) - this.rate.real);
+    const moment = session.advance(wall, speed, budget);
+    const real = moment.done * session.tickSeconds / (wall * speed);
+    if (wall > 0) this.rate.real += Math.min(1, 2 * wall) * (real - this.rate.real);
+    if (moment.done < moment.due && !this.isBetween) {
+      this.isBetween = true;
+      this.between.port2.postMessage(null);
+    }
     return moment;
+  }
+
+  // While the browser waits for what draws, ticks that are due need not.
+  catchUp() {
+    this.isBetween = false;
+    if (!this.session || !this.isPlaying || document.hidden) return;
+    const begin = performance.now();
+    this.take(this.attempt(() => this.compute(betweenBudget)));
+    if (this.pace.betweens++ === 0) this.pace.computing += (performance.now() - begin) / 1000;
+  }
+
+  // What the ticks brought that is to be said.
+  take(moment) {
+    if (!moment) return;
+    if (moment.faults.length > 0) this.say(moment.faults.join('\n'));
+    if (moment.divergence && this.isPlaying) {
+      this.play(false);
+      this.showFault(moment.divergence);
+    }
   }
 
   turn(now) {
@@ -363,13 +392,8 @@ class LivePage {
     if (!this.session || document.hidden) return;
     if (wall > 0) this.rate.pictures += Math.min(1, 2 * wall) * (1 / wall - this.rate.pictures);
     const begin = performance.now();
-    const moment = this.attempt(() => this.compute(wall));
+    this.take(this.attempt(() => this.compute(tickBudget)));
     this.adapt(wall, (performance.now() - begin) / 1000);
-    if (moment && moment.faults.length > 0) this.say(moment.faults.join('\n'));
-    if (moment && moment.divergence && this.isPlaying) {
-      this.play(false);
-      this.showFault(moment.divergence);
-    }
     if (!this.film.show(this.isPlaying ? undefined : 1)) return this.renew();
     const box = this.film.bounds();
     if (!this.picture.box.containsBox(box))
@@ -387,6 +411,7 @@ class LivePage {
     ++pace.pictures;
     pace.wall += wall;
     pace.computing += computing;
+    pace.betweens = 0;
     if (pace.wall < 0.5 || pace.pictures < 3) return;
     const one = pace.wall / pace.pictures, drawing = one - pace.computing / pace.pictures;
     let next = this.fineness;

@@ -59,10 +59,10 @@ class Samples(unittest.TestCase):
     def test_a_controller_that_catches_a_ball(self):
         said = self.run_sample("catch")
         off, height = map(float, re.search(r"caught: ([\d.]+) m .*, ([\d.]+) m up", said).groups())
-        missed = float(re.search(r"controller: ([\d.]+) m up", said)[1])
+        missed = float(re.search(r"controller: ([\d.]+) m from it", said)[1])
         self.assertLess(off, 0.4)  # the ball of 0.2 m is over the net of 1.2 m
         self.assertGreater(height, 0.6)
-        self.assertLess(missed, 0.3)  # it lies on the ground
+        self.assertGreater(missed, 1.0)  # it came down beyond the frame and bounces on from there
 
     def test_the_stubs_agree_with_the_samples_and_with_the_module(self):
         environment = {**os.environ, "MYPYPATH": str(ROOT / "game/python")}

@@ -73,9 +73,9 @@ def main():
     parser.add_argument("picture", nargs="?", default="catch.png", help="the file to draw; catch.png if not given")
     arguments = parser.parse_args()
     pictures, track, ball, off = play(True, SHOWN)
-    missed = play(False)[2]
+    missed = play(False)[3]
     print(f"caught: {np.hypot(off[0], off[2]):.3f} m from the middle of the net, {ball[1]:.3f} m up")
-    print(f"without the controller: {missed[1]:.3f} m up")
+    print(f"without the controller: {np.hypot(missed[0], missed[2]):.3f} m from it")
     figure = plt.figure(figsize=(12.8, 7.2), dpi=150)
     upper = figure.add_gridspec(1, 3, wspace=0.03, left=0.01, right=0.99, top=0.94, bottom=0.56)
     lower = figure.add_gridspec(1, 1, left=0.06, right=0.98, top=0.5, bottom=0.1)

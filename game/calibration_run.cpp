@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "game/lab.h"
-#include "taut/core/private/child_process.h"
 #include "taut/core/error.h"
+#include "taut/core/private/child_process.h"
 #include "taut/image/frame_sequence.h"
 
 namespace taut::game {

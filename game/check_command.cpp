@@ -12,9 +12,9 @@
 #include "game/messages.h"
 #include "game/outputs.h"
 #include "game/scene_file.h"
-#include "taut/core/error.h"
 #include "taut/advice/figures.h"
 #include "taut/advice/rehearsal.h"
+#include "taut/core/error.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario.h"
 

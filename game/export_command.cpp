@@ -385,8 +385,9 @@ Action declareExport(Options& options, const Formats& formats) {
                "The engine in such a page; $TAUT_WEB, else what game/web.sh built, when not given")
         .typeName("FOLDER");
     options
-        .value("--sliders", flags->sliders,
-               "What may be changed in such a page, as ramps do, such as wind.breeze.velocity; usual ones when not given")
+        .value(
+            "--sliders", flags->sliders,
+            "What may be changed in such a page, as ramps do, such as wind.breeze.velocity; usual ones when not given")
         .typeName("KEY,…")
         .oneValue();
     options.flag("--edit", flags->edits, "The scene's text is open in such a page, and read as one types");

@@ -49,11 +49,10 @@ std::vector<LayerFlag> flagsOf(const render::LayerKinds& kinds) {
 void checkLayerFlags(const LayerFlags& flags, const std::string& output, const std::string& video) {
     for (const std::string& name : {output, video})
         if (flags.alpha && image::isVideoPath(name) && !image::mayHaveAlpha(name))
-            failUsage(
-                "--alpha: a {} has no transparency: write {}.webm, {}.mov, or frames, -o out/frame_######.png",
-                std::filesystem::path(name).extension().string(),
-                std::filesystem::path(name).replace_extension().string(),
-                std::filesystem::path(name).replace_extension().string());
+            failUsage("--alpha: a {} has no transparency: write {}.webm, {}.mov, or frames, -o out/frame_######.png",
+                      std::filesystem::path(name).extension().string(),
+                      std::filesystem::path(name).replace_extension().string(),
+                      std::filesystem::path(name).replace_extension().string());
     for (const LayerFlag& layer : flags.layers)
         if (layer.hasOwnNumber() && !layer.isGiven)
             failUsage("--{} says what the numbers of --{} are: give that too", layer.kind.number->name,

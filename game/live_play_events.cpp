@@ -120,7 +120,8 @@ void LivePlay::findName() {
 }
 
 void LivePlay::copyName() {
-    if (!named_) return say(showsNames_ ? "there is no point under the mouse" : "n shows names, y copies the one shown");
+    if (!named_)
+        return say(showsNames_ ? "there is no point under the mouse" : "n shows names, y copies the one shown");
     say(window_->copy(live::nameOf(*named_)) ? "copied " + live::nameOf(*named_) : "there is no clipboard");
 }
 

@@ -60,9 +60,8 @@ int list(const std::vector<path>& files) {
 }
 
 int show(const std::string& name, const std::vector<path>& files) {
-    const std::string stem = name.starts_with(scene::fabricPrefix)
-                                 ? name.substr(std::string_view(scene::fabricPrefix).size())
-                                 : name;
+    const std::string stem =
+        name.starts_with(scene::fabricPrefix) ? name.substr(std::string_view(scene::fabricPrefix).size()) : name;
     std::vector<std::string> known;
     for (const path& file : files) {
         known.push_back(file.stem().string());

@@ -57,12 +57,14 @@ void expectNoOtherChanges(const SearchedScene& scene, const study::Plan& plan, c
 }
 
 int plan(const PlanFlags& flags) {
-    return searchScene(flags, [&](const SearchedScene& scene, const std::atomic<bool>& stop) {
-        const study::Plan plan = search(scene.spec, flags, stop);
-        return Found{study::planSummary(plan), study::planJson(plan, machineFacts(pipeline::machine())), plan.isMet(),
-                     plan.changes,
-                     [&scene, plan](const std::string& changed) { expectNoOtherChanges(scene, plan, changed); }};
-    });
+    return searchScene(
+        flags,
+        [&](const SearchedScene& scene, const std::atomic<bool>& stop) {
+            const study::Plan plan = search(scene.spec, flags, stop);
+            return Found{study::planSummary(plan), study::planJson(plan, machineFacts(pipeline::machine())),
+                         plan.isMet(), plan.changes,
+                         [&scene, plan](const std::string& changed) { expectNoOtherChanges(scene, plan, changed); }};
+        });
 }
 
 Action declarePlan(Options& options) {

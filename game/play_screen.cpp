@@ -11,9 +11,9 @@
 namespace taut::game {
 namespace {
 
-using pipeline::PictureBox;
 using pipeline::Ink;
 using pipeline::Painting;
+using pipeline::PictureBox;
 using pipeline::Side;
 
 constexpr Ink plateInk{10, 12, 16}, textInk{240, 243, 247}, keyInk{255, 196, 92}, recordInk{255, 92, 82},

@@ -24,8 +24,8 @@ struct NamedPoint {
 };
 
 struct ScreenContent {
-    std::vector<std::string> marks;   // "paused", "recording", … in the upper corner without figures
-    std::optional<glm::vec2> hand;    // [px] where the hand holds something; messages leave it free
+    std::vector<std::string> marks;  // "paused", "recording", … in the upper corner without figures
+    std::optional<glm::vec2> hand;   // [px] where the hand holds something; messages leave it free
     std::optional<NamedPoint> named;
 };
 

@@ -17,8 +17,8 @@ std::string clockText(double seconds);
 
 // What of a run never changes.
 struct ProgressFacts {
-    std::int64_t frames = 1;              // to simulate
-    double fps = 60.0;                    // pictures a second of scene time
+    std::int64_t frames = 1;  // to simulate
+    double fps = 60.0;        // pictures a second of scene time
     pipeline::SmallestStep step{};
     std::optional<double> firstEnergy{};  // [J] at the start of the run; none: of the first record that has metrics
 };

@@ -172,10 +172,12 @@ std::filesystem::path viewerLibrary(const std::string& wish) {
 
 geometry::WebPage webPage(const std::string& title, const std::string& scene, const std::string& wish) {
     const std::string mark = "@MODEL@";
-    std::string before = pageWith("page.html", {"page.css"}, {"film.js", "look.js", "page.js"}, title, scene, wish, "--web");
+    std::string before =
+        pageWith("page.html", {"page.css"}, {"film.js", "look.js", "page.js"}, title, scene, wish, "--web");
     const std::size_t at = before.find(mark);
     if (at == std::string::npos)
-        throw core::Error(core::ErrorKind::badContent, (viewerFolder() / "page.html").string() + ": there is no " + mark);
+        throw core::Error(core::ErrorKind::badContent,
+                          (viewerFolder() / "page.html").string() + ": there is no " + mark);
     std::string after = before.substr(at + mark.size());
     before.resize(at);
     return {std::move(before), std::move(after)};
@@ -189,16 +191,18 @@ std::filesystem::path webEngine(const std::string& wish) {
         if (!std::filesystem::is_regular_file(folder / file))
             throw core::Error(
                 core::ErrorKind::inputOutput,
-                named.empty() ? "--live: the engine for pages is not there; sh game/web.sh builds it, and --engine names "
-                                "its folder"
-                              : fmt::format("{}: there is no {} in it; sh game/web.sh writes it", named, file));
+                named.empty()
+                    ? "--live: the engine for pages is not there; sh game/web.sh builds it, and --engine names "
+                      "its folder"
+                    : fmt::format("{}: there is no {} in it; sh game/web.sh writes it", named, file));
     return folder;
 }
 
 std::string livePage(const std::filesystem::path& file, const scene::Loaded& scene, const LivePageWish& wish) {
     const std::vector<scene::Rampable> rampable = scene.actions->rampable(scene.spec);
     for (const std::string& key : wish.sliders) {
-        const auto own = std::find_if(rampable.begin(), rampable.end(), [&](const auto& other) { return other.key == key; });
+        const auto own =
+            std::find_if(rampable.begin(), rampable.end(), [&](const auto& other) { return other.key == key; });
         if (own == rampable.end()) failSlider(key, rampable);
         if (own->value.size() > 1 && std::all_of(own->value.begin(), own->value.end(), [](double x) { return x == 0; }))
             failUsage("--sliders: {} has no direction that a slider could keep; give it a length in the scene", key);
@@ -212,8 +216,9 @@ std::string livePage(const std::filesystem::path& file, const scene::Loaded& sce
     replace(text, "<", "\\u003c");  // nothing of a scene ends its element
 
     const std::string name = file.stem().string(), title = scene.spec.title;
-    std::string page = pageWith("live.html", {"page.css", "live.css"}, {"look.js", "live_film.js", "live_panel.js", "live.js"},
-                                title.empty() ? name : title, title.empty() ? "" : name, wish.viewer, "--live");
+    std::string page =
+        pageWith("live.html", {"page.css", "live.css"}, {"look.js", "live_film.js", "live_panel.js", "live.js"},
+                 title.empty() ? name : title, title.empty() ? "" : name, wish.viewer, "--live");
     replace(page, "@ENGINE@", base64Of(engine / "taut.wasm.gz"));
     replace(page, "@LIVE@", text);
     return page;

@@ -21,15 +21,15 @@ std::filesystem::path viewerLibrary(const std::string& wish = "");
 // library.
 geometry::WebPage webPage(const std::string& title, const std::string& scene, const std::string& wish);
 
-// The engine for pages, as game/web.sh builds it: `wish`, else $TAUT_WEB, else where it is installed or was built. Throws
-// core::Error(inputOutput), with what to do, if there is none.
+// The engine for pages, as game/web.sh builds it: `wish`, else $TAUT_WEB, else where it is installed or was built.
+// Throws core::Error(inputOutput), with what to do, if there is none.
 std::filesystem::path webEngine(const std::string& wish = "");
 
 struct LivePageWish {
-    std::string viewer, engine;           // folders; empty: wherever they are
-    std::vector<std::string> overrides;   // "key=value"
-    std::vector<std::string> sliders;     // keys that ramps may change; empty: those that most scenes are asked about
-    bool edits = false;                   // the scene's text is open beside the picture
+    std::string viewer, engine;          // folders; empty: wherever they are
+    std::vector<std::string> overrides;  // "key=value"
+    std::vector<std::string> sliders;    // keys that ramps may change; empty: those that most scenes are asked about
+    bool edits = false;                  // the scene's text is open beside the picture
 };
 
 // The page in which people play with the scene. Throws core::Error(inputOutput) for what is missing or cannot be read,

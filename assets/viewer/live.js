@@ -54,7 +54,8 @@ class LivePage {
     this.rate = {pictures: 0, real: 1};
     this.lookedAt = 0;  // [ms]
     this.fineness = 0;  // of look.js
-    this.pace = {pictures: 0, wall: 0, computing: 0, betweens: 0, patience: 2, changed: 0, wasFiner: false};  // [s] since the fineness was last thought of
+    // [s] since the fineness was last thought of
+    this.pace = {pictures: 0, wall: 0, computing: 0, betweens: 0, patience: 2, changed: 0, wasFiner: false};
     this.graph = new EnergyGraph(element('graph'), element('legend'));
     for (const name of given.methods) element('method').add(new Option(name, name));
     for (const [key, meaning] of help) {

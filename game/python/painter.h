@@ -7,8 +7,8 @@
 
 #include "taut/image/image.h"
 #include "taut/render/renderer.h"
-#include "taut/view/frame_view.h"
 #include "taut/spec/picture_spec.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::python {
 

@@ -23,8 +23,7 @@ regression::Tape played(const SceneSource& source, std::int64_t ticks) {
     world::World world(spec, {.threads = 1});
     regression::addTick(tape, world, true);
     while (world.tick() < ticks) {
-        if (const auto divergence = world.advance())
-            throw core::Error(core::ErrorKind::diverged, divergence->message);
+        if (const auto divergence = world.advance()) throw core::Error(core::ErrorKind::diverged, divergence->message);
         regression::addTick(tape, world, true);
     }
     return tape;

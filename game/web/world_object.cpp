@@ -146,8 +146,7 @@ Json WorldObject::save() {
 }
 
 void WorldObject::restore(std::span<const std::byte> bytes) {
-    const pipeline::SavedState state =
-        pipeline::fromBytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const pipeline::SavedState state = pipeline::fromBytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (state.key != keys_.stateAt(state.tick))
         throw core::Error(core::ErrorKind::badContent,
                           "these bytes are of another scene, or of something else that happens before their tick; load "

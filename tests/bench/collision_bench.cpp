@@ -51,9 +51,9 @@ struct Subject {
     int level;
     double rough;
 };
-constexpr Subject subjects[] = {{"sphere", 0, 0.0}, {"mesh", 3, 0.0},  {"mesh", 4, 0.0},  {"mesh", 4, 0.05},
-                                {"mesh", 6, 0.0},   {"mesh", 6, 0.05}, {"hull", 4, 0.0},
-                                {"hull", 4, 0.05},  {"hull", 6, 0.0},  {"hull", 6, 0.05}};
+constexpr Subject subjects[] = {{"sphere", 0, 0.0}, {"mesh", 3, 0.0},  {"mesh", 4, 0.0}, {"mesh", 4, 0.05},
+                                {"mesh", 6, 0.0},   {"mesh", 6, 0.05}, {"hull", 4, 0.0}, {"hull", 4, 0.05},
+                                {"hull", 6, 0.0},   {"hull", 6, 0.05}};
 
 std::string nameOf(const Subject& subject, const ShapeSizes& sizes) {
     if (std::string(subject.kind) == "sphere") return "sphere";

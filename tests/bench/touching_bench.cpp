@@ -1,6 +1,6 @@
 // What it costs that bodies touch, a point and instant of contact, the steps between the instants left in: a sheet that
-// falls on its edge while it piles up and when it lies, one that hangs and meets nothing, and two that lie on a ball; and
-// boxes that fall into a heap, and that stand in a wall.
+// falls on its edge while it piles up and when it lies, one that hangs and meets nothing, and two that lie on a ball;
+// and boxes that fall into a heap, and that stand in a wall.
 #include <benchmark/benchmark.h>
 
 #include "taut/bodies/cloth.h"

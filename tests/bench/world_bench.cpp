@@ -1,9 +1,9 @@
 // What many bodies cost: both figures are to stay flat a body.
 #include <benchmark/benchmark.h>
 
-#include "taut/spec/actions.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
+#include "taut/spec/actions.h"
 #include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
@@ -30,16 +30,18 @@ void buildBodies(benchmark::State& state) {
         world::World world(scene, {.threads = 1});
         benchmark::DoNotOptimize(world.stateHash());
     }
-    state.counters["per body"] = benchmark::Counter(
-        static_cast<double>(state.range(0)), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["per body"] =
+        benchmark::Counter(static_cast<double>(state.range(0)),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(buildBodies)->Arg(250)->Arg(1000)->Arg(4000)->Arg(8000)->Unit(benchmark::kMillisecond);
 
 void tickBodies(benchmark::State& state) {
     world::World world(manyRopes(static_cast<int>(state.range(0))), {.threads = 1});
     for (auto _ : state) (void)world.advance();
-    state.counters["per body"] = benchmark::Counter(
-        static_cast<double>(state.range(0)), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["per body"] =
+        benchmark::Counter(static_cast<double>(state.range(0)),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(tickBodies)->Arg(250)->Arg(1000)->Arg(4000)->Arg(8000)->Unit(benchmark::kMillisecond);
 

@@ -45,9 +45,8 @@ TEST(Goldens, AreNamedInTheManifestAndHaveAReason) {
     }
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path)) {
         const std::string extension = entry.path().extension();
-        if (extension == ".png" || extension == ".tape" || extension == ".state") {
+        if (extension == ".png" || extension == ".tape" || extension == ".state")
             EXPECT_TRUE(named.contains(entry.path())) << entry.path();
-        }
     }
 }
 
@@ -81,12 +80,20 @@ TEST(Goldens, FindMistakesInAPicture) {
     const auto nothing = [](view::FrameView&) {};
     EXPECT_FALSE(isFound(renderer, nothing));
     EXPECT_TRUE(isFound(shadowless, nothing));
-    EXPECT_TRUE(isFound(renderer, [](view::FrameView& view) { view.light.direction = {0.0F, -1.0F, 0.0F}; }));
-    EXPECT_TRUE(isFound(renderer, [](view::FrameView& view) { view.light.sky *= 1.05F; }));
-    EXPECT_TRUE(isFound(renderer, [](view::FrameView& view) { view.camera.fieldOfView *= 1.005F; }));
-    EXPECT_TRUE(isFound(renderer, [](view::FrameView& view) {
-        view.camera.target.x += glm::length(view.camera.eye - view.camera.target) * 0.002F;
-    }));
+    EXPECT_TRUE(isFound(
+        renderer,
+        [](view::FrameView& view) {
+            view.light.direction = {0.0F, -1.0F, 0.0F};
+        }));
+    EXPECT_TRUE(isFound(
+        renderer, [](view::FrameView& view) { view.light.sky *= 1.05F; }));
+    EXPECT_TRUE(isFound(
+        renderer, [](view::FrameView& view) { view.camera.fieldOfView *= 1.005F; }));
+    EXPECT_TRUE(isFound(
+        renderer,
+        [](view::FrameView& view) {
+            view.camera.target.x += glm::length(view.camera.eye - view.camera.target) * 0.002F;
+        }));
     EXPECT_TRUE(isFound(renderer, [](view::FrameView& view) { view.surfaces.pop_back(); }));
 }
 

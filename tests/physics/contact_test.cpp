@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "support/scenes.h"
-#include "taut/ode/method_table.h"
 #include "taut/bodies/net.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::test::contact {
 namespace {

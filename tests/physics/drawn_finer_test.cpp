@@ -36,10 +36,9 @@ double inColliders(const view::Surface& surface, double thickness, const collisi
     for (std::size_t t = 0; t < triangles.size(); t += 3) {
         dvec3 x[3];
         for (std::size_t k = 0; k < 3; ++k) x[k] = placeOf(surface, triangles[t + k]);
-        for (const dvec3& weights : {dvec3(1, 0, 0), dvec3(0.5, 0.5, 0), dvec3(0, 0.5, 0.5), dvec3(0.5, 0, 0.5),
-                                     dvec3(1, 1, 1) / 3.0})
-            least = std::min(least,
-                             colliders.distance(weights.x * x[0] + weights.y * x[1] + weights.z * x[2]));
+        for (const dvec3& weights :
+             {dvec3(1, 0, 0), dvec3(0.5, 0.5, 0), dvec3(0, 0.5, 0.5), dvec3(0.5, 0, 0.5), dvec3(1, 1, 1) / 3.0})
+            least = std::min(least, colliders.distance(weights.x * x[0] + weights.y * x[1] + weights.z * x[2]));
     }
     return -least / thickness;
 }
@@ -71,13 +70,13 @@ class Layers {
             const auto at = [&](std::size_t i) { return x_[static_cast<std::size_t>(crossing.points[i])]; };
             const dvec3 normal = glm::cross(at(3) - at(2), at(4) - at(2));
             if (!(glm::length(normal) > 0.0)) continue;
-            const double depth = std::min(std::abs(glm::dot(normal, at(0) - at(2))),
-                                          std::abs(glm::dot(normal, at(1) - at(2)))) /
-                                 glm::length(normal);
+            const double depth =
+                std::min(std::abs(glm::dot(normal, at(0) - at(2))), std::abs(glm::dot(normal, at(1) - at(2)))) /
+                glm::length(normal);
             const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
             const int triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
-            most = std::max(most, depth / std::max(elements.surface(edge).thickness,
-                                                   elements.surface(triangle).thickness));
+            most = std::max(most,
+                            depth / std::max(elements.surface(edge).thickness, elements.surface(triangle).thickness));
         }
         return most;
     }
@@ -127,8 +126,7 @@ TEST_P(DrawnFiner, SinksIntoNothing) {
     world::SceneSpec spec =
         scene::loadScene(assets / "scenes" / (std::string(GetParam().name) + ".toml"), options).spec;
     world::World played(spec);
-    for (double next = 0.25 * GetParam().seconds; next < 1.01 * GetParam().seconds;
-         next += 0.25 * GetParam().seconds) {
+    for (double next = 0.25 * GetParam().seconds; next < 1.01 * GetParam().seconds; next += 0.25 * GetParam().seconds) {
         while (played.time() < next) ASSERT_FALSE(played.advance());
         const std::vector<std::byte> state = played.save();
         double asComputed = 0.0;

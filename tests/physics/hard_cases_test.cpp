@@ -9,11 +9,11 @@
 #include "support/network.h"
 #include "support/oscillator.h"
 #include "support/scenes.h"
-#include "taut/mechanics/builders.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
 #include "taut/forces/anchor.h"
 #include "taut/forces/wind.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::test::hard_cases {
 namespace {

@@ -9,8 +9,8 @@
 #include "support/network.h"
 #include "support/oscillator.h"
 #include "support/scenes.h"
-#include "taut/core/trig.h"
 #include "taut/bodies/cloth.h"
+#include "taut/core/trig.h"
 
 namespace taut::test::implicit_euler {
 namespace {

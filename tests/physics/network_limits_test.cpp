@@ -6,10 +6,10 @@
 
 #include "support/dense_stiffness.h"
 #include "support/scenes.h"
-#include "taut/core/error.h"
-#include "taut/mechanics/builders.h"
 #include "taut/bodies/cloth.h"
+#include "taut/core/error.h"
 #include "taut/forces/wind.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::test::network_limits {
 namespace {

@@ -10,15 +10,15 @@
 
 #include "plan_scenes.h"
 #include "support/small_scenes.h"
+#include "taut/bodies/rope.h"
 #include "taut/core/error.h"
+#include "taut/forces/wind.h"
 #include "taut/ode/method_table.h"
 #include "taut/scene/load.h"
 #include "taut/study/plan.h"
 #include "taut/study/plan_run.h"
 #include "taut/study/plan_search.h"
 #include "taut/study/plan_text.h"
-#include "taut/bodies/rope.h"
-#include "taut/forces/wind.h"
 
 namespace taut::study::plan_brute_force {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "support/scenes.h"
-#include "taut/scene/load.h"
 #include "taut/bodies/cloth.h"
+#include "taut/scene/load.h"
 
 namespace taut::test::shipped_scenes {
 namespace {

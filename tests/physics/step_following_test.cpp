@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "support/network.h"
-#include "taut/ode/method_table.h"
 #include "taut/bodies/net.h"
+#include "taut/ode/method_table.h"
 #include "taut/spec/spec.h"
 #include "taut/world/world.h"
 

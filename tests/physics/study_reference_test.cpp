@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "taut/bodies/net.h"
 #include "taut/ode/method_table.h"
 #include "taut/spec/spec.h"
 #include "taut/study/errors.h"
@@ -14,7 +15,6 @@
 #include "taut/study/reference.h"
 #include "taut/study/scene_subject.h"
 #include "taut/study/work_precision.h"
-#include "taut/bodies/net.h"
 
 namespace taut::study::study_reference {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "support/dense_stiffness.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "taut/mechanics/builders.h"
 #include "taut/ode/method_table.h"
 #include "taut/spec/spec.h"
 #include "taut/study/threshold.h"
-#include "taut/bodies/cloth.h"
-#include "taut/bodies/rope.h"
 
 namespace taut::test::study_threshold {
 namespace {

@@ -395,8 +395,8 @@ TEST(TouchingIslands, TheOrderOfBodiesInASceneHasNoSay) {
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// A hand leads a sheet against another at 2940 m/s, whose corners go faster where that presses beside them: the run ends, or the sheet stays where it was, and both say that
-// it was contact.
+// A hand leads a sheet against another at 2940 m/s, whose corners go faster where that presses beside them: the run
+// ends, or the sheet stays where it was, and both say that it was contact.
 TEST(TouchingFaults, AreSaidToBeOfContactAndLeaveNumbers) {
     for (const auto on : {world::OnDivergence::stop, world::OnDivergence::freeze}) {
         world::SceneSpec spec = scene();

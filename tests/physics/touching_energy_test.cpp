@@ -51,13 +51,15 @@ TEST(TouchingEnergy, OfASpringyImpactHardlyDependsOnTheInstants) {
 // long for the other.
 struct Impact {
     const char* name;
-    double young;             // [Pa] of the second block; 0: a cloth
-    const char* integrator;   // of the second body
+    double young;            // [Pa] of the second block; 0: a cloth
+    const char* integrator;  // of the second body
     const char* hold;
     world::Precision precision = world::Precision::double_;
     double fps = 60;
 };
-std::ostream& operator<<(std::ostream& out, const Impact& impact) { return out << impact.name; }
+std::ostream& operator<<(std::ostream& out, const Impact& impact) {
+    return out << impact.name;
+}
 
 class TouchingImpact : public testing::TestWithParam<Impact> {};
 

@@ -36,7 +36,7 @@ TEST(TouchingLong, DISABLED_ATwistOfFourTurnsComesUndone) {
         pressing = std::max(pressing, world.contact().lastImpulses);
         EXPECT_EQ(witness.count(world), 0) << "tick " << i;
     }
-    EXPECT_GT(pressing, 20);  // a pair for each cell of its length: it does lie on itself
+    EXPECT_GT(pressing, 20);                  // a pair for each cell of its length: it does lie on itself
     EXPECT_LT(world.metrics().elastic, 0.3);  // [J]
     EXPECT_EQ(world.contact().lastImpulses, 0);
 }

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "support/piercings.h"
-#include "taut/spec/actions.h"
-#include "taut/spec/spec.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
 #include "taut/bodies/rope.h"
+#include "taut/spec/actions.h"
+#include "taut/spec/spec.h"
 
 namespace taut::test::touching {
 

@@ -6,8 +6,8 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "taut/mechanics/model.h"
 #include "support/eigenvalues.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::test {
 

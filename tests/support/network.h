@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "support/integration.h"
 #include "taut/mechanics/gravity.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/mechanics/model.h"
-#include "support/integration.h"
 
 namespace taut::test {
 

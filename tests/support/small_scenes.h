@@ -5,9 +5,9 @@
 
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/rope.h"
 #include "taut/spec/spec.h"
-#include "taut/bodies/joints/joints.h"
 
 namespace taut::support {
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "support/small_scenes.h"
-#include "taut/spec/actions.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
 #include "taut/forces/anchor.h"
 #include "taut/forces/wind.h"
+#include "taut/spec/actions.h"
 #include "taut/world/world.h"
 
 namespace taut::support {

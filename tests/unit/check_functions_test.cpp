@@ -45,8 +45,8 @@ TEST(CheckFunctions, SolidsEndWhereTheyAreDrawn) {
     const std::string aslant = "rotation_deg = [0, 0, 36.86989764584402]\n";
     const world::World world(sceneOf(
         "[solid.ball]\nshape = \"sphere\"\nradius = 0.5\nposition = [0, 1, 0]\n"
-        "[solid.box]\nshape = \"box\"\nsize = [4, 3, 1]\nthickness = 0\nposition = [9, 5, 0]\n" + aslant +
-        "[solid.can]\nshape = \"cylinder\"\nradius = 1\nheight = 4\nthickness = 0.01\nposition = [0, 9, 0]\n" +
+        "[solid.box]\nshape = \"box\"\nsize = [4, 3, 1]\nthickness = 0\nposition = [9, 5, 0]\n" +
+        aslant + "[solid.can]\nshape = \"cylinder\"\nradius = 1\nheight = 4\nthickness = 0.01\nposition = [0, 9, 0]\n" +
         aslant + "[solid.hat]\nshape = \"cone\"\nradius = 1\nheight = 4\nthickness = 0\nposition = [0, 20, 0]\n" +
         aslant + "[rope.r]\nends = [[3, 1, -1], [3, 1, 1]]\nsegments = 1\n"));
     EXPECT_NEAR(valueIn(world, "lowest(solid.ball)"), 0.5, rounding);

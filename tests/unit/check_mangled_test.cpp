@@ -4,8 +4,8 @@
 #include "taut/check/watcher.h"
 #include "taut/core/error.h"
 #include "taut/scene/private/body_size.h"
-#include "unit/check_support.h"
 #include "taut/spec/ticks.h"
+#include "unit/check_support.h"
 
 namespace taut::check {
 namespace {
@@ -196,22 +196,12 @@ std::string mangled(std::string text, std::mt19937& random) {
     std::vector<std::string> lines = linesOf(text);
     const std::size_t a = random() % lines.size(), b = random() % lines.size();
     switch (random() % 7) {
-        case 0:
-            std::swap(lines[a], lines[b]);
-            return joined(lines);
-        case 1:
-            lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(a));
-            return joined(lines);
-        case 2:
-            lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(a), lines[b]);
-            return joined(lines);
-        case 3:
-            text[random() % text.size()] = static_cast<char>(random() % 256);
-            return text;
-        case 4:
-            return withOtherWord(text, random);
-        default:
-            return withOtherNumber(text, random);
+        case 0: std::swap(lines[a], lines[b]); return joined(lines);
+        case 1: lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(a)); return joined(lines);
+        case 2: lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(a), lines[b]); return joined(lines);
+        case 3: text[random() % text.size()] = static_cast<char>(random() % 256); return text;
+        case 4: return withOtherWord(text, random);
+        default: return withOtherNumber(text, random);
     }
 }
 

@@ -60,9 +60,10 @@ TEST(CheckWatcher, AFailureSaysWhenWhereTheValueAndTheBound) {
 // Spawned at the start of the tick from 0.5 s, far below the one that falls.
 TEST(CheckWatcher, ABodyThatComesLaterIsSeenFromThenOn) {
     const Result result =
-        watched("[[at]]\nt = 0.5\ndo = \"spawn\"\ntarget = \"net.late\"\n"
-                "[net.late]\ndrag_per_s = 0\nhold = [\"p\"]\npoints = [{ name = \"p\", position = [0, 2, 0] }]\n" +
-                check("lowest(net.*) > 3"))
+        watched(
+            "[[at]]\nt = 0.5\ndo = \"spawn\"\ntarget = \"net.late\"\n"
+            "[net.late]\ndrag_per_s = 0\nhold = [\"p\"]\npoints = [{ name = \"p\", position = [0, 2, 0] }]\n" +
+            check("lowest(net.*) > 3"))
             .at(0);
     ASSERT_TRUE(result.first);
     EXPECT_EQ(result.first->tick, 31);

@@ -208,9 +208,7 @@ TYPED_TEST(CollisionSweep, PointBetweenTwoCollidersStaysBounded) {
         point.step(colliders, h, {0.0, -gravity, 0.0});
         ASSERT_LT(std::abs(static_cast<double>(point.x[1])), 0.05);
         ASSERT_LT(glm::length(point.velocity()), 1.0);  // a free fall of 5 cm ends at 0.99 m/s
-        if (i > 600) {
-            ASSERT_LT(glm::length(point.velocity()), 2.0 * gravity * h);
-        }
+        if (i > 600) ASSERT_LT(glm::length(point.velocity()), 2.0 * gravity * h);
     }
 }
 
@@ -274,17 +272,10 @@ Colliders crowdedScene(int balls) {
     for (int i = 0; i < balls; ++i) {
         const Pose pose{{0.02 * (i % 100) - 1.0, 0.1, 0.3 * (i % 7) - 1.0}};
         switch (i % 4) {
-            case 0:
-                colliders.add(roundShape("sphere", 0.2), {}, pose);
-                break;
-            case 1:
-                colliders.add(boxHull({0.2, 0.1, 0.3}), {}, pose);
-                break;
-            case 2:
-                colliders.add(boxMesh({0.2, 0.1, 0.3}), {}, pose);
-                break;
-            default:
-                colliders.add(roundShape("cone", 0.2, 0.4), {}, pose);
+            case 0: colliders.add(roundShape("sphere", 0.2), {}, pose); break;
+            case 1: colliders.add(boxHull({0.2, 0.1, 0.3}), {}, pose); break;
+            case 2: colliders.add(boxMesh({0.2, 0.1, 0.3}), {}, pose); break;
+            default: colliders.add(roundShape("cone", 0.2, 0.4), {}, pose);
         }
     }
     return colliders;

@@ -226,8 +226,9 @@ TEST(ContactDistance, LeavesAThickSheetAsItWasBuilt) {
     EXPECT_EQ(flight.v, before);
 }
 
-// Two faces in a V of which the edge is the bottom, the one rising by an angle of that sine towards what lies above: up to
-// half of `valley` the edge counts as one that stands out, at `valley` it pushes nothing back, beyond it does not push.
+// Two faces in a V of which the edge is the bottom, the one rising by an angle of that sine towards what lies above: up
+// to half of `valley` the edge counts as one that stands out, at `valley` it pushes nothing back, beyond it does not
+// push.
 TEST(ContactGeometry, AnEdgeCountsTheLessTheMoreFacesRiseBesideIt) {
     const std::array<std::pair<double, double>, 6> cases{
         {{-0.3, 1.0}, {0.0, 1.0}, {0.1, 1.0}, {0.15, 0.5}, {0.2, 0.0}, {0.25, -0.5}}};

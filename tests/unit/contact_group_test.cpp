@@ -14,7 +14,7 @@ struct Kneading {
     explicit Kneading(int cells = 10) {
         flight.addSheet({0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.0, 0.3}, cells, dvec3(0.0), 2e-3, 0.005);
         ContactSurface& upper = flight.addSheet({0.02, 0.0102, 0.01}, {0.28, 0.0, 0.03}, {-0.03, 0.0, 0.28}, cells,
-                                         {0.1, 0.0, 0.05}, 1e-3, 0.005);
+                                                {0.1, 0.0, 0.05}, 1e-3, 0.005);
         upper.meetsItself = true;
         for (std::size_t i = 0; i < flight.x.size() / 2; ++i) flight.inverseMass[i] = i % 3 == 0 ? 0.0 : 500.0;
     }
@@ -114,9 +114,9 @@ TEST(ContactGroup, MeetsWhatAnImpulseLeadsFarInOneInstant) {
 }
 
 // A ball comes through a triangle of which two corners are held, right beside them: of 0.9 % of the squares of the
-// weights the third is not pressed. The certificate slides it down, and up again from the sheet 30 mm below it, to which
-// nothing else is near: a fifth of that is left. All in powers of two there, for which of the corners goes down is left
-// to rounding.
+// weights the third is not pressed. The certificate slides it down, and up again from the sheet 30 mm below it, to
+// which nothing else is near: a fifth of that is left. All in powers of two there, for which of the corners goes down
+// is left to rounding.
 TEST(ContactGroup, MeetsWhatASlideLeadsToIt) {
     Flight flight;
     flight.addTriangle({dvec3(0, 0, 1), dvec3(-1, 0, 0), dvec3(1, 0, 0)}, dvec3(0.0), 0.01, 0.002);
@@ -226,8 +226,8 @@ TEST(ContactGroup, LeadsTheSmallerPartOfASheetBack) {
     }
 }
 
-// After a certified tick no crossing is looked for where the points still are where it left them. One that was moved since
-// may cross, whoever moved it.
+// After a certified tick no crossing is looked for where the points still are where it left them. One that was moved
+// since may cross, whoever moved it.
 TEST(ContactGroup, LooksForCrossingsWherePointsWereMovedFromOutside) {
     Flight flight;
     flight.addTriangle({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0, 0, 2)}, dvec3(0.0), 1.0, 0.005);

@@ -430,7 +430,7 @@ TEST(ContactImpact, TakesSweepsInProportionToThePile) {
         }
         std::vector<Four> u(static_cast<std::size_t>(n) + 1, Four{{0, -1, 0, 0}});
         u[0] = {};
-        EXPECT_LT(projectedGaussSeidel(rows, 5 * n, 1e-3, u), 4 * n);         // it is 3.5 to 3.7 n
+        EXPECT_LT(projectedGaussSeidel(rows, 5 * n, 1e-3, u), 4 * n);      // it is 3.5 to 3.7 n
         for (const Four& v : u) EXPECT_NEAR(v.of[1], 0.0, 1e-3 * n) << n;  // which leaves 4e-4 to 7e-4 n
         // Half of the right impulses, which are those of all the weight above, is a start that is scaled to the whole.
         std::vector<Four> fresh(static_cast<std::size_t>(n) + 1, Four{{0, -1, 0, 0}});

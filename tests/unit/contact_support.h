@@ -19,7 +19,7 @@ struct Flight {
     std::vector<double> inverseMass;  // (points) [1/kg]
     ContactOptions options;
     std::unique_ptr<ContactGroup> group;  // made by the first instant
-    std::vector<dvec3> rest;       // [m] none: as they are at the first instant
+    std::vector<dvec3> rest;              // [m] none: as they are at the first instant
 
     int addPoint(const dvec3& place, const dvec3& speed, double mass) {
         x.push_back(place);
@@ -55,7 +55,7 @@ struct Flight {
     }
     // Of cells × cells squares, row by row from the origin.
     ContactSurface& addSheet(const dvec3& origin, const dvec3& across, const dvec3& down, int cells, const dvec3& speed,
-                      double massOfEach, double thickness) {
+                             double massOfEach, double thickness) {
         const int first = static_cast<int>(x.size()), n = cells + 1;
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)

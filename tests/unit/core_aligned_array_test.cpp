@@ -34,9 +34,8 @@ TEST(AlignedArray, LargeOnesStartOnALargePageAndBehaveAlike) {
     constexpr std::size_t largePage = std::size_t{1} << 21;  // [bytes]
     for (const std::size_t size : {largePage / 8 - 1, largePage / 8, largePage / 8 + 1, largePage}) {
         AlignedArray<double> array(size);
-        if (size * sizeof(double) >= largePage) {
+        if (size * sizeof(double) >= largePage)
             EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array.data()) % largePage, 0U) << size;
-        }
         EXPECT_EQ(std::count(array.begin(), array.end(), 0.0), static_cast<std::ptrdiff_t>(size));
         array[0] = 1.0;
         array[size - 1] = 2.0;

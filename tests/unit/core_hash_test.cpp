@@ -28,11 +28,14 @@ TEST(Hash, NegativeZeroCountsAsZero) {
 
 TEST(Hash, SeesEveryBitOfANumber) {
     std::set<std::uint64_t> seen;
-    for (int bit = 0; bit < 64; ++bit) seen.insert(hashOf(std::bit_cast<double>(0x3ff0000000000000ULL ^ (1ULL << bit))));
+    for (int bit = 0; bit < 64; ++bit)
+        seen.insert(hashOf(std::bit_cast<double>(0x3ff0000000000000ULL ^ (1ULL << bit))));
     EXPECT_EQ(seen.size(), 64U);
 }
 
-TEST(Hash, SeesTheOrder) { EXPECT_NE(hashOf(1.0, 2.0), hashOf(2.0, 1.0)); }
+TEST(Hash, SeesTheOrder) {
+    EXPECT_NE(hashOf(1.0, 2.0), hashOf(2.0, 1.0));
+}
 
 TEST(Hash, TellsWhereATextEnds) {
     EXPECT_NE(hashOf(std::string_view("ab"), std::string_view("c")),

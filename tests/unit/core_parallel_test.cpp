@@ -28,7 +28,12 @@ TEST(ParallelFor, NestsAndTakesNothing) {
 }
 
 TEST(ParallelFor, HandsOnAnException) {
-    EXPECT_THROW(parallelFor(16, [](int i) { if (i == 7) throw std::runtime_error("seven"); }), std::runtime_error);
+    EXPECT_THROW(parallelFor(
+                     16,
+                     [](int i) {
+                         if (i == 7) throw std::runtime_error("seven");
+                     }),
+                 std::runtime_error);
 }
 
 TEST(ThreadLimit, SevenThreadsAreMoreThanTheMachineMayHave) {

@@ -62,7 +62,7 @@ TEST(FuzzTargets, ReadOrRefuseWhateverBefallsTheirSeeds) {
         if (files.empty())
             files.push_back(changed(
                 target, {}, [](Bytes&) {}, 20));  // the target makes them
-        if (target.name == "play") continue;  // has tests of its own
+        if (target.name == "play") continue;      // has tests of its own
         // Scenes and worlds take a hundred times as long as the rest, and have more accidents in tests of their own.
         const bool isSlow = std::string("overrides scene timeline world").find(target.name) != std::string::npos;
         const std::size_t rounds = isSlow ? 3 : 100;

@@ -8,8 +8,8 @@
 #include "game/interruption.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
-#include "taut/core/private/edit_distance.h"
 #include "taut/core/error.h"
+#include "taut/core/private/edit_distance.h"
 
 namespace taut::game {
 namespace {

@@ -99,7 +99,8 @@ TEST(PlayQuality, LevelsEndWithTheScenesOwnAndNoneIsFiner) {
 TEST(RenderCommand, AStillIsThePictureOfItsMomentAndLeavesNoRecord) {
     const TemporaryFolder folder, alone;
     const std::string file = springFile(folder);
-    ASSERT_EQ(run({"render", file, "-o", (folder / "frame_######.png").string(), "--quiet", "--size", "64x36"}).code, 0);
+    ASSERT_EQ(run({"render", file, "-o", (folder / "frame_######.png").string(), "--quiet", "--size", "64x36"}).code,
+              0);
     const auto still = [&](const std::string& at, const std::string& name) {
         return run({"render", file, "-o", (alone / name).string(), "--quiet", "--size", "64x36", "--at", at}).code;
     };
@@ -116,9 +117,11 @@ TEST(RenderCommand, AStillIsThePictureOfItsMomentAndLeavesNoRecord) {
 TEST(RenderCommand, AStillIsNoRun) {
     const TemporaryFolder folder;
     const std::string file = springFile(folder), one = (folder / "still.png").string();
-    for (const std::vector<std::string>& more :
-         {std::vector<std::string>{"--at", "0.3"}, {"--at", "0.1,0.2"}, {"--at", "0.1", "--frames", "0-2"},
-          {"--at", "0.1", "--metrics"}, {"--at", "-1"}}) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--at", "0.3"},
+                                                 {"--at", "0.1,0.2"},
+                                                 {"--at", "0.1", "--frames", "0-2"},
+                                                 {"--at", "0.1", "--metrics"},
+                                                 {"--at", "-1"}}) {
         std::vector<std::string> arguments = {"render", file, "-o", one};
         arguments.insert(arguments.end(), more.begin(), more.end());
         EXPECT_EQ(run(arguments).code, 2) << more.back();

@@ -67,9 +67,8 @@ TEST_F(Shards, JoinedAreTheBytesOfOneRun) {
     draw({"-o", path("one"), "--video", path("one.mp4"), "--metrics-of", "speed(net.spring@bob)", "--overlay",
           "--depth"});
     draw({"--no-pictures", "--checkpoint-every", "2", "--checkpoints", path("states")});
-    const std::vector<std::string> flags = {"--checkpoints", path("states"),          "--resume",
-                                            "--metrics-of",  "speed(net.spring@bob)", "--overlay",
-                                            "--depth"};
+    const std::vector<std::string> flags = {"--checkpoints",         path("states"), "--resume", "--metrics-of",
+                                            "speed(net.spring@bob)", "--overlay",    "--depth"};
     drawShards(3, flags);
     for (const auto& file : std::filesystem::directory_iterator(folder_ / "one"))
         if (const std::filesystem::path name = file.path().filename(); name.extension() == ".png")

@@ -32,14 +32,16 @@ std::vector<std::string> wordsAfter(const std::string& text, const std::string& 
 }
 
 // The folders of the engine from the ground up: the order in which it is built.
-const std::vector<std::string> floors = wordsAfter(contentOf(source / "engine/CMakeLists.txt"), "add_subdirectory(taut/");
+const std::vector<std::string> floors =
+    wordsAfter(contentOf(source / "engine/CMakeLists.txt"), "add_subdirectory(taut/");
 
 // What each folder links, and by that may include besides itself: its own links and what those link.
 std::map<std::string, Folders> linked() {
     std::map<std::string, Folders> all;
     for (const std::string& folder : floors) {
         Folders& folders = all[folder];
-        for (const std::string& other : wordsAfter(contentOf(source / "engine/taut" / folder / "CMakeLists.txt"), "taut::")) {
+        for (const std::string& other :
+             wordsAfter(contentOf(source / "engine/taut" / folder / "CMakeLists.txt"), "taut::")) {
             folders.insert(other);
             const Folders below = all.contains(other) ? all.at(other) : Folders{};
             folders.insert(below.begin(), below.end());
@@ -69,17 +71,16 @@ std::vector<Include> includesBelow(const std::filesystem::path& folder) {
 
 TEST(House, EveryFolderOfTheEngineHasItsPlace) {
     for (const auto& entry : std::filesystem::directory_iterator(source / "engine/taut"))
-        if (entry.is_directory()) {
+        if (entry.is_directory())
             EXPECT_EQ(std::count(floors.begin(), floors.end(), entry.path().filename()), 1) << entry.path();
-        }
 }
 
 TEST(House, LinksPointDown) {
     for (auto folder = floors.begin(); folder != floors.end(); ++folder)
-        for (const std::string& other : wordsAfter(contentOf(source / "engine/taut" / *folder / "CMakeLists.txt"), "taut::"))
-            if (std::find(floors.begin(), floors.end(), other) != floors.end()) {
+        for (const std::string& other :
+             wordsAfter(contentOf(source / "engine/taut" / *folder / "CMakeLists.txt"), "taut::"))
+            if (std::find(floors.begin(), floors.end(), other) != floors.end())
                 EXPECT_NE(std::find(floors.begin(), folder, other), folder) << *folder << " links " << other;
-            }
 }
 
 TEST(House, IncludesPointOneWay) {
@@ -101,16 +102,15 @@ TEST(House, TheEngineDoesNotKnowTheProgram) {
 
 // Bullet, GL, TOML and the pictures' codecs are seen by sources only, so that they can be replaced in one place.
 TEST(House, ThirdPartyHeadersStayOutOfPublicOnes) {
-    static constexpr const char* inside[] = {"bt",   "Bullet",     "LinearMath", "toml",   "GL/",      "EGL/", "glad",
-                                             "stb_", "libdeflate", "tbb",        "oneapi", "nlohmann", "CLI",  "spng",
-                                             "turbojpeg"};
+    static constexpr const char* inside[] = {"bt",     "Bullet",   "LinearMath", "toml",       "GL/",
+                                             "EGL/",   "glad",     "stb_",       "libdeflate", "tbb",
+                                             "oneapi", "nlohmann", "CLI",        "spng",       "turbojpeg"};
     const Folders inner = {"gl.h"};  // private to one folder, behind its pimpl
     for (const Include& include : includesBelow(source / "engine"))
         if (include.file.extension() == ".h" &&
             std::any_of(std::begin(inside), std::end(inside),
-                        [&](const char* start) { return include.what.starts_with(start); })) {
+                        [&](const char* start) { return include.what.starts_with(start); }))
             EXPECT_TRUE(inner.contains(include.file.filename())) << include.file << " includes " << include.what;
-        }
 }
 
 // A heavy library is read by the compiler once, and can be replaced in one place.
@@ -129,9 +129,7 @@ TEST(House, TheTopLevelHoldsWhatWasAgreed) {
     const Folders agreed = {"CMakeLists.txt", "engine", "game", "shaders", "assets", "tests", "README.md", "out"};
     for (const auto& entry : std::filesystem::directory_iterator(source)) {
         const std::string name = entry.path().filename();
-        if (!name.starts_with(".") && !name.starts_with("build")) {
-            EXPECT_TRUE(agreed.contains(name)) << name;
-        }
+        if (!name.starts_with(".") && !name.starts_with("build")) EXPECT_TRUE(agreed.contains(name)) << name;
     }
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "image_support.h"
-#include "taut/image/read.h"
 #include "taut/image/private/several_sinks.h"
+#include "taut/image/read.h"
 
 namespace taut::image {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "taut/live/mouse_hand.h"
-#include "taut/scene/private/document.h"
 #include "taut/scene/load.h"
+#include "taut/scene/private/document.h"
 
 namespace taut::live {
 namespace {
@@ -52,7 +52,9 @@ velocity = [1.0, 0.0, 0.0]
 shape = "sphere"
 position = [0.0, -3.0, 0.0]
 [camera.main]
-)", "scene.toml", {}).spec;
+)",
+                                                        "scene.toml", {})
+                                       .spec;
     ASSERT_EQ(scene.actions.size(), lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i)
         EXPECT_EQ(actionText(scene.actions[i], scene.actions[i].t, world::builtInActions()), lines[i]);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "taut/mechanics/private/anchor.h"
 #include "mechanics_planar_state.h"
+#include "taut/mechanics/private/anchor.h"
 
 namespace taut::mechanics {
 namespace {
@@ -132,7 +132,8 @@ TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergyWhereItIsCut) {
             u[state.index(i, axis)] = 1.0;
             anchor.addStiffnessProduct(state.motion(), u.data(), product.data());
             anchor.addProduct(state.stride, u.data(), weighted.data());
-            const auto slope = (forceDown[static_cast<std::size_t>(i)] - forceUp[static_cast<std::size_t>(i)]) / (2 * h);
+            const auto slope =
+                (forceDown[static_cast<std::size_t>(i)] - forceUp[static_cast<std::size_t>(i)]) / (2 * h);
             for (int other = 0; other < 3; ++other) {
                 EXPECT_NEAR(product[state.index(i, other)], slope[other], 1e-8);
                 EXPECT_EQ(weighted[state.index(i, other)], product[state.index(i, other)]);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "taut/mechanics/builders.h"
 #include "mechanics_lattice_facts.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::mechanics {
 namespace {

@@ -200,7 +200,8 @@ TEST(RopeBuilder, LaidThroughPlacesItGoesThroughThemUnstretched) {
     EXPECT_EQ(at(model.positions, 200), shape.end);
 }
 
-// Level, around the diameter between its ends; or through places, back to where it began. Every point has two neighbours.
+// Level, around the diameter between its ends; or through places, back to where it began. Every point has two
+// neighbours.
 TEST(RopeBuilder, ClosedItIsAnUnstretchedRing) {
     for (const bool isLoop : {false, true}) {
         RopeShape shape;

@@ -114,9 +114,8 @@ TEST(Filling, PressesAsItsLawSays) {
     const std::array<double, 3> expected = {200.0, 1200.0 / v - 1000.0, 200.0 + 5000.0 * (1.0 - v)};
     for (std::size_t law = 0; law < 3; ++law) {
         PlanarState<double> state(solid.places, solid.masses);
-        if (laws[law].keeps == FillingKeeps::amount) {  // its energy is that since it was sealed
+        if (laws[law].keeps == FillingKeeps::amount)  // its energy is that since it was sealed
             EXPECT_NEAR(solid.filling(laws[law]).potentialEnergy(state.motion()), 0.0, 1e-12);
-        }
         for (double& x : state.x) x *= s;
         const std::vector<dvec3> forces = state.forces(solid.filling(laws[law]));
         // Each of four triangles has an area of ½ √3 and a normal of 1/√3 along the axis; a third of them.

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "mechanics_planar_state.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/gravity.h"
-#include "mechanics_planar_state.h"
 
 namespace taut::mechanics {
 namespace {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <mutex>
 
+#include "mechanics_random_net.h"
 #include "taut/core/private/parallel.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/gravity.h"
-#include "mechanics_random_net.h"
 #include "taut/ode/method_table.h"
 
 namespace taut::mechanics::test {
@@ -213,9 +213,7 @@ TYPED_TEST(MassSpringSystems, GiveCoincidentPointsNoForceAndCloseOnesAFiniteOne)
             const auto a = accelerations(island);
             for (const TypeParam value : a) {
                 EXPECT_TRUE(std::isfinite(value)) << apart;
-                if (apart == 0.0) {
-                    EXPECT_EQ(value, TypeParam(0));
-                }
+                if (apart == 0.0) EXPECT_EQ(value, TypeParam(0));
             }
         }
 }

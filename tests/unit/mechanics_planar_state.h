@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
-#include <vector>
 
 #include "taut/core/aligned_array.h"
 #include "taut/core/private/instruction_set.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
 #include "support/oscillator_measures.h"
+#include "taut/core/error.h"
 
 namespace taut::test::own_method {
 namespace {

@@ -21,9 +21,8 @@ class Led final : public ode::SecondOrderSystem<double>, public ode::ImplicitSys
     ode::Layout layout() const override { return {2, 2, 1}; }
     const double* dragRates() const override { return drag_; }
     void accelerate(double t, const double* x, const double* v, ode::AccelerationSink<double>& sink) override {
-        if (isLedAtItsTime) {
+        if (isLedAtItsTime)
             EXPECT_NEAR(x[0], place(t), 1e-14);  // the end of a step and the start of the next: a rounding of t
-        }
         const double a[] = {0.0, -omega2 * (x[1] - x[0]) - c * (v[1] - v[0])};
         const double* planes[] = {a};
         sink.take(0, 2, planes);

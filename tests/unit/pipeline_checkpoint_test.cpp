@@ -9,9 +9,9 @@
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
+#include "taut/island/metric_table.h"
 #include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/sealed_file.h"
-#include "taut/island/metric_table.h"
 
 namespace taut::pipeline {
 namespace {

@@ -8,10 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "taut/core/error.h"
-#include "taut/pipeline/run_record.h"
 #include "taut/bodies/net.h"
+#include "taut/core/error.h"
 #include "taut/forces/wind.h"
+#include "taut/pipeline/run_record.h"
 #include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
@@ -199,9 +199,10 @@ TEST(RunRecord, MetricsHaveALineAFrameWithTheColumnsOfTheHeading) {
     std::string heading, line;
     std::getline(lines, heading);
     EXPECT_TRUE(heading.starts_with("frame,time_s,kinetic_J,elastic_J,gravitational_J,total_J,"));
-    EXPECT_TRUE(heading.ends_with(
-        ",torn_springs,volume_ratio,penetration_m,body_contacts,crossings,face_penetration_m,squeezed,max_speed_m_per_s,"
-        "asleep,slept_J"));
+    EXPECT_TRUE(
+        heading.ends_with(",torn_springs,volume_ratio,penetration_m,body_contacts,crossings,face_penetration_m,"
+                          "squeezed,max_speed_m_per_s,"
+                          "asleep,slept_J"));
     int count = 0;
     while (std::getline(lines, line)) {
         EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(heading.begin(), heading.end(), ','));

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "taut/core/error.h"
 #include "image_support.h"
+#include "taut/core/error.h"
 #include "taut/pipeline/self_test.h"
 
 namespace taut::pipeline {

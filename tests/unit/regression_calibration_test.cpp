@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "regression_support.h"
+#include "taut/bodies/cloth.h"
 #include "taut/core/private/child_process.h"
 #include "taut/image/png.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/mutants.h"
 #include "taut/regression/playing.h"
-#include "taut/bodies/cloth.h"
 
 namespace taut::regression {
 namespace {

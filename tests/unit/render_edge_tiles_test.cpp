@@ -23,9 +23,11 @@ ShadedPixels picture(const std::function<std::uint32_t(int, int)>& mark, const s
 }
 
 bool holds(const std::vector<PixelBox>& tiles, int x, int y) {
-    return std::any_of(tiles.begin(), tiles.end(), [&](const PixelBox& tile) {
-        return x >= tile.x && x < tile.x + tile.width && y >= tile.y && y < tile.y + tile.height;
-    });
+    return std::any_of(
+        tiles.begin(), tiles.end(),
+        [&](const PixelBox& tile) {
+            return x >= tile.x && x < tile.x + tile.width && y >= tile.y && y < tile.y + tile.height;
+        });
 }
 
 int area(const std::vector<PixelBox>& tiles) {

@@ -4,10 +4,10 @@
 
 #include <numeric>
 
-#include "taut/image/png.h"
-#include "taut/image/private/resize.h"
 #include "image_support.h"
 #include "program_support.h"
+#include "taut/image/png.h"
+#include "taut/image/private/resize.h"
 
 namespace taut::report {
 namespace {

@@ -136,12 +136,15 @@ TEST(SceneErrors, ActionsThatAreIncompleteAreReported) {
          "    ^ impulse_Ns is a list of 3 numbers [N s]: Of all the points, shared by mass"},
         {"a cut along two things",
          "at = [\n"
-         "  { t = 1, do = \"cut\", target = \"cloth.c\", plane = [[0, 0, 0], [1, 0, 0]], segment = [[0, 0], [1, 1]] },\n"
+         "  { t = 1, do = \"cut\", target = \"cloth.c\", plane = [[0, 0, 0], [1, 0, 0]], segment = [[0, 0], [1, 1]] "
+         "},\n"
          "]\n"
          "[cloth.c]\nmaterial = \"m\"\n[material.m]\n",
          "s.toml:3:86: error: a cut has a plane or a segment, not both\n"
-         "    { t = 1, do = \"cut\", target = \"cloth.c\", plane = [[0, 0, 0], [1, 0, 0]], segment = [[0, 0], [1, 1]] },\n"
-         "                                                                                       ^ leave one out; without either all of the body comes apart"},
+         "    { t = 1, do = \"cut\", target = \"cloth.c\", plane = [[0, 0, 0], [1, 0, 0]], segment = [[0, 0], [1, 1]] "
+         "},\n"
+         "                                                                                       ^ leave one out; "
+         "without either all of the body comes apart"},
         {"a cut along a point",
          "at = [\n"
          "  { t = 1, do = \"cut\", target = \"cloth.c\", segment = [[0.5, 0.5], [0.5, 0.5]] },\n"

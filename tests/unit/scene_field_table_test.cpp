@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "taut/bodies/rope.h"
 #include "taut/scene/private/document.h"
 #include "taut/scene/private/sections.h"
-#include "taut/bodies/rope.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 

@@ -285,10 +285,11 @@ TEST(SceneFiles, APartOfACompoundMayHaveAFinishOfItsOwn) {
     const AssetFolder folder;
     const world::SceneSpec scene =
         folder
-            .load("schema = 1\n[collider.post]\nshape = \"compound\"\nfinish = { roughness = 0.25 }\nparts = [\n"
-                  "{ shape = \"sphere\", radius = 1 },\n"
-                  "{ shape = \"sphere\", radius = 2, finish = { roughness = 0.5, texture = \"square.png\", "
-                  "pattern = \"image\" } } ]\n")
+            .load(
+                "schema = 1\n[collider.post]\nshape = \"compound\"\nfinish = { roughness = 0.25 }\nparts = [\n"
+                "{ shape = \"sphere\", radius = 1 },\n"
+                "{ shape = \"sphere\", radius = 2, finish = { roughness = 0.5, texture = \"square.png\", "
+                "pattern = \"image\" } } ]\n")
             .spec;
     const auto surfaces = world::World(scene).view(false).surfaces;
     ASSERT_EQ(surfaces.size(), 2U);

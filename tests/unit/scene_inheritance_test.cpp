@@ -34,9 +34,9 @@ TEST(SceneInheritance, OwnKeysStandOverThoseOfTheLikeAndTheseOverDefaults) {
 }
 
 TEST(SceneInheritance, TablesAreLaidOverEachOtherKeyByKey) {
-    const Loaded scene = loaded(
-        "[defaults.rope]\nfinish = { weave = 0.5, roughness = 0.25 }\n[rope.a]\nfinish = { weave = 0.75 }\n" +
-        std::string(straightEnds));
+    const Loaded scene =
+        loaded("[defaults.rope]\nfinish = { weave = 0.5, roughness = 0.25 }\n[rope.a]\nfinish = { weave = 0.75 }\n" +
+               std::string(straightEnds));
     EXPECT_EQ(rope(scene, 0).finish.weave, 0.75);
     EXPECT_EQ(rope(scene, 0).finish.roughness, 0.25);
 }
@@ -79,8 +79,8 @@ TEST(SceneInheritance, EverySectionWithNamesHasIt) {
 }
 
 TEST(SceneInheritance, AStateHasTheKeyThatItHasWithAllWrittenOut) {
-    const std::string own = "[rope.a]\nradius = 0.01\n" + std::string(straightEnds) +
-                            "[rope.b]\nradius = 0.01\n" + straightEnds;
+    const std::string own =
+        "[rope.a]\nradius = 0.01\n" + std::string(straightEnds) + "[rope.b]\nradius = 0.01\n" + straightEnds;
     const std::string taken =
         "[defaults.rope]\nradius = 0.01\n[rope.a]\n" + std::string(straightEnds) + "[rope.b]\nlike = \"a\"\n";
     EXPECT_EQ(loaded(own).keys.stateAt(9), loaded(taken).keys.stateAt(9));
@@ -90,8 +90,7 @@ TEST(SceneInheritance, OverridesChangeDefaultsAndWhatIsLikeFollows) {
     const std::string text = "[defaults.rope]\nradius = 0.01\n[rope.a]\nmass_kg = 2\n" + std::string(straightEnds) +
                              "[rope.b]\nlike = \"a\"\n[collider.p]\nshape = \"compound\"\n"
                              "parts = [{ shape = \"sphere\", radius = 1 }]\n[collider.q]\nlike = \"p\"\n";
-    const Loaded scene =
-        loaded(text, {"defaults.rope.radius=0.03", "rope.a.mass_kg=3", "collider.q.parts.0.radius=2"});
+    const Loaded scene = loaded(text, {"defaults.rope.radius=0.03", "rope.a.mass_kg=3", "collider.q.parts.0.radius=2"});
     EXPECT_EQ(rope(scene, 1).radius, 0.03);
     EXPECT_EQ(rope(scene, 1).mass, 3.0);
     EXPECT_EQ(scene.spec.colliders[0].parts.at(0).radius, 1.0);
@@ -109,8 +108,9 @@ TEST(SceneInheritance, DefaultsOfASceneHoldForWhatBuildsOnIt) {
 
 TEST(SceneInheritance, FaultsAreSaidOnceAndWhereTheyStand) {
     expectMessages({
-        {"a value that two have", "[defaults.rope]\nradius = -1\n[rope.a]\nends = [[0,0,0],[1,0,0]]\n[rope.b]\n"
-                                  "like = \"a\"\n",
+        {"a value that two have",
+         "[defaults.rope]\nradius = -1\n[rope.a]\nends = [[0,0,0],[1,0,0]]\n[rope.b]\n"
+         "like = \"a\"\n",
          "s.toml:3:10: error: radius must be between 1e-06 and 1e+06 m, not -1\n"
          "  radius = -1\n"
          "           ^"},
@@ -166,8 +166,7 @@ TEST(SceneInheritance, WhatIsTakenOverHasALimit) {
     for (int i = 0; i < 20'000; ++i) text += "\"a\",";
     text += "]\n";
     for (int i = 0; i < 100; ++i) text += "[rope.r" + std::to_string(i) + "]\n";
-    EXPECT_NE(AssetFolder().messageOf(text).find("takes too many values over by defaults and like"),
-              std::string::npos);
+    EXPECT_NE(AssetFolder().messageOf(text).find("takes too many values over by defaults and like"), std::string::npos);
 }
 
 TEST(SceneInheritance, TheSchemaHasDefaultsInWhichNothingIsRequired) {

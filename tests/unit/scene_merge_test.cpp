@@ -138,8 +138,9 @@ TEST(SceneMerge, ASceneBuildsOnOneThatBuildsOnAnother) {
 TEST(SceneMerge, AMessageNamesTheFileOfAChainThatIsWrong) {
     const AssetFolder folder;
     folder.write("ground.toml", "schema = 1\n[run]\nfps = \"fast\"\n");
-    folder.write("yard.toml", "schema = 1\nscene = \"ground\"\n[rope.line]\nsegmets = 8\n"
-                              "ends = [[0, 1, 0], [1, 1, 0]]\n");
+    folder.write("yard.toml",
+                 "schema = 1\nscene = \"ground\"\n[rope.line]\nsegmets = 8\n"
+                 "ends = [[0, 1, 0], [1, 1, 0]]\n");
     EXPECT_EQ(folder.messageOf("schema = 1\nscene = \"yard\"\n[run]\nseconds = -1\n"),
               "s.toml:4:11: error: seconds must be between 0.001 and 1e+06 s, not -1\n"
               "  seconds = -1\n"

@@ -1,7 +1,7 @@
 // Fields given on the command line.
-#include "unit/scene_support.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
+#include "unit/scene_support.h"
 
 namespace taut::scene {
 namespace {
@@ -46,8 +46,8 @@ TEST(SceneOverrides, ReachIntoLists) {
 
 TEST(SceneOverrides, AStarStandsForAnyLettersOfAName) {
     const AssetFolder folder;
-    const std::string text = std::string(yard) +
-                             "[rope.rig]\nends = [[0, 1, 0], [1, 1, 0]]\n[rope.sag]\nends = [[0, 2, 0], [1, 2, 0]]\n";
+    const std::string text =
+        std::string(yard) + "[rope.rig]\nends = [[0, 1, 0], [1, 1, 0]]\n[rope.sag]\nends = [[0, 2, 0], [1, 2, 0]]\n";
     LoadOptions options;
     options.overrides = {"rope.*.segments=7", "rope.r*.segments=9", "mass.*.mass_kg=3"};
     const world::SceneSpec scene = folder.load(text, options).spec;

@@ -37,14 +37,10 @@ std::string mangled(std::string text, std::mt19937& random) {
                                              std::string(1, '\0')};
     const std::size_t at = random() % (text.size() + 1);
     switch (random() % 6) {
-        case 0:
-            return text.erase(at, random() % 12);
-        case 1:
-            return text.insert(at, pieces[random() % pieces.size()]);
-        case 2:
-            return text.insert(at, text.substr(random() % text.size(), random() % 40));
-        case 3:
-            return text.substr(0, at);
+        case 0: return text.erase(at, random() % 12);
+        case 1: return text.insert(at, pieces[random() % pieces.size()]);
+        case 2: return text.insert(at, text.substr(random() % text.size(), random() % 40));
+        case 3: return text.substr(0, at);
         case 4: {
             const std::size_t start = std::min(text.find('\n', at), text.size());
             return text.erase(start, std::min(text.find('\n', start + 1), text.size()) - start);
@@ -61,9 +57,8 @@ TEST(SceneRobustness, MangledScenesLoadOrLeadToAMessage) {
     int loaded = 0, refused = 0;
     for (int i = 0; i < 500; ++i) {
         std::string text = fullScene;
-        for (std::size_t accidents = 1 + random() % 3; accidents > 0 && !text.empty(); --accidents) {
+        for (std::size_t accidents = 1 + random() % 3; accidents > 0 && !text.empty(); --accidents)
             text = mangled(text, random);
-        }
         try {
             folder.load(text);
             ++loaded;
@@ -84,9 +79,8 @@ TEST(SceneRobustness, TruncationAnywhereIsAMessageOrAScene) {
     const AssetFolder folder;
     const std::string text = fullScene;
     int refused = 0;
-    for (std::size_t length = 0; length < text.size(); length += 37) {
+    for (std::size_t length = 0; length < text.size(); length += 37)
         refused += folder.messageOf(text.substr(0, length)).empty() ? 0 : 1;
-    }
     EXPECT_GT(refused, 50);
 }
 

@@ -196,7 +196,8 @@ TEST(SceneErrors, RampsOfWhatCannotChangeAreReported) {
          "ends = [[0, 0, 0], [1, 0, 0]]\n",
          "s.toml:3:31: error: nothing of solver can change while the scene runs\n"
          "    { t = 1, do = \"ramp\", key = \"solver.dt\", to = 0.1 },\n"
-         "                                ^ what may: world, material, rope, block, net, anchor, wind, filling, collider, "
+         "                                ^ what may: world, material, rope, block, net, anchor, wind, filling, "
+         "collider, "
          "camera, light, lamp, environment, background"},
         {"an unknown wind",
          "at = [\n"
@@ -245,7 +246,8 @@ TEST(SceneErrors, RampsOfWhatCannotChangeAreReported) {
          "ends = [[0, 0, 0], [1, 0, 0]]\n",
          "s.toml:3:31: error: rope.r.segments cannot change while the scene runs\n"
          "    { t = 1, do = \"ramp\", key = \"rope.r.segments\", to = 12 },\n"
-         "                                ^ what may of it: stretch_N, bend_N, bending_rigidity_N_m2, damping_time_s, drag_per_s"},
+         "                                ^ what may of it: stretch_N, bend_N, bending_rigidity_N_m2, damping_time_s, "
+         "drag_per_s"},
         {"a field without a value",
          "at = [\n"
          "  { t = 1, do = \"ramp\", key = \"material.m.shear_N_per_m\", to = 12 },\n"

@@ -1,13 +1,13 @@
 // Every field of a timeline, a check and a golden lands in its member; a ramp reaches the field that its key names.
 #include <numeric>
 
-#include "taut/core/trig.h"
-#include "taut/spec/actions.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/net.h"
 #include "taut/bodies/rope.h"
+#include "taut/core/trig.h"
 #include "taut/forces/anchor.h"
 #include "taut/forces/wind.h"
+#include "taut/spec/actions.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "game/program.h"
-#include "taut/image/read.h"
 #include "image_support.h"
 #include "program_support.h"
+#include "taut/image/read.h"
 
 namespace taut::game {
 namespace {
@@ -66,8 +66,8 @@ damping_time_s = 0.0
 drag_per_s = 0.0
 hold = ["ends"]
 )");
-    const Outcome outcome = atlas({(folder / "swing.toml").string(), "--methods", "leapfrog,implicit-euler", "--seconds",
-                                 "0.3", "--quiet", "-o", (folder / "out").string()});
+    const Outcome outcome = atlas({(folder / "swing.toml").string(), "--methods", "leapfrog,implicit-euler",
+                                   "--seconds", "0.3", "--quiet", "-o", (folder / "out").string()});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(has(outcome.out, "rope.line")) << outcome.out;
     EXPECT_TRUE(has(outcome.out, "a step stands when")) << outcome.out;

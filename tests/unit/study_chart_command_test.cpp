@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "taut/image/read.h"
 #include "image_support.h"
 #include "program_support.h"
+#include "taut/image/read.h"
 
 namespace taut::game {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <string>
 
-#include "taut/core/error.h"
-#include "taut/study/scene_subject.h"
+#include "support/small_scenes.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
-#include "support/small_scenes.h"
+#include "taut/core/error.h"
+#include "taut/study/scene_subject.h"
 
 namespace taut::study {
 namespace {

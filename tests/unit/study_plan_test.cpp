@@ -6,16 +6,16 @@
 
 #include "support/small_scenes.h"
 #include "support/text.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "taut/core/error.h"
+#include "taut/forces/wind.h"
 #include "taut/scene/private/by_key.h"
 #include "taut/study/plan_candidate.h"
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_need.h"
 #include "taut/study/plan_run.h"
-#include "taut/bodies/block.h"
-#include "taut/bodies/cloth.h"
-#include "taut/bodies/rope.h"
-#include "taut/forces/wind.h"
 
 namespace taut::study {
 namespace {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <set>
 
+#include "taut/bodies/net.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/errors.h"
 #include "taut/study/horizon.h"
 #include "taut/study/mechanical_subject.h"
 #include "taut/study/scene_subject.h"
-#include "taut/bodies/net.h"
 
 namespace taut::study {
 namespace {

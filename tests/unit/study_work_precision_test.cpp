@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "taut/bodies/net.h"
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/problems.h"
 #include "taut/study/scene_subject.h"
 #include "taut/study/work_precision_chart.h"
 #include "taut/study/work_precision_text.h"
-#include "taut/bodies/net.h"
 
 namespace taut::study {
 namespace {
@@ -181,8 +181,8 @@ TEST(StudyWorkPrecision, FailedRunsAreMarkedInEveryChart) {
 
 TEST(StudyWorkPrecision, JsonHoldsTheMachineAndEveryRun) {
     const WorkPrecision& study = oscillatorStudy();
-    const auto json =
-        nlohmann::json::parse(workPrecisionJson(study, stepsTable(*makeGrowth(), 1e-2), {{"processor", "a \"fast\" one"}}));
+    const auto json = nlohmann::json::parse(
+        workPrecisionJson(study, stepsTable(*makeGrowth(), 1e-2), {{"processor", "a \"fast\" one"}}));
     EXPECT_EQ(json["machine"]["processor"], "a \"fast\" one");
     EXPECT_EQ(json["runs"].size(), study.points.size());
     EXPECT_EQ(json["reference"]["kind"], "exact");

@@ -45,9 +45,8 @@ TEST(ViewPrimitives, SphereIsClosedAndFacesOutwards) {
     const Mesh mesh = sphereMesh(0.5F);
     expectSolid(mesh, 4.0F / 3.0F * pi * 0.125F, 0.005F);
     expectExtent(mesh, glm::vec3(0.5F));
-    for (std::size_t i = 0; i < mesh.geometry->positions.size(); ++i) {
+    for (std::size_t i = 0; i < mesh.geometry->positions.size(); ++i)
         EXPECT_NEAR(glm::dot(mesh.geometry->positions[i], mesh.geometry->normals[i]), 0.5F, 1e-6F);
-    }
 }
 
 TEST(ViewPrimitives, SmallSpheresHaveFewerTriangles) {

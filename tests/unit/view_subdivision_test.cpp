@@ -90,9 +90,8 @@ TEST(ViewSubdivision, AFlatSheetStaysFlatWithItsUvWhereTheyWere) {
             const glm::vec3 p = geometry.positions[v];
             ASSERT_NEAR(p.z, 0.5F * p.x - p.y, 1e-6F);
             ASSERT_LT(glm::length(fineUv[v] - glm::vec2(p.x + p.y, 2.0F * p.y)), 2e-6F);
-            if (v != 25 || faces[2][0] == 25) {  // a vertex of the slit alone
+            if (v != 25 || faces[2][0] == 25)  // a vertex of the slit alone
                 ASSERT_LT(glm::length(geometry.normals[v] - normal), 1e-5F) << v;
-            }
         }
     }
 }
@@ -114,8 +113,8 @@ glm::dvec2 errorsOn(std::uint32_t n, bool isWhole, int levels) {
         const glm::dvec3 p(geometry.positions[v]);
         if (std::max(std::abs(p.x - 0.5), std::abs(p.y - 0.5)) > 0.26) continue;
         const glm::dvec3 normal = glm::normalize(glm::dvec3(p.y - 2.0 * p.x, p.x - 0.9 * std::cos(3.0 * p.y), 1.0));
-        worst = glm::max(worst, glm::dvec2(std::abs(p.z - height(p.x, p.y)),
-                                           glm::length(glm::dvec3(geometry.normals[v]) - normal)));
+        worst = glm::max(
+            worst, glm::dvec2(std::abs(p.z - height(p.x, p.y)), glm::length(glm::dvec3(geometry.normals[v]) - normal)));
     }
     return worst;
 }

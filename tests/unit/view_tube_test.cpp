@@ -42,8 +42,8 @@ TEST(ViewTube, StraightTubeHasTheVolumeOfItsPrism) {
     const std::vector<glm::vec3> line{{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {2.0F, 0.0F, 0.0F}};
     const float r = 0.01F;
     const int sides = 16;
-    const float prism =
-        0.5F * static_cast<float>(sides) * r * r * std::sin(2.0F * std::numbers::pi_v<float> / static_cast<float>(sides)) * 2.0F;
+    const float prism = 0.5F * static_cast<float>(sides) * r * r *
+                        std::sin(2.0F * std::numbers::pi_v<float> / static_cast<float>(sides)) * 2.0F;
     const float caps = 4.0F / 3.0F * std::numbers::pi_v<float> * r * r * r;
     const float measured = volume(tubeTopology(3, 4, sides, 2.0F, r), tubeGeometry(line, 4, sides, r));
     EXPECT_GT(measured, prism);
@@ -72,12 +72,10 @@ TEST(ViewTube, FrameDoesNotTwistInAPlane) {
     const Geometry geometry = tubeGeometry(line, 4, 8, 0.05F);
     const std::size_t rings = (geometry.positions.size() - 2) / 8;
     std::size_t upwards = 0;
-    for (std::size_t k = 0; k < 8; ++k) {
+    for (std::size_t k = 0; k < 8; ++k)
         if (std::abs(geometry.normals[1 + 8 + k].y) > 0.99F) upwards = k;
-    }
-    for (std::size_t ring = 1; ring + 1 < rings; ++ring) {
+    for (std::size_t ring = 1; ring + 1 < rings; ++ring)
         EXPECT_GT(std::abs(geometry.normals[1 + ring * 8 + upwards].y), 0.999F);  // rounding only; a twist of 3° fails
-    }
 }
 
 TEST(ViewTube, MaterialCoordinatesMeasureTheRope) {
@@ -95,9 +93,8 @@ TEST(ViewTube, CoincidentPointsStayFinite) {
         {0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}};
     for (const auto& line : {same, pairs}) {
         const Geometry geometry = tubeGeometry(line, 3, 6, 0.1F);
-        for (const glm::vec3& p : geometry.positions) {
+        for (const glm::vec3& p : geometry.positions)
             EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
-        }
         EXPECT_LT(normalLengthError(geometry), 1e-6F);
     }
 }

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "taut/core/error.h"
-#include "taut/ode/method_table.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
 #include "taut/bodies/rope.h"
+#include "taut/core/error.h"
+#include "taut/ode/method_table.h"
 #include "taut/world/components.h"
 
 namespace taut::world {

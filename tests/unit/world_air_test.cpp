@@ -80,9 +80,9 @@ TEST(Air, ASheetThatIsNotLevelGlidesOnAsItDoes) {
     EXPECT_LT(glm::length(off), 1e-4);
 }
 
-// A stiff sheet without drag and lift is a rigid plate. Newton's and Euler's equations with Munk's moment -m_a u w about
-// the width, and the forces 2 m_a θ' u n - m_a θ' w t, by a method of Runge and Kutta. u and w are the velocity along
-// the sheet (t) and along its normal (n), θ its slant.
+// A stiff sheet without drag and lift is a rigid plate. Newton's and Euler's equations with Munk's moment -m_a u w
+// about the width, and the forces 2 m_a θ' u n - m_a θ' w t, by a method of Runge and Kutta. u and w are the velocity
+// along the sheet (t) and along its normal (n), θ its slant.
 TEST(Air, MakesAStiffSheetSwing) {
     SceneSpec scene = falling(false);
     WindSpec wind;

@@ -5,16 +5,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "taut/core/error.h"
+#include "support/small_scenes.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
-#include "support/small_scenes.h"
+#include "taut/core/error.h"
 
 namespace taut::world {
 namespace {
 
-double massOf(const Body& body) { return std::accumulate(body.model.masses.begin(), body.model.masses.end(), 0.0); }
+double massOf(const Body& body) {
+    return std::accumulate(body.model.masses.begin(), body.model.masses.end(), 0.0);
+}
 
 TEST(Bodies, AnArrayMakesNumberedCopiesInAGrid) {
     SceneSpec scene;
@@ -100,11 +102,10 @@ TEST(Bodies, JitterIsSmallSeededAndSparesHeldPoints) {
     for (std::size_t i = 0; i < one.model.positions.size(); ++i) {
         const dvec3 d = one.model.positions[i] - still.model.positions[i];
         largest = std::max({largest, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-        if (one.model.held[i]) {
+        if (one.model.held[i])
             EXPECT_EQ(d, dvec3(0.0));
-        } else {
+        else
             EXPECT_NE(one.model.positions[i], other.model.positions[i]);
-        }
     }
     EXPECT_LE(largest, 1e-3);
     EXPECT_GT(largest, 0.9e-3);  // of over two hundred even numbers one comes near the bound

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "support/timelines.h"
-#include "taut/core/private/parallel.h"
 #include "taut/bodies/net.h"
+#include "taut/core/private/parallel.h"
 #include "taut/forces/callback.h"
 #include "taut/world/undoing_world.h"
 

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "taut/core/trig.h"
-#include "taut/bodies/cloth.h"
-#include "taut/bodies/rope.h"
 #include "support/small_scenes.h"
 #include "support/timelines.h"
-#include "taut/world/components.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
+#include "taut/core/trig.h"
 #include "taut/forces/anchor.h"
 #include "taut/spec/private/rotation.h"
+#include "taut/world/components.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

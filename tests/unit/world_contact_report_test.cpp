@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "support/timelines.h"
-#include "taut/bodies/net.h"
-#include "taut/advice/rehearsal.h"
-#include "taut/world/private/body_surfaces.h"
 #include "taut/advice/contact_doubts.h"
+#include "taut/advice/rehearsal.h"
+#include "taut/bodies/net.h"
+#include "taut/world/private/body_surfaces.h"
 
 namespace taut::world {
 namespace {

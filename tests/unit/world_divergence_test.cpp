@@ -5,8 +5,8 @@
 #include "support/small_scenes.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
-#include "taut/world/components.h"
 #include "taut/forces/wind.h"
+#include "taut/world/components.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

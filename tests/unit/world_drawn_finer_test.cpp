@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
+#include "taut/bodies/body.h"
+#include "taut/bodies/drawing.h"
 #include "taut/collision/colliders.h"
+#include "taut/collision/shape_table.h"
 #include "taut/core/error.h"
 #include "taut/spec/mesh_data.h"
 #include "taut/view/frame_view.h"
-#include "taut/bodies/body.h"
-#include "taut/bodies/drawing.h"
-#include "taut/collision/shape_table.h"
 #include "taut/world/private/drawn_contact.h"
 #include "taut/world/world.h"
 
@@ -57,9 +57,7 @@ TEST(DrawnContact, AFoldOverAnEdgeOfABoxIsLiftedOutWithoutAJumpAndNothingElseMov
         view::Geometry lifted = lying;
         keepOutside(box, thickness, triangles, lifted);
         for (std::size_t v = 0; v < lying.positions.size(); ++v)
-            if (std::abs(static_cast<int>(v / 2) - 20) > 2) {
-                ASSERT_EQ(lifted.positions[v], lying.positions[v]);
-            }
+            if (std::abs(static_cast<int>(v / 2) - 20) > 2) ASSERT_EQ(lifted.positions[v], lying.positions[v]);
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             const std::uint32_t a = triangles[t], b = triangles[t % 3 == 2 ? t - 2 : t + 1];
             const auto depthIn = [&](const view::Geometry& strip, double share) {
@@ -118,9 +116,9 @@ TEST(BoundMesh, LiesWhereItsFileHasItAndGoesWithTheClothItIsBoundTo) {
                 const glm::dvec3 to = lid()->positions[v] + static_cast<double>(copy) * cloth.array.stepX;
                 EXPECT_LT(glm::distance(drawn.geometry->positions[v], glm::vec3(to)), 1e-5F);
                 // Without texture coordinates of its own it has those of the cloth under it.
-                EXPECT_LT(glm::distance(drawn.topology->uv[v], glm::vec2(lid()->positions[v].x,
-                                                                         lid()->positions[v].y - 2.0)),
-                          1e-5F);
+                EXPECT_LT(
+                    glm::distance(drawn.topology->uv[v], glm::vec2(lid()->positions[v].x, lid()->positions[v].y - 2.0)),
+                    1e-5F);
             }
     }
     expectMovedAlike(scene, [](const glm::dvec3& x) { return glm::vec3(-x.z, x.y, x.x); });
@@ -133,7 +131,8 @@ TEST(BoundMesh, OfABlockIsStretchedWithItsCells) {
     block.size = {0.5, 0.5, 0.4};
     block.finish.skinData = lid();
     scene.bodies.add(block);
-    expectMovedAlike(scene, [](const glm::dvec3& x) { return glm::vec3(x); });
+    expectMovedAlike(
+        scene, [](const glm::dvec3& x) { return glm::vec3(x); });
     expectMovedAlike(scene, [](const glm::dvec3& x) { return glm::vec3(2.0 * x.x, x.y + 0.5 * x.x, x.z); });
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "taut/core/error.h"
-#include "taut/core/trig.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
+#include "taut/core/error.h"
+#include "taut/core/trig.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

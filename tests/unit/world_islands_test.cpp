@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
-#include "taut/core/error.h"
 #include "taut/bodies/cloth.h"
-#include "taut/bodies/rope.h"
 #include "taut/bodies/island_plan.h"
+#include "taut/bodies/rope.h"
+#include "taut/core/error.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

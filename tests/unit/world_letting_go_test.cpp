@@ -20,8 +20,7 @@ SceneSpec sceneOf(const std::string& text) {
     return scene::loadSceneText(text, "joints.toml", {}).spec;
 }
 
-const std::string head =
-    "schema = 1\n[run]\nfps = 100\nseconds = 10\n[solver]\nprecision = \"double\"\ndt = 0.001\n";
+const std::string head = "schema = 1\n[run]\nfps = 100\nseconds = 10\n[solver]\nprecision = \"double\"\ndt = 0.001\n";
 
 std::string withAction(const std::string& action, const std::string& text) {
     return "schema = 1\nat = [{ " + action + " }]\n" + text.substr(text.find("[run]"));
@@ -113,9 +112,9 @@ TEST(LettingGo, AJointBreaksAtTheWeightThatItBears) {
 // Of 1000 N/m, in the tick in which the mean of its stretch passes 20 mm.
 TEST(LettingGo, ASpringBreaksByItsStretch) {
     for (const std::string& to : {std::string("net.n@z"), std::string("collider.k")}) {
-        World world(sceneOf(hanging("a = \"net.o@b\"\nb = \"" + to +
-                                    "\"\nkind = \"spring\"\nstiffness_N_per_m = 1000\nbreak_N = 20\n" + ball +
-                                    "3, 0]\n")));
+        World world(
+            sceneOf(hanging("a = \"net.o@b\"\nb = \"" + to +
+                            "\"\nkind = \"spring\"\nstiffness_N_per_m = 1000\nbreak_N = 20\n" + ball + "3, 0]\n")));
         double stretch[] = {0, 0, 0};  // after the last ticks
         while (left(world, "peg") == 1 && world.tick() < 100) {
             run(world, 1);
@@ -129,8 +128,8 @@ TEST(LettingGo, ASpringBreaksByItsStretch) {
 }
 
 TEST(LettingGo, AReleasedPointFallsFromWhereItHung) {
-    World world(sceneOf(withAction("t = 0.5, do = \"release\", id = \"peg\"",
-                                   hanging("a = \"net.o@b\"\nb = \"net.n@a\"\n"))));
+    World world(
+        sceneOf(withAction("t = 0.5, do = \"release\", id = \"peg\"", hanging("a = \"net.o@b\"\nb = \"net.n@a\"\n"))));
     run(world, 50);
     EXPECT_EQ(left(world, "peg"), 1);
     EXPECT_EQ(world.points("net.o@b").x[0].y, 2.0);
@@ -179,9 +178,9 @@ TEST(LettingGo, WhatHasLetGoIsSavedAndGoesOnTheSame) {
 }
 
 TEST(LettingGo, FreeReleasesARodToACollider) {
-    World world(sceneOf(withAction("t = 0.1, do = \"free\", target = \"net.o@b\"",
-                                   hanging("a = \"net.o@b\"\nb = \"collider.k\"\nkind = \"rod\"\n") + ball +
-                                       "3, 0]\n")));
+    World world(
+        sceneOf(withAction("t = 0.1, do = \"free\", target = \"net.o@b\"",
+                           hanging("a = \"net.o@b\"\nb = \"collider.k\"\nkind = \"rod\"\n") + ball + "3, 0]\n")));
     run(world, 10);
     EXPECT_EQ(left(world, "peg"), 1);
     run(world, 1);
@@ -189,8 +188,8 @@ TEST(LettingGo, FreeReleasesARodToACollider) {
 }
 
 TEST(LettingGo, ACutOfNoPlaneTakesAllSpringsAndRodsOfABody) {
-    World world(sceneOf(withAction("t = 0, do = \"cut\", target = \"net.o\"",
-                                   hanging("a = \"net.o@b\"\nb = \"net.n@a\"\n"))));
+    World world(
+        sceneOf(withAction("t = 0, do = \"cut\", target = \"net.o\"", hanging("a = \"net.o@b\"\nb = \"net.n@a\"\n"))));
     run(world, 1);
     EXPECT_EQ(world.joints()[0].left, 0);
     EXPECT_EQ(left(world, "peg"), 1);  // its other end is of another body
@@ -205,8 +204,8 @@ TEST(LettingGo, RodsUnderTensionShortenStepsOfAuto) {
         points += "{ name = \"p" + n + "\", position = [" + std::to_string(0.05 * i) + ", 2, 0]" +
                   (i == 0 ? ", hold = true" : "") + " }, ";
         if (i > 0)
-            rods += "[[joint]]\na = \"net.c@p" + std::to_string(i - 1) + "\"\nb = \"net.c@p" + n +
-                    "\"\nkind = \"rod\"\n";
+            rods +=
+                "[[joint]]\na = \"net.c@p" + std::to_string(i - 1) + "\"\nb = \"net.c@p" + n + "\"\nkind = \"rod\"\n";
     }
     World world(sceneOf("schema = 1\n[run]\nfps = 60\nseconds = 10\n[net.c]\npoints = [" + points + "]\n" + rods));
     const double start = world.metrics().energy();
@@ -227,8 +226,8 @@ TEST(LettingGo, TiesAreDrawnOnlyWithAFinishAndWhileTheyHold) {
     };
     const std::string spring = "a = \"net.o@b\"\nb = \"net.n@z\"\nkind = \"spring\"\n";
     EXPECT_EQ(surfaces(World(sceneOf(hanging(spring)))), 0);
-    World world(sceneOf(withAction("t = 0.1, do = \"release\", id = \"peg\"",
-                                   hanging(spring + "turns = 5\nfinish = {}\n"))));
+    World world(
+        sceneOf(withAction("t = 0.1, do = \"release\", id = \"peg\"", hanging(spring + "turns = 5\nfinish = {}\n"))));
     run(world, 10);
     EXPECT_EQ(surfaces(world), 1);
     run(world, 1);
@@ -236,8 +235,9 @@ TEST(LettingGo, TiesAreDrawnOnlyWithAFinishAndWhileTheyHold) {
 }
 
 TEST(LettingGo, ASpringJointHasTheRestLengthThatIsGiven) {
-    World world(sceneOf(hanging("a = \"net.o@c\"\nb = \"net.n@a\"\nkind = \"spring\"\nrest_length_m = 0.5\n"
-                                "stiffness_N_per_m = 100\n")));
+    World world(
+        sceneOf(hanging("a = \"net.o@c\"\nb = \"net.n@a\"\nkind = \"spring\"\nrest_length_m = 0.5\n"
+                        "stiffness_N_per_m = 100\n")));
     EXPECT_NEAR(world.metrics().elastic, 0.5 * 100 * 0.5 * 0.5, 1e-9);  // 1 m apart as it starts
 }
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "taut/bodies/private/ties.h"
 #include "taut/core/trig.h"
 #include "taut/spec/private/rotation.h"
-#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 namespace {

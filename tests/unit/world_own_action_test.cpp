@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "support/timelines.h"
-#include "taut/live/recording.h"
 #include "taut/bodies/net.h"
+#include "taut/live/recording.h"
 #include "taut/spec/kinds.h"
 #include "unit/scene_support.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "taut/bodies/net.h"
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/joints/joints.h"
+#include "taut/bodies/net.h"
 #include "taut/spec/kinds.h"
 #include "unit/scene_support.h"
 
@@ -153,7 +153,8 @@ TEST(OwnJoint, AConstraintOfItsOwnHoldsIsSavedAndCut) {
 TEST(OwnJoint, IsReleasedByNameAndBreaksByTheForceThroughIt) {
     const std::string hanging =
         "schema = 1\nat = [{ t = 0.1, do = \"release\", id = \"dog\" }]\n[solver]\nprecision = \"double\"\ndt = 0.001\n"
-        "[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0], hold = true }, { name = \"b\", position = [0, -1, 0] }]\n"
+        "[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0], hold = true }, { name = \"b\", position = [0, -1, 0] "
+        "}]\n"
         "drag_per_s = 0\n[[joint]]\nname = \"dog\"\n";
     for (const double share : {0.999, 1.001}) {
         World world(scene::loadSceneText(hanging + "a = \"net.n@a\"\nb = \"net.n@b\"\nkind = \"leash\"\nbreak_N = " +

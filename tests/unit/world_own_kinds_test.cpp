@@ -1,5 +1,5 @@
-// A kind of body and a kind of force that this file adds: scenes name them, and what applies to the engine's own applies
-// to them.
+// A kind of body and a kind of force that this file adds: scenes name them, and what applies to the engine's own
+// applies to them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include "scene_support.h"
 #include "support/timelines.h"
+#include "taut/forces/force.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/gravity.h"
-#include "taut/forces/force.h"
 #include "taut/spec/kinds.h"
 #include "taut/world/world.h"
 
@@ -21,7 +21,7 @@ using support::run;
 // Equal masses around a circle, each tied to the next.
 struct Ring final : SpecOf<Ring, BodySpec> {
     static constexpr const char* kindName = "ring";
-    double radius = 1.0;       // [m]
+    double radius = 1.0;  // [m]
     int points = 6;
     double stiffness = 100.0;  // [N/m]
 

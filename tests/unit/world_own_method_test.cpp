@@ -3,11 +3,11 @@
 
 #include <memory>
 
+#include "support/small_scenes.h"
+#include "taut/bodies/rope.h"
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/scene/load.h"
-#include "taut/bodies/rope.h"
-#include "support/small_scenes.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -5,8 +5,8 @@
 
 #include "collision_support.h"
 #include "support/small_scenes.h"
-#include "taut/scene/load.h"
 #include "taut/bodies/rope.h"
+#include "taut/scene/load.h"
 #include "taut/world/world.h"
 
 namespace taut::world::own_shape {

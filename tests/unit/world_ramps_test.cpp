@@ -78,8 +78,9 @@ TEST(Ramps, ALaterRampTakesOverFromTheValueOfTheMoment) {
 TEST(Ramps, StiffnessMovesTheEquilibrium) {
     SceneSpec scene = rampedMass(300);
     scene.bodies.of<NetSpec>()[0].drag = 10;
-    scene.actions = {support::ramp(3.0, "net.ball.stiffness", Affects::springs, 900.0, 0.5, Ease::smooth,
-                                   [](SceneSpec& s) -> double& { return s.bodies.of<NetSpec>()[0].springs[0].stiffness; })};
+    scene.actions = {
+        support::ramp(3.0, "net.ball.stiffness", Affects::springs, 900.0, 0.5, Ease::smooth,
+                      [](SceneSpec& s) -> double& { return s.bodies.of<NetSpec>()[0].springs[0].stiffness; })};
     World world(scene);
     run(world, 180);
     EXPECT_NEAR(world.points("net.ball@m").x[0].y, -2 * g / 300, 1e-6);  // e^{-5·3} of the start
@@ -131,8 +132,9 @@ TEST(Ramps, WindThatRisesPressesWithItsSquare) {
     auto grab = support::grab(0.0, "cloth.sail");  // keeps the shape, yields as one
     grab.strength = 500;
     grab.dampingRatio = 1;
-    scene.actions = {grab, support::ramp(2.0, "wind.breeze.velocity", Affects::forces, 4.0, 0.5, Ease::smooth,
-                                         [](SceneSpec& s) -> double& { return s.forces.of<WindSpec>()[0].velocity.z; })};
+    scene.actions = {grab,
+                     support::ramp(2.0, "wind.breeze.velocity", Affects::forces, 4.0, 0.5, Ease::smooth,
+                                   [](SceneSpec& s) -> double& { return s.forces.of<WindSpec>()[0].velocity.z; })};
     World world(scene);
     const auto pressed = [&] {
         dvec3 mean(0.0);

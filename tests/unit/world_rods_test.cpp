@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "taut/ode/method_table.h"
 #include "taut/bodies/net.h"
+#include "taut/ode/method_table.h"
 #include "taut/world/components.h"
 #include "unit/scene_support.h"
 

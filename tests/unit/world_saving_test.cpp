@@ -5,12 +5,12 @@
 #include <random>
 
 #include "support/timelines.h"
-#include "taut/core/error.h"
-#include "taut/ode/method_table.h"
-#include "taut/scene/load.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
+#include "taut/core/error.h"
+#include "taut/ode/method_table.h"
+#include "taut/scene/load.h"
 #include "taut/world/components.h"
 #include "taut/world/result_bits.h"
 
@@ -332,24 +332,24 @@ TEST(SavingRamps, OneThatHasEndedHoldsWhenTheNextBegins) {
 // grows; and a cut makes its forces anew.
 TEST(SavingRamps, ThreadsThatRubGoOnBitForBitFromWhereTheySlip) {
     for (const char* precision : {"single", "double"}) {
-        const SceneSpec scene = scene::loadSceneText(
-                                    std::string("schema = 1\nsolver.precision = \"") + precision +
-                                        "\"\n"
-                                        "at = [{ t = 0.05, do = \"ramp\", key = \"material.m.bending_hysteresis_N\", "
-                                        "to = 3e-3, over_s = 0.1 },\n"
-                                        "      { t = 0.25, do = \"cut\", target = \"cloth.c\", "
-                                        "segment = [[0.5, 0], [0.5, 0.7]] }]\n"
-                                        "[material.m]\nbending_rigidity_N_m = 1e-5\nbending_hysteresis_N = 1e-3\n"
-                                        "bending_yield_per_m = 4\n"
-                                        "[cloth.c]\nmaterial = \"m\"\nsize = [0.2, 0.2]\ncells = [8, 8]\n"
-                                        "down = [0, 0, 1]\nclamp = [\"left\"]\nhold_on = \"collider.bar\"\n"
-                                        "[collider.bar]\nshape = \"box\"\nsize = [0.01, 0.01, 0.2]\n"
-                                        "keys = [{ t = 0, position = [-0.02, 0, 0] }, { t = 0.5, position = "
-                                        "[-0.02, 0.1, 0], rotation_deg = [0, 0, 40] }]\n"
-                                        "[collider.ball]\nshape = \"sphere\"\nradius = 0.05\n"
-                                        "position = [0.1, -0.08, 0.1]\n",
-                                    "s.toml", {})
-                                    .spec;
+        const SceneSpec scene =
+            scene::loadSceneText(std::string("schema = 1\nsolver.precision = \"") + precision +
+                                     "\"\n"
+                                     "at = [{ t = 0.05, do = \"ramp\", key = \"material.m.bending_hysteresis_N\", "
+                                     "to = 3e-3, over_s = 0.1 },\n"
+                                     "      { t = 0.25, do = \"cut\", target = \"cloth.c\", "
+                                     "segment = [[0.5, 0], [0.5, 0.7]] }]\n"
+                                     "[material.m]\nbending_rigidity_N_m = 1e-5\nbending_hysteresis_N = 1e-3\n"
+                                     "bending_yield_per_m = 4\n"
+                                     "[cloth.c]\nmaterial = \"m\"\nsize = [0.2, 0.2]\ncells = [8, 8]\n"
+                                     "down = [0, 0, 1]\nclamp = [\"left\"]\nhold_on = \"collider.bar\"\n"
+                                     "[collider.bar]\nshape = \"box\"\nsize = [0.01, 0.01, 0.2]\n"
+                                     "keys = [{ t = 0, position = [-0.02, 0, 0] }, { t = 0.5, position = "
+                                     "[-0.02, 0.1, 0], rotation_deg = [0, 0, 40] }]\n"
+                                     "[collider.ball]\nshape = \"sphere\"\nradius = 0.05\n"
+                                     "position = [0.1, -0.08, 0.1]\n",
+                                 "s.toml", {})
+                .spec;
         World through(scene);
         std::vector<std::vector<std::byte>> saved;
         std::vector<std::uint64_t> hashes;

@@ -50,8 +50,7 @@ TEST(SeamPairing, GathersTheFinerEdgeEvenly) {
 
 TEST(SeamPairing, LeavesNoPointOfAnUnevenEdgeAlone) {
     const std::vector<dvec3> uneven{{0, 0, 0}, {0, 0.1, 0}, {0, 0.2, 0}, {0, 3, 0}};
-    EXPECT_EQ(paired(uneven, line(4, {1, 0, 0}, {1, 3, 0})),
-              (Pairs{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {3, 2}, {3, 3}}));
+    EXPECT_EQ(paired(uneven, line(4, {1, 0, 0}, {1, 3, 0})), (Pairs{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {3, 2}, {3, 3}}));
 }
 
 // A square, and another that begins at another corner and runs the other way, with the middles of two sides.
@@ -75,20 +74,19 @@ TEST(SeamPairing, AnEdgeIsALineOrALoop) {
     const auto lineAt = [&](const char* group) { return lineOf(cloth, cloth.groups.at(group)).points; };
     const auto lineOf = [&](const std::vector<int>& points) { return world::lineOf(cloth, points).points; };
     EXPECT_EQ(lineAt("right"), (std::vector{3, 7, 11}));
-    EXPECT_EQ(lineOf({6, 4, 5, 7}), (std::vector{4, 5, 6, 7}));  // threads, inside
+    EXPECT_EQ(lineOf({6, 4, 5, 7}), (std::vector{4, 5, 6, 7}));        // threads, inside
     EXPECT_EQ(lineOf({8, 4, 0, 1, 2}), (std::vector{2, 1, 0, 4, 8}));  // around a corner
     EXPECT_TRUE(lineAt("all").empty());
     EXPECT_EQ(lineAt("edges"), (std::vector{0, 1, 2, 3, 7, 11, 10, 9, 8, 4}));  // a loop
     EXPECT_TRUE(world::lineOf(cloth, cloth.groups.at("edges")).isClosed);
-    EXPECT_TRUE(lineAt("top-left").empty());                        // a point
-    EXPECT_TRUE(lineOf({0, 1, 8, 9}).empty());    // two lines
-    EXPECT_TRUE(lineOf({4, 5, 6, 9}).empty());    // a fork
+    EXPECT_TRUE(lineAt("top-left").empty());    // a point
+    EXPECT_TRUE(lineOf({0, 1, 8, 9}).empty());  // two lines
+    EXPECT_TRUE(lineOf({4, 5, 6, 9}).empty());  // a fork
 }
 
 // Two panels side by side in free space, `apart` [m], the second of other cells.
 std::string panels(const std::string& apart, const std::string& seam, const std::string& more = "") {
-    const std::string panel =
-        "material = \"m\"\nthickness = 0.01\ntouch = \"all\"\nsize = [0.3, 0.4]\n";
+    const std::string panel = "material = \"m\"\nthickness = 0.01\ntouch = \"all\"\nsize = [0.3, 0.4]\n";
     return "schema = 1\n[run]\nfps = 100\nseconds = 10\n[solver]\nprecision = \"double\"\n[world]\n"
            "gravity = [0, 0, 0]\n[material.m]\ndrag_per_s = 0\n[cloth.a]\ncells = [3, 4]\norigin = [-0.3, 1, 0]\n" +
            panel + "[cloth.b]\ncells = [3, 6]\norigin = [" + apart + ", 1, 0]\n" + panel + more +
@@ -163,15 +161,16 @@ TEST(Seams, CloseAroundWhatOtherSeamsHaveClosed) {
         return "[[seam]]\na = " + a + "\nb = " + b + "\nover_s = 0.2\n";
     };
     const std::string panel = "material = \"m\"\nthickness = 0.002\n";
-    World world(sceneOf("schema = 1\n[run]\nfps = 100\nseconds = 1\n[solver]\nprecision = \"double\"\n[world]\n"
-                        "gravity = [0, 0, 0]\n[material.m]\ndrag_per_s = 0\n[cloth.front]\nsize = [0.3, 0.2]\n"
-                        "cells = [3, 2]\norigin = [-0.15, 1, 0.1]\n" + panel +
-                        "[cloth.back]\nlike = \"front\"\norigin = [0.15, 1, -0.1]\nacross = [-1, 0, 0]\n"
-                        "[cloth.sleeve]\nsize = [0.6, 0.2]\ncells = [6, 2]\norigin = [-0.3, 1.4, 0.2]\n" + panel +
-                        seam("\"cloth.front@left\"", "\"cloth.back@right\"") +
-                        seam("\"cloth.front@right\"", "\"cloth.back@left\"") +
-                        seam("\"cloth.sleeve@left\"", "\"cloth.sleeve@right\"") +
-                        seam("[\"cloth.back@top\", \"cloth.front@top\"]", "\"cloth.sleeve@bottom\"")));
+    World world(sceneOf(
+        "schema = 1\n[run]\nfps = 100\nseconds = 1\n[solver]\nprecision = \"double\"\n[world]\n"
+        "gravity = [0, 0, 0]\n[material.m]\ndrag_per_s = 0\n[cloth.front]\nsize = [0.3, 0.2]\n"
+        "cells = [3, 2]\norigin = [-0.15, 1, 0.1]\n" +
+        panel +
+        "[cloth.back]\nlike = \"front\"\norigin = [0.15, 1, -0.1]\nacross = [-1, 0, 0]\n"
+        "[cloth.sleeve]\nsize = [0.6, 0.2]\ncells = [6, 2]\norigin = [-0.3, 1.4, 0.2]\n" +
+        panel + seam("\"cloth.front@left\"", "\"cloth.back@right\"") +
+        seam("\"cloth.front@right\"", "\"cloth.back@left\"") + seam("\"cloth.sleeve@left\"", "\"cloth.sleeve@right\"") +
+        seam("[\"cloth.back@top\", \"cloth.front@top\"]", "\"cloth.sleeve@bottom\"")));
     const auto at = [&](const char* name) { return world.points(name).x; };
     run(world, 30);
     const auto front = at("cloth.front@top"), back = at("cloth.back@top"), sleeve = at("cloth.sleeve@bottom");
@@ -267,9 +266,8 @@ TEST(Seams, WhatCannotBeSewnIsRefused) {
           {with("\"cloth.a@right\"", left),
            "seams.toml:25:1: error: the seam \"cloth.a@right\" – \"cloth.b@left\" starts 0.200000 m apart; say how "
            "long it takes to close, e.g. over_s = 1.0"},
-          {with("\"collider.k\"", left, "[collider.k]\nshape = \"sphere\"\n"), "collider.k"}}) {
+          {with("\"collider.k\"", left, "[collider.k]\nshape = \"sphere\"\n"), "collider.k"}})
         EXPECT_NE(messageOf(text).find(message), std::string::npos) << messageOf(text);
-    }
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 #include "support/small_scenes.h"
 #include "support/timelines.h"
-#include "taut/core/error.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
+#include "taut/core/error.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

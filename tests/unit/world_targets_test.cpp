@@ -49,8 +49,8 @@ TEST_F(Selectors, NameWhatIsWithinARadiusOfAPlace) {
 }
 
 TEST_F(Selectors, NameNothingWhereThereIsNothing) {
-    for (const char* selector : {"#15", "#-1", "#1.5", "#", "(1.1,0)", "(0.5)", "(0.5,0.5,r)", "(,)", "101%", "-1%",
-                                 "%", "middle"})
+    for (const char* selector :
+         {"#15", "#-1", "#1.5", "#", "(1.1,0)", "(0.5)", "(0.5,0.5,r)", "(,)", "101%", "-1%", "%", "middle"})
         EXPECT_TRUE(selectPoints(grid, selector).empty()) << selector;
     EXPECT_TRUE(selectPoints(line, "(0.5,0.5)").empty());  // a rope has no grid
 }

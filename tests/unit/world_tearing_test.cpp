@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "taut/mechanics/mass_spring_system.h"
+#include "taut/advice/rehearsal.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
-#include "taut/advice/rehearsal.h"
+#include "taut/mechanics/mass_spring_system.h"
 #include "taut/world/world.h"
 
 namespace taut::world::tearing {

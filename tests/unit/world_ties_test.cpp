@@ -6,13 +6,13 @@
 #include <tuple>
 
 #include "support/timelines.h"
-#include "taut/core/error.h"
-#include "taut/core/trig.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
-#include "taut/world/components.h"
+#include "taut/core/error.h"
+#include "taut/core/trig.h"
 #include "taut/spec/private/rotation.h"
+#include "taut/world/components.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

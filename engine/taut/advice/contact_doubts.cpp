@@ -52,8 +52,7 @@ void doubtInstants(const WorldImpl& world, std::vector<std::string>& doubts) {
     if (!world.spec.contact.instants) return;
     const Island* stiffest = nullptr;
     for (const auto& island : world.islands)
-        if (touches(island->plan()) &&
-            (stiffest == nullptr || island->instantsToPress() > stiffest->instantsToPress()))
+        if (touches(island->plan()) && (stiffest == nullptr || island->instantsToPress() > stiffest->instantsToPress()))
             stiffest = island.get();
     const int instants = *world.spec.contact.instants;
     if (stiffest == nullptr || instants >= stiffest->instantsToPress()) return;
@@ -95,13 +94,13 @@ void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
         if (++count > mostDoubts) break;
         const bool isOne = names.first == names.second;
         const dvec3 x = pair.place;
-        doubts.push_back(fmt::format(
-            "{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
-            "start {} further off",
-            isOne ? names.first + " goes through itself"
-                  : names.first + " and " + names.second + " go through each other",
-            isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
-            inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
+        doubts.push_back(
+            fmt::format("{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
+                        "start {} further off",
+                        isOne ? names.first + " goes through itself"
+                              : names.first + " and " + names.second + " go through each other",
+                        isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
+                        inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
     }
     if (pairs.size() > mostDoubts)
         doubts.push_back(fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "taut/advice/contact_doubts.h"
 #include "taut/core/error.h"
+#include "taut/spec/ticks.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/tick.h"
-#include "taut/spec/ticks.h"
-#include "taut/advice/contact_doubts.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -60,8 +60,7 @@ class Thickness {
                     b = glm::clamp(ivec3(glm::floor((to - low_) / most_)), ivec3(0), counts_ - 1);
         for (int z = a.z; z <= b.z; ++z)
             for (int y = a.y; y <= b.y; ++y)
-                for (int i = a.x; i <= b.x; ++i)
-                    visit(mechanics::indexIn(counts_, {i, y, z}));
+                for (int i = a.x; i <= b.x; ++i) visit(mechanics::indexIn(counts_, {i, y, z}));
     }
 
     double alongTo(std::size_t t, const dvec3& from, const dvec3& way) const {

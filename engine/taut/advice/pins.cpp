@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "taut/world/private/impl.h"
 #include "taut/spec/targets.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 namespace {

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <optional>
 
-#include "taut/core/error.h"
 #include "taut/advice/bending_cells.h"
 #include "taut/advice/mesh_cells.h"
 #include "taut/advice/private/encounters.h"
-#include "taut/world/private/impl.h"
-#include "taut/spec/kinds.h"
 #include "taut/advice/private/pins.h"
 #include "taut/advice/private/start_doubts.h"
+#include "taut/core/error.h"
+#include "taut/spec/kinds.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/private/impl.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/advice/contact_doubts.h"
 #include "taut/bodies/net.h"
 #include "taut/forces/wind.h"
-#include "taut/world/private/impl.h"
 #include "taut/spec/private/motion.h"
-#include "taut/advice/contact_doubts.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/bodies/drawing.h"
 #include "taut/core/error.h"
 #include "taut/core/private/hash.h"
-#include "taut/bodies/drawing.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
 
@@ -26,8 +26,8 @@ void holdPoints(Body& body) {
     const auto hold = [&](const char* key, const std::string& selector) {
         const std::vector<int> points = selectPoints(body.model, selector);
         if (points.empty())
-            throw Error(ErrorKind::badContent, at(body.spec->source) + key + " = \"" + selector +
-                                                   "\" names no point of " + body.fullName());
+            throw Error(ErrorKind::badContent,
+                        at(body.spec->source) + key + " = \"" + selector + "\" names no point of " + body.fullName());
         if (body.spec->holdOn.empty())
             for (int i : points) body.model.held[static_cast<std::size_t>(i)] = true;
         else

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "taut/bodies/damage.h"
 #include "taut/mechanics/model.h"
 #include "taut/spec/body_spec.h"
-#include "taut/bodies/damage.h"
 
 namespace taut::world {
 
@@ -24,8 +24,8 @@ struct Body {
     mechanics::Model model;
     PlasticitySpec plasticity;
 
-    std::vector<int> carried;    // ascending points of the model that a collider holds by its spec
-    std::vector<bool> clamped;   // (points) whether the direction is held while the point is; empty: none
+    std::vector<int> carried;            // ascending points of the model that a collider holds by its spec
+    std::vector<bool> clamped;           // (points) whether the direction is held while the point is; empty: none
     glm::dquat carriedFrom{1, 0, 0, 0};  // rotation of that collider when the points were tied to it
 
     Damage damage;  // what has been cut or torn

@@ -18,7 +18,7 @@
 namespace taut::world {
 namespace {
 
-constexpr int boundAtOnce = 64;       // vertices in a task
+constexpr int boundAtOnce = 64;        // vertices in a task
 constexpr double mostEdgesAway = 2.0;  // of the longest edge, or cell, of what a vertex is bound to
 
 // What is drawn in place of a body: its skin, or the mesh of a block.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/error.h"
 #include "taut/bodies/drawing.h"
+#include "taut/core/error.h"
 #include "taut/spec/private/motion.h"
 #include "taut/spec/private/rotation.h"
 

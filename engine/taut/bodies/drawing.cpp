@@ -8,11 +8,11 @@
 #include <numeric>
 #include <optional>
 
+#include "taut/bodies/private/bound_mesh.h"
+#include "taut/bodies/private/skin_pieces.h"
 #include "taut/core/private/srgb.h"
 #include "taut/view/private/subdivision.h"
 #include "taut/view/private/tube.h"
-#include "taut/bodies/private/bound_mesh.h"
-#include "taut/bodies/private/skin_pieces.h"
 
 namespace taut::world {
 namespace {
@@ -171,15 +171,13 @@ class SkinDrawing final : public BodyDrawing {
                 faces.push_back({a, b, c, view::noVertex});
         }
         // A round grid, which leaves points out, has steps on its border.
-        const bool hasSteps =
-            model.grid[0] > 0 && static_cast<int>(model.groups.at("all").size()) < model.pointCount();
+        const bool hasSteps = model.grid[0] > 0 && static_cast<int>(model.groups.at("all").size()) < model.pointCount();
         return {std::move(faces), std::move(rest), !hasSteps, levels};
     }
     void refine() const {
         if (refinement_.levels == 0) return;
         fine_ = view::subdivided(refinement_.faces, refinement_.rest, refinement_.keepsCorners, refinement_.levels);
-        topology_ =
-            std::make_shared<view::Topology>(view::Topology{fine_->triangles, fine_->spread(topology_->uv)});
+        topology_ = std::make_shared<view::Topology>(view::Topology{fine_->triangles, fine_->spread(topology_->uv)});
         if (bodyToBind_ != nullptr)
             bound_ = std::make_unique<BoundMesh>(*bodyToBind_, topology_->triangles, sheet(startOf(*bodyToBind_)),
                                                  topology_->uv);

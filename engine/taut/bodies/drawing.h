@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "taut/collision/colliders.h"
-#include "taut/collision/shape_table.h"
-#include "taut/view/frame_view.h"
-#include "taut/view/primitives.h"
 #include "taut/bodies/body.h"
 #include "taut/bodies/collider_figure.h"
+#include "taut/collision/colliders.h"
+#include "taut/collision/shape_table.h"
 #include "taut/spec/collider_spec.h"
+#include "taut/view/frame_view.h"
+#include "taut/view/primitives.h"
 
 namespace taut::world {
 

@@ -7,15 +7,15 @@
 #include <numeric>
 #include <optional>
 
+#include "taut/bodies/joints/constraint.h"
+#include "taut/bodies/private/rigid_constraint.h"
+#include "taut/bodies/private/seam_pairing.h"
+#include "taut/bodies/private/ties.h"
 #include "taut/core/error.h"
 #include "taut/core/private/rigid_motion.h"
 #include "taut/mechanics/bending.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
-#include "taut/bodies/joints/constraint.h"
-#include "taut/bodies/private/rigid_constraint.h"
-#include "taut/bodies/private/seam_pairing.h"
-#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 namespace {
@@ -179,8 +179,8 @@ class Planner {
         for (const std::string& target : side.targets) {
             edges.push_back(edge(target, source, isClosed));
             if (isClosed && side.targets.size() > 1)
-                throw Error(ErrorKind::badContent, at(source) + "\"" + target +
-                                                       "\" is closed, so no edge follows it; name it alone");
+                throw Error(ErrorKind::badContent,
+                            at(source) + "\"" + target + "\" is closed, so no edge follows it; name it alone");
         }
         const auto reach = [&](PointRef end, const std::vector<PointRef>& next) {
             return std::min(distance(end, next.front()), distance(end, next.back()));
@@ -259,8 +259,8 @@ class Planner {
                 joints_.push_back({first, second, &seam, ofScene, apart});
         }
         if (sewn.empty())
-            throw Error(ErrorKind::badContent, at(seam.source) + "the seam sews \"" + seam.a.text() +
-                                                   "\" to itself; name two edges");
+            throw Error(ErrorKind::badContent,
+                        at(seam.source) + "the seam sews \"" + seam.a.text() + "\" to itself; name two edges");
         for (const auto& [numbers, count] : sewn)
             report.pairs.push_back({&body(numbers.first), &body(numbers.second), count});
     }
@@ -283,8 +283,9 @@ class Planner {
     void uniteSolids(const JointSpec& weld, const std::vector<int>& as, const std::vector<int>& bs) {
         if (weld.hasOwnTies())
             throw Error(ErrorKind::badContent,
-                        at(weld.source) + "a weld of whole solids makes one rigid body of them, which nothing parts or "
-                                          "draws: leave out name, break_N and finish, or name points");
+                        at(weld.source) +
+                            "a weld of whole solids makes one rigid body of them, which nothing parts or "
+                            "draws: leave out name, break_N and finish, or name points");
         JointReport& report = reports_.emplace_back();
         report.spec = &weld;
         const auto centre = [&](int number) {
@@ -298,8 +299,8 @@ class Planner {
                 if (const double away = glm::distance(centre(a), centre(b)); b != a && away < least)
                     nearest = b, least = away;
             if (nearest < 0)
-                throw Error(ErrorKind::badContent, at(weld.source) + "the weld joins \"" + weld.a.text() +
-                                                       "\" to itself; name two solids");
+                throw Error(ErrorKind::badContent,
+                            at(weld.source) + "the weld joins \"" + weld.a.text() + "\" to itself; name two solids");
             islands_.unite(a, nearest);
             solids_.unite(a, nearest);
             report.pairs.push_back({&body(a), &body(nearest), body(a).model.pointCount()});
@@ -361,9 +362,8 @@ class Planner {
                                               " m apart, more than reach_m = " + std::to_string(joint.reach()) +
                                               "; move the bodies together, or use kind = \"spring\""
                                         : "both sides are the same point";
-            throw Error(ErrorKind::badContent,
-                        at(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
-                            "\" joins nothing: " + why);
+            throw Error(ErrorKind::badContent, at(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" +
+                                                   joint.b.text() + "\" joins nothing: " + why);
         }
         for (const auto& [numbers, points] : pairs)
             report.pairs.push_back({&body(numbers.first), &body(numbers.second), points});
@@ -375,8 +375,7 @@ class Planner {
         }
     }
 
-    IslandPlan plan(const std::vector<int>& members, const std::vector<JointPair>& joints,
-                    std::vector<int>& numberOf) {
+    IslandPlan plan(const std::vector<int>& members, const std::vector<JointPair>& joints, std::vector<int>& numberOf) {
         IslandPlan plan;
         for (int body : members) addBody(plan, body, numberOf);
         for (const bool isWeld : {true, false})  // welds first, as they move points
@@ -408,14 +407,13 @@ class Planner {
 
     void tie(IslandPlan& plan, const JointPair& joint) const {
         const int a = pointOf(joint.a), b = pointOf(joint.b);
-        addTie(
-            plan,
-            {.joint = joint.number,
-             .a = a,
-             .b = b,
-             .breakForce = joint.spec->breakForce.value_or(HUGE_VAL),
-             .isSeam = joint.spec->isSeam()},
-            [&] { joint.spec->tie(plan, a, b, joint.distance); });
+        addTie(plan,
+               {.joint = joint.number,
+                .a = a,
+                .b = b,
+                .breakForce = joint.spec->breakForce.value_or(HUGE_VAL),
+                .isSeam = joint.spec->isSeam()},
+               [&] { joint.spec->tie(plan, a, b, joint.distance); });
     }
 
     std::size_t firstGlobalEnd() const {
@@ -584,14 +582,17 @@ bool isOf(const Grip& grip, const IslandPlan& plan, const JointTie& tie) {
 }  // namespace
 
 bool holds(const IslandPlan& plan, const JointTie& tie) {
-    return std::any_of(tie.springs.begin(), tie.springs.end(),
-                       [&](int s) { return !plan.broken[static_cast<std::size_t>(s)]; }) ||
-           std::any_of(tie.parts.begin(), tie.parts.end(),
-                       [&](const JointTie::Part& part) {
-                           return plan.constraints[static_cast<std::size_t>(part.constraint)]->holds(part.tie);
-                       }) ||
-           (tie.isGrip && std::any_of(plan.grips.begin(), plan.grips.end(),
-                                      [&](const Grip& grip) { return isOf(grip, plan, tie); }));
+    return std::any_of(
+               tie.springs.begin(), tie.springs.end(),
+               [&](int s) { return !plan.broken[static_cast<std::size_t>(s)]; }) ||
+           std::any_of(
+               tie.parts.begin(), tie.parts.end(),
+               [&](const JointTie::Part& part) {
+                   return plan.constraints[static_cast<std::size_t>(part.constraint)]->holds(part.tie);
+               }) ||
+           (tie.isGrip &&
+            std::any_of(
+                plan.grips.begin(), plan.grips.end(), [&](const Grip& grip) { return isOf(grip, plan, tie); }));
 }
 
 bool letGo(IslandPlan& plan, std::size_t number) {
@@ -718,8 +719,9 @@ std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
 }
 
 bool isPinned(const IslandPlan& plan, int point) {
-    return std::any_of(plan.constraints.begin(), plan.constraints.end(),
-                       [&](const auto& constraint) { return constraint->carries(point); });
+    return std::any_of(
+        plan.constraints.begin(), plan.constraints.end(),
+        [&](const auto& constraint) { return constraint->carries(point); });
 }
 
 std::vector<bool> heldPointsOf(const IslandPlan& plan) {

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "taut/bodies/body.h"
 #include "taut/mechanics/bending_elements.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/mechanics/pose_path.h"
 #include "taut/ode/method_table.h"
-#include "taut/bodies/body.h"
 
 namespace taut::world {
 
@@ -48,10 +48,10 @@ struct Carrier {
 // One pair that a joint ties: two points, or a point and a place on a collider. It holds as long as any of the springs,
 // constraints or grips that its kind made for it does.
 struct JointTie {
-    int joint = -1;         // of the scene's joints
-    int a = -1, b = -1;     // points; b is -1 for a collider
-    std::string collider{};   // "collider.pole", or empty
-    dvec3 offset{0.0};      // [m] of the place, from the unturned collider
+    int joint = -1;                // of the scene's joints
+    int a = -1, b = -1;            // points; b is -1 for a collider
+    std::string collider{};        // "collider.pole", or empty
+    dvec3 offset{0.0};             // [m] of the place, from the unturned collider
     double breakForce = HUGE_VAL;  // [N]
     bool isSeam = false;           // the cells at both points do not touch each other
     std::vector<int> springs{};    // of the plan
@@ -68,11 +68,11 @@ struct IslandPlan {
     SolverSpec solver;
     std::vector<dvec3> positions, velocities;  // (points)
     std::vector<mechanics::PointMass> points;
-    std::vector<mechanics::PointRange> ranges;  // (bodies)
-    std::vector<mechanics::Spring> springs;     // joints last
-    std::vector<SpringOrigin> origins;          // (springs)
-    std::vector<bool> broken;                   // (springs) cut or torn; these have no stiffness
-    std::vector<Grip> grips;                    // in the order of grabbing
+    std::vector<mechanics::PointRange> ranges;                   // (bodies)
+    std::vector<mechanics::Spring> springs;                      // joints last
+    std::vector<SpringOrigin> origins;                           // (springs)
+    std::vector<bool> broken;                                    // (springs) cut or torn; these have no stiffness
+    std::vector<Grip> grips;                                     // in the order of grabbing
     std::vector<std::shared_ptr<const Constraint>> constraints;  // shared: to change one, replace it
     std::vector<Carrier> carriers;                               // of the places of constraints, each collider once
     std::vector<JointTie> ties;                                  // of joints, without welds that merge bodies or points

@@ -4,10 +4,10 @@
 
 #include <set>
 
+#include "taut/bodies/drawing.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/spec/common_rows.h"
-#include "taut/bodies/drawing.h"
 
 namespace taut::world {
 

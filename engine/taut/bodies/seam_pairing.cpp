@@ -85,8 +85,7 @@ Way wayAlong(const SewnEdge& edge, std::size_t start, bool isBackward) {
 int nearest(const Way& way, const SewnEdge& edge, double share, const dvec3& place) {
     const std::vector<double>& shares = way.shares;
     const auto after = std::lower_bound(shares.begin(), shares.end(), share);
-    const bool isBefore =
-        after != shares.begin() && (after == shares.end() || share - after[-1] <= *after - share);
+    const bool isBefore = after != shares.begin() && (after == shares.end() || share - after[-1] <= *after - share);
     const auto [first, last] = std::equal_range(shares.begin(), shares.end(), isBefore ? after[-1] : *after);
     const auto squareAt = [&](std::ptrdiff_t k) {
         const int i = way.order[static_cast<std::size_t>(k)];

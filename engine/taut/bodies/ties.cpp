@@ -58,13 +58,12 @@ class Tying {
             const std::size_t own = plan_.grips.size();
             const int tie = static_cast<int>(plan_.ties.size());
             Grip grip = std::move(tieTo(holders_, collider, std::span(&point, 1), plan_.positions).front());
-            addTie(
-                plan_,
-                {.joint = number,
-                 .a = point,
-                 .collider = grip.holder,
-                 .breakForce = joint.breakForce.value_or(HUGE_VAL)},
-                [&] { joint.carry(plan_, std::move(grip)); });
+            addTie(plan_,
+                   {.joint = number,
+                    .a = point,
+                    .collider = grip.holder,
+                    .breakForce = joint.breakForce.value_or(HUGE_VAL)},
+                   [&] { joint.carry(plan_, std::move(grip)); });
             if (joint.hasOwnTies())
                 for (std::size_t g = own; g < plan_.grips.size(); ++g) plan_.grips[g].tie = tie;
         }
@@ -134,7 +133,8 @@ bool isCollider(const std::string& target) {
 }
 
 bool isCollider(const JointSide& side) {
-    return std::any_of(side.targets.begin(), side.targets.end(), [](const auto& target) { return isCollider(target); });
+    return std::any_of(
+        side.targets.begin(), side.targets.end(), [](const auto& target) { return isCollider(target); });
 }
 
 bool isTie(const JointSpec& joint) {
@@ -148,8 +148,8 @@ const JointSide& pointsOf(const JointSpec& joint) {
 }
 
 bool names(const JointSide& side, const Body& body) {
-    return std::any_of(side.targets.begin(), side.targets.end(),
-                       [&](const auto& target) { return names(target, body); });
+    return std::any_of(
+        side.targets.begin(), side.targets.end(), [&](const auto& target) { return names(target, body); });
 }
 int countNamed(const JointSide& side, const Body& body) {
     return static_cast<int>(namedPoints(side, body).size());

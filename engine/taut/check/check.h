@@ -16,7 +16,7 @@
 namespace taut::world {
 class BodySurfaces;
 class World;
-}
+}  // namespace taut::world
 
 namespace taut::check {
 

@@ -17,8 +17,14 @@ Quantity jointsLeft(const Now& now, std::span<const Expression> arguments) {
 
 std::vector<Function> jointFunctions() {
     return {
-        {"joints_left", {Takes::joint}, true, false, "",
-         "Number of points that joints of a name still tie, or all joints.", jointsLeft, {}},
+        {"joints_left",
+         {Takes::joint},
+         true,
+         false,
+         "",
+         "Number of points that joints of a name still tie, or all joints.",
+         jointsLeft,
+         {}},
     };
 }
 

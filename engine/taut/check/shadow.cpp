@@ -38,7 +38,8 @@ double coveredLength(const std::vector<std::pair<double, double>>& cuts) {
 double coveredArea(std::vector<FlatTriangle> triangles) {
     const auto lowest = [](const FlatTriangle& t) { return std::min({t[0].y, t[1].y, t[2].y}); };
     const auto highest = [](const FlatTriangle& t) { return std::max({t[0].y, t[1].y, t[2].y}); };
-    std::stable_sort(triangles.begin(), triangles.end(), [&](const auto& a, const auto& b) { return lowest(a) < lowest(b); });
+    std::stable_sort(triangles.begin(), triangles.end(),
+                     [&](const auto& a, const auto& b) { return lowest(a) < lowest(b); });
     // Strips end at corners, at every so manieth if they are many; so small bodies far apart get theirs.
     std::vector<double> ends;
     for (const FlatTriangle& triangle : triangles)

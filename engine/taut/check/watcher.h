@@ -12,7 +12,7 @@
 namespace taut::world {
 struct SceneSpec;
 class World;
-}
+}  // namespace taut::world
 
 namespace taut::check {
 

@@ -66,9 +66,8 @@ bool Colliders::isNear(int collider, const core::Aabb& box) const {
     TAUT_EXPECTS(collider >= 0 && collider < size());
     const std::size_t first = impl_->firstSolid[static_cast<std::size_t>(collider)];
     const std::size_t last = impl_->firstSolid[static_cast<std::size_t>(collider) + 1];
-    return std::any_of(impl_->solids.data() + first, impl_->solids.data() + last, [&](const Solid& solid) {
-        return !solid.bounded || solid.bounds.overlaps(box, 0.0);
-    });
+    return std::any_of(impl_->solids.data() + first, impl_->solids.data() + last,
+                       [&](const Solid& solid) { return !solid.bounded || solid.bounds.overlaps(box, 0.0); });
 }
 
 double Colliders::distance(const glm::dvec3& position) const {

@@ -155,8 +155,7 @@ double FootFinder::radiusOfFace(const dvec3& p, const Place& place, const Foot& 
             across = both < across ? both : across;
         }
         const float most = std::max({beyond[1], beyond[2], beyond[3], across[1], across[2], across[3]});
-        if (most >= -static_cast<float>(rounding_))
-            bound = std::max(bound, within - 2.05 * std::sqrt(height * rise));
+        if (most >= -static_cast<float>(rounding_)) bound = std::max(bound, within - 2.05 * std::sqrt(height * rise));
         radius = std::min(radius, bound);
     }
     return radius * (1.0 - 1e-6);

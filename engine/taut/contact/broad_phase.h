@@ -107,8 +107,8 @@ class BroadPhase {
         // [m] The pair is not checked until the travel of its leaves has grown from budgetStart by motionBudget.
         double motionBudget = -1, budgetStart = 0;
         double countedTravel = 0;  // [m] travel of its leaves that list->travelledBefore includes
-        // [m] Contact may move the points of both leaves by this sum without need to look again: what find() left out is
-        // further apart than it moves, by watchShare of the least thickness.
+        // [m] Contact may move the points of both leaves by this sum without need to look again: what find() left out
+        // is further apart than it moves, by watchShare of the least thickness.
         double freeShift = 0;
         bool isChecked = false;  // in this instant
     };

@@ -187,8 +187,8 @@ class Bvh {
     // Of the triangles of leaves in planes, leaf by leaf in rows: see EdgeRows, and GradientRows at x0 and then at x1.
     std::vector<double> inverses_, gradients_;
     std::vector<std::size_t> firstInPlanes_;  // (leaves + 1) number of such triangles in leaves before
-    std::vector<char> isMeasured_;              // (leaves) in this instant
-    std::vector<int> toMeasure_;                // leaves, scratch
+    std::vector<char> isMeasured_;            // (leaves) in this instant
+    std::vector<int> toMeasure_;              // leaves, scratch
 };
 
 }  // namespace taut::contact

@@ -152,10 +152,12 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     list.pointPairs = list.pairs.size();
 
     // Then pairs of edges.
-    boxes.forEach(ofA.edges, boxA, ofB.edges, boxB, [&](int e, int f) {
-        if (!elements_.areNeighbours(query.edge(e), query.edge(f)))
-            scratch.overlapping.push_back({std::min(e, f), std::max(e, f), thickness});
-    });
+    boxes.forEach(
+        ofA.edges, boxA, ofB.edges, boxB,
+        [&](int e, int f) {
+            if (!elements_.areNeighbours(query.edge(e), query.edge(f)))
+                scratch.overlapping.push_back({std::min(e, f), std::max(e, f), thickness});
+        });
     appendInReach(
         query, kernels.onSegments,
         [&](const CandidatePair& pair) -> std::array<int, 4> {

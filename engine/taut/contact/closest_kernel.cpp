@@ -86,15 +86,14 @@ inline void findClosest(ClosestLanes& lanes, int n, const Find& find) {
 }
 
 void onTriangles(ClosestLanes& lanes, int n) {
-    findClosest(lanes, n, [](const Place& p, const Place& a, const Place& b, const Place& c) {
-        return onTriangle(p, a, b, c);
-    });
+    findClosest(
+        lanes, n,
+        [](const Place& p, const Place& a, const Place& b, const Place& c) { return onTriangle(p, a, b, c); });
 }
 
 void onSegments(ClosestLanes& lanes, int n) {
-    findClosest(lanes, n, [](const Place& a, const Place& b, const Place& c, const Place& d) {
-        return onSegment(a, b, c, d);
-    });
+    findClosest(
+        lanes, n, [](const Place& a, const Place& b, const Place& c, const Place& d) { return onSegment(a, b, c, d); });
 }
 
 bool findOverlapping(const BoxLanes& boxes, const float* low, const float* high, std::uint64_t* hits) {

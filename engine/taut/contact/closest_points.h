@@ -1,5 +1,5 @@
-// Closest points of a pair, of a point and a triangle or of two segments; where a segment pierces a triangle. Only + - ×
-// ÷ and comparisons, so that all machines agree.
+// Closest points of a pair, of a point and a triangle or of two segments; where a segment pierces a triangle. Only + -
+// × ÷ and comparisons, so that all machines agree.
 #pragma once
 
 #include <array>

@@ -14,20 +14,20 @@ using glm::dvec3;
 struct ContactConstraint {
     std::array<int, 4> points;  // a point and the corners of a triangle, or the ends of two edges
     std::array<double, 4>
-        weights;            // first side positive, second negative: Σ w x is the vector between the closest points
-    dvec3 normal;           // unit, towards the first side
-    double distance;        // [m] at x0
-    double thickness;       // [m] distance to keep
-    double friction;        // Coulomb's μ [-]
-    int a, b;               // as CandidatePair
-    bool isPoint;           // a point and a triangle; else two edges
-    bool isActive;          // the solver gets it; else it only needs a certificate
+        weights;               // first side positive, second negative: Σ w x is the vector between the closest points
+    dvec3 normal;              // unit, towards the first side
+    double distance;           // [m] at x0
+    double thickness;          // [m] distance to keep
+    double friction;           // Coulomb's μ [-]
+    int a, b;                  // as CandidatePair
+    bool isPoint;              // a point and a triangle; else two edges
+    bool isActive;             // the solver gets it; else it only needs a certificate
     std::uint64_t leaves = 0;  // the LeafPair that it was found for
     double recovery = 1.0;     // 0 … 1: share by which an overlap is taken back, see convexityOf()
     double firstShare = 0.5;   // of the thickness that is the first side's
     double restitution = 0.0;  // speed of parting over that of closing [-]
     std::optional<dvec3> place{};  // [m] where an impulse acts on solids; none: between the closest places
-    double softness = 0.0;     // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
+    double softness = 0.0;         // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]
     // By leaves, then as in a list of candidates: points and triangles by the triangle, then edges.

@@ -14,9 +14,9 @@ namespace taut::contact {
 namespace {
 
 constexpr int mostSlides = 8, mostZones = 12;
-constexpr double apartSpeed = 0.3;  // [m/s] at which crossings come apart
-constexpr int mostSqueezes = 3;  // rounds of letting through
-constexpr double oneSided = 0.5;  // share of impulses that does not cancel
+constexpr double apartSpeed = 0.3;      // [m/s] at which crossings come apart
+constexpr int mostSqueezes = 3;         // rounds of letting through
+constexpr double oneSided = 0.5;        // share of impulses that does not cancel
 constexpr double squeezedShare = 3e-4;  // of the thickness, by which soft pairs of squeezed points yield in an instant
 
 // Sorts, and removes duplicates. Usually there is nothing to do.
@@ -138,8 +138,7 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
     solver_.clear();
     if (!active_.empty() || !crossings_.empty() || !solids_.empty() || !carried_.isEmpty()) {
         solveActive(instant);
-        if (options_.untangles && !crossings_.empty())
-            changeAsBodies(instant, u_, v_, [&] { untangle(instant); });
+        if (options_.untangles && !crossings_.empty()) changeAsBodies(instant, u_, v_, [&] { untangle(instant); });
         handOver(instant, applyVelocities(instant));
     }
 
@@ -240,10 +239,10 @@ void ContactGroup::solveActive(const Instant& instant) {
     result_.sweeps = solver_.sweeps();
 }
 
-// Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw it
-// out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others may go
-// through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster than its
-// softness explains. Returns whether any is, beyond those known.
+// Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw
+// it out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others
+// may go through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster
+// than its softness explains. Returns whether any is, beyond those known.
 bool ContactGroup::findSqueezed(const Instant& instant) {
     struct Pressed {
         dvec3 sum{0.0};   // [N s] of impulses
@@ -259,7 +258,8 @@ bool ContactGroup::findSqueezed(const Instant& instant) {
         if (!(impulse > 0)) continue;
         double inverse = 0;
         for (std::size_t k = 0; k < 4; ++k)
-            inverse += pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
+            inverse +=
+                pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
         const bool yields = pair.softness * inverse * impulse * instant.h > squeezedShare * pair.thickness;
         for (std::size_t k = 0; k < 4; ++k) {
             Pressed& own = pressed[pair.points[k]];
@@ -317,8 +317,7 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
     };
     std::vector<int> points(solver_.points().begin(), solver_.points().end());
     for (const Crossing& crossing : crossings_)
-        for (int point : crossing.points)
-            carried_.forEachMover(point, [&](int i, double) { points.push_back(i); });
+        for (int point : crossing.points) carried_.forEachMover(point, [&](int i, double) { points.push_back(i); });
     for (const Solid& solid : solids_) points.insert(points.end(), solid.points.begin(), solid.points.end());
     makeAscending(points);
     for (int i : points) apply(i);
@@ -512,16 +511,18 @@ void ContactGroup::detectAgain(const Instant& instant) {
 std::vector<int> ContactGroup::separate(const Instant& instant, std::span<const ContactConstraint* const> pairs,
                                         int round) {
     std::vector<int> moved;
-    const std::vector<int> ofBodies = changeAsBodies(instant, instant.x1, instant.v, [&] {
-        if (round < mostSlides && options_.slides) {
-            for (const ContactConstraint* pair : pairs)
-                slideApart(*pair, instant.inverseMass, instant.kinematic, instant.x1, instant.v, moved);
-            result_.slides += static_cast<int>(pairs.size());
-        } else {
-            moveAsImpactZones(pairs, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);
-            ++result_.zones;
-        }
-    });
+    const std::vector<int> ofBodies = changeAsBodies(
+        instant, instant.x1, instant.v,
+        [&] {
+            if (round < mostSlides && options_.slides) {
+                for (const ContactConstraint* pair : pairs)
+                    slideApart(*pair, instant.inverseMass, instant.kinematic, instant.x1, instant.v, moved);
+                result_.slides += static_cast<int>(pairs.size());
+            } else {
+                moveAsImpactZones(pairs, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);
+                ++result_.zones;
+            }
+        });
     std::erase_if(moved, [&](int i) { return carried_.has(i); });
     moved.insert(moved.end(), ofBodies.begin(), ofBodies.end());
     makeAscending(moved);

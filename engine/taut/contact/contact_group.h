@@ -18,9 +18,9 @@
 // finds the time of impact).
 //
 // No memory beyond a tick. The solver starts from the impulses of the last instant of the same tick, and a tick's first
-// instant from 0: begin() and rewind() forget them. The broad phase keeps lists from instant to instant, but a list only
-// says what to measure, and never leaves out what matters (broad_phase.h). So the result of a tick depends on its start
-// alone. A restored world that has no lists yet goes on with the same bits.
+// instant from 0: begin() and rewind() forget them. The broad phase keeps lists from instant to instant, but a list
+// only says what to measure, and never leaves out what matters (broad_phase.h). So the result of a tick depends on its
+// start alone. A restored world that has no lists yet goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
 // (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as impact zones
@@ -98,8 +98,8 @@ class ContactGroup {
 
     // Points that keep their distances, in the coming instants.
     void setSolids(std::vector<Solid> solids);
-    // Points that go with others. Their places and velocities have to do so; resolve() sees to that for those of which it
-    // moved others. What moves none of them has no inverse mass.
+    // Points that go with others. Their places and velocities have to do so; resolve() sees to that for those of which
+    // it moved others. What moves none of them has no inverse mass.
     void setCarried(CarriedPoints carried);
     const CarriedPoints& carried() const { return carried_; }
 

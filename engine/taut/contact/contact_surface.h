@@ -30,7 +30,7 @@ struct ContactSurface {
     int solid = -1;
     // Of a solid of revolution. Its triangles are a prism in it.
     struct Revolution {
-        std::array<int, 2> ends{-1, -1};     // points in their middle, or the tip; -1: it is none
+        std::array<int, 2> ends{-1, -1};    // points in their middle, or the tip; -1: it is none
         std::array<double, 2> radii{0, 0};  // [m] of the ends, 0: a tip
         double sag = 0;  // [m] how far it is outside of the prism at most; the thickness has that too
         bool isNone() const { return ends[0] < 0; }
@@ -39,11 +39,11 @@ struct ContactSurface {
     // A collider's corners and edges, which the group does not move. It has no triangles: points meet the faces of
     // colliders in `collision`. Two rigid surfaces never touch.
     bool isRigid = false;
-    // A collider that moves and deforms as it likes: triangles whose points the group does not move. Like a rigid surface
-    // it meets only bodies that meet colliders.
+    // A collider that moves and deforms as it likes: triangles whose points the group does not move. Like a rigid
+    // surface it meets only bodies that meet colliders.
     bool isDriven = false;
-    // (points) Of a driven surface, whose points have ascending numbers without gaps: where parts of it close upon a body,
-    // the one of the lowest rank presses on, and the others go through it.
+    // (points) Of a driven surface, whose points have ascending numbers without gaps: where parts of it close upon a
+    // body, the one of the lowest rank presses on, and the others go through it.
     std::vector<int> ranks;
 
     bool isOfCollider() const { return isRigid || isDriven; }

@@ -12,8 +12,8 @@
 namespace taut::contact {
 namespace {
 
-constexpr int boxedAtOnce = 16;       // leaves per task
-constexpr int pairsAtOnce = 64;       // of leaves per task
+constexpr int boxedAtOnce = 16;      // leaves per task
+constexpr int pairsAtOnce = 64;      // of leaves per task
 constexpr double leastSlope = 0.05;  // sine of the angle of edge and triangle; a flatter edge has no direction
 
 dvec3 unit(const dvec3& v) {

@@ -46,7 +46,8 @@ class Elements {
         return oneOf_[static_cast<std::size_t>(a)] == oneOf_[static_cast<std::size_t>(b)];
     }
     bool areNeighbours(int point, const Triangle& triangle) const {
-        return std::any_of(triangle.points.begin(), triangle.points.end(), [&](int i) { return areOne(point, i); });
+        return std::any_of(
+            triangle.points.begin(), triangle.points.end(), [&](int i) { return areOne(point, i); });
     }
     bool areNeighbours(const Edge& a, const Edge& b) const {
         return areOne(a.a, b.a) || areOne(a.a, b.b) || areOne(a.b, b.a) || areOne(a.b, b.b);

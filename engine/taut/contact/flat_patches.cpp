@@ -51,8 +51,7 @@ void keepCorners(const Elements& elements, std::span<const dvec3> x, std::vector
     std::map<std::pair<int, int>, std::vector<std::size_t>> ofSolids;
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         const int a = elements.surfaceOf(pairs[p].points[0]), b = elements.surfaceOf(pairs[p].points[3]);
-        if (elements.surface(a).solid >= 0 && elements.surface(b).solid >= 0)
-            ofSolids[std::minmax(a, b)].push_back(p);
+        if (elements.surface(a).solid >= 0 && elements.surface(b).solid >= 0) ofSolids[std::minmax(a, b)].push_back(p);
     }
     std::vector<bool> isInner(pairs.size(), false);
     std::vector<Spot> places;

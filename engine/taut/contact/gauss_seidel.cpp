@@ -32,7 +32,8 @@ int findLevels(std::span<const Row> rows, std::size_t slotCount, std::span<const
     int count = 0;
     for (const Row& row : rows) {
         int level = 0;
-        forEachSlot(row, [&](int height) { level = std::max(level, height); });
+        forEachSlot(
+            row, [&](int height) { level = std::max(level, height); });
         forEachSlot(row, [&](int& height) { height = level + 1; });
         scratch.levels.push_back(level);
         count = std::max(count, level + 1);
@@ -91,9 +92,15 @@ int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std:
         putInto(pack, place % 4, row, r);
     }
     scratch.perRow.assign(rows.size() + 1, 0.0);
-    const Sweeps batch{scratch.packs.data(), packCount,           count,
-                       scratch.perRow.data(), velocities.data(),  levers.turns.data(),
-                       levers.shares.data(),  sweeps,             tolerance,
+    const Sweeps batch{scratch.packs.data(),
+                       packCount,
+                       count,
+                       scratch.perRow.data(),
+                       velocities.data(),
+                       levers.turns.data(),
+                       levers.shares.data(),
+                       sweeps,
+                       tolerance,
                        start};
     const int taken = TAUT_IN_USE(sweep)(batch);
     for (const Pack& pack : scratch.packs)

@@ -156,9 +156,9 @@ inline double slope(const Sweeps& batch, double share) {
         const Pack& pack = batch.packs[p];
         const Vectors velocity = relativeVelocity(pack, batch);
         const Lanes yielding = load(pack.closing) + load(pack.softness) * (share * load(pack.impulse[3]));
-        storePerRow(batch, pack,
-                    load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + yielding) +
-                        dot(load(pack.impulse), velocity));
+        storePerRow(
+            batch, pack,
+            load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + yielding) + dot(load(pack.impulse), velocity));
     }
     return sumOf(batch);
 }

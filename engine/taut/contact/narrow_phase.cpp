@@ -19,10 +19,10 @@ namespace taut::contact {
 namespace {
 
 constexpr int listsAtOnce = 16;
-constexpr double activeShare = 0.05;  // of the thickness: a gap below it is a contact
-constexpr double noDistance = 1e-9;   // [m] two places closer than this have no direction
+constexpr double activeShare = 0.05;     // of the thickness: a gap below it is a contact
+constexpr double noDistance = 1e-9;      // [m] two places closer than this have no direction
 constexpr double drivenSoftness = 0.01;  // of pairs with a driven surface: see solver.h
-constexpr double rounding = 1e-9;     // relative error of the list's sums of motion
+constexpr double rounding = 1e-9;        // relative error of the list's sums of motion
 
 // The list is due when the first of its pairs is due. The larger of a pair's two budgets counts.
 void limitListTo(BroadPhase::CandidateList& list, double travelBudget, double approachBudget) {
@@ -221,7 +221,8 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     if (!crossings_.empty() && isTangled(pair)) return;
     const auto i = static_cast<std::size_t>(pair.a), j = static_cast<std::size_t>(pair.b);
     const ContactSurface &a = elements_.surface(isPoint ? elements_.surfaceOf(pair.a) : elements_.edges()[i].surface),
-                  &b = elements_.surface(isPoint ? elements_.triangles()[j].surface : elements_.edges()[j].surface);
+                         &b = elements_.surface(isPoint ? elements_.triangles()[j].surface
+                                                        : elements_.edges()[j].surface);
     pair.friction = (a.isOfCollider() || b.isOfCollider() ? 1.0 : options_.friction) * a.friction * b.friction;
     pair.restitution = options_.restitution * a.restitution * b.restitution;
     if (a.isDriven || b.isDriven) pair.softness = drivenSoftness;

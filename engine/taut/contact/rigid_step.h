@@ -1,6 +1,6 @@
-// The impulses of a cluster's solids, all at once. Sweeps pass an impulse on by one layer of a pile each; what they leave
-// of a pile at rest, it leans by. Here the impulses between solids, and between them and what nothing moves, become
-// those for which the energy of the motion is least, each in its cone of friction:
+// The impulses of a cluster's solids, all at once. Sweeps pass an impulse on by one layer of a pile each; what they
+// leave of a pile at rest, it leans by. Here the impulses between solids, and between them and what nothing moves,
+// become those for which the energy of the motion is least, each in its cone of friction:
 //
 //     M δ = Jᵀ λ,  u = J (velocities without these impulses + δ) + closing n,     |λt| <= μ λn,  μ |ut| <= un,  λ·u = 0
 //

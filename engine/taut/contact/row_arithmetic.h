@@ -54,8 +54,7 @@ inline void push(const Row& row, const dvec3& impulse, std::span<Four> velocitie
         for (int i = 0; i < 3; ++i) velocities[static_cast<std::size_t>(slot)].of[i] += change[i];
     };
     for (std::size_t k = 0; k < 4; ++k) add(row.slots[k], row.gains[k] * impulse);
-    for (const Turn& turn : row.turns.of(levers.turns))
-        add(turn.slot, gainOf(turn) * glm::cross(armOf(turn), impulse));
+    for (const Turn& turn : row.turns.of(levers.turns)) add(turn.slot, gainOf(turn) * glm::cross(armOf(turn), impulse));
     for (const Share& share : row.shares.of(levers.shares)) add(share.slot, share.gain * impulse);
 }
 

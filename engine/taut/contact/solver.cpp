@@ -19,9 +19,9 @@ constexpr std::size_t parallelRows = 64;   // fewer rows are solved on one threa
 constexpr std::size_t colouredPairs = 64;  // clusters with fewer keep the order of their pairs
 constexpr int mostColours = 64;
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
-constexpr int sweepsForSolids = 3;         // times as many
-constexpr double settledNearRest = 0.1;    // times the change that ends sweeps
-constexpr double nearRest = 4.0;           // times the speed below which nothing bounces
+constexpr int sweepsForSolids = 3;       // times as many
+constexpr double settledNearRest = 0.1;  // times the change that ends sweeps
+constexpr double nearRest = 4.0;         // times the speed below which nothing bounces
 
 // Of the same contact in every instant.
 std::uint64_t keyOf(const ContactConstraint& pair) {
@@ -279,27 +279,30 @@ void ContactSolver::storeSolids(const Problem& problem) {
 
 // What a row has of a point, at the place where its impulse acts [m] -> terms_, solidTerms_.
 void ContactSolver::addTerm(int point, double weight, const dvec3& place, const Problem& problem) {
-    carried_->forEachMover(point, [&](int i, double share) {
-        const double own = weight * share;
-        if (const Solid* solid = solidOf(i); solid != nullptr) {
-            const Body& body = bodies_[static_cast<std::size_t>(solid - solids_.data())];
-            auto at = std::find_if(solidTerms_.begin(), solidTerms_.end(),
-                                   [&](const SolidTerm& other) { return other.body == &body; });
-            if (at == solidTerms_.end()) at = solidTerms_.insert(at, SolidTerm{&body});
-            at->weight += own;
-            at->arm += own * (place - body.u.centre);
-            terms_.push_back({slotOf(i, problem), own, 1.0 / body.u.mass, &body});
-            return;
-        }
-        const int slot = slotOf(i, problem);
-        if (i != point)  // several points of a row may go with the same
-            for (Term& other : terms_)
-                if (other.slot == slot) {
-                    other.weight += own;
-                    return;
-                }
-        terms_.push_back({slot, own, problem.inverseMass[static_cast<std::size_t>(i)]});
-    });
+    carried_->forEachMover(
+        point,
+        [&](int i, double share) {
+            const double own = weight * share;
+            if (const Solid* solid = solidOf(i); solid != nullptr) {
+                const Body& body = bodies_[static_cast<std::size_t>(solid - solids_.data())];
+                auto at = std::find_if(
+                    solidTerms_.begin(), solidTerms_.end(),
+                    [&](const SolidTerm& other) { return other.body == &body; });
+                if (at == solidTerms_.end()) at = solidTerms_.insert(at, SolidTerm{&body});
+                at->weight += own;
+                at->arm += own * (place - body.u.centre);
+                terms_.push_back({slotOf(i, problem), own, 1.0 / body.u.mass, &body});
+                return;
+            }
+            const int slot = slotOf(i, problem);
+            if (i != point)  // several points of a row may go with the same
+                for (Term& other : terms_)
+                    if (other.slot == slot) {
+                        other.weight += own;
+                        return;
+                    }
+            terms_.push_back({slot, own, problem.inverseMass[static_cast<std::size_t>(i)]});
+        });
 }
 
 // The terms become weights, gains and levers of the row. It has four velocities besides the shares, if it has so many.
@@ -462,7 +465,8 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
         const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - pairCount];
         const double restitution = isPair ? problem.pairs[source].restitution : contact->restitution;
         if (!(restitution > 0) || !isLikePair(row, problem)) continue;
-        measure(all.emplace_back(Bouncing{&row, restitution, isPair ? problem.pairs[source].gap() : contact->gap, 0.0}));
+        measure(
+            all.emplace_back(Bouncing{&row, restitution, isPair ? problem.pairs[source].gap() : contact->gap, 0.0}));
     }
     std::vector<bool> isOther(velocities.size(), false);
     const auto forEachSlot = [&](const Row& row, const auto& each) {
@@ -535,9 +539,11 @@ int ContactSolver::solveCluster(const Cluster& cluster, const Problem& problem) 
         correctPositions(rows, cluster, problem);
         solveStored(rows, cluster, problem);
     } else {
-        core::parallelFor(2, [&](int which) {
-            which == 0 ? correctPositions(rows, cluster, problem) : solveStored(rows, cluster, problem);
-        });
+        core::parallelFor(
+            2,
+            [&](int which) {
+                which == 0 ? correctPositions(rows, cluster, problem) : solveStored(rows, cluster, problem);
+            });
     }
     return sweeps;
 }

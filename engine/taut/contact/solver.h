@@ -35,8 +35,8 @@
 // A collider that holds a point is one more row, between the point and a velocity that nothing changes. So is each
 // fixed point of a pair: it has a slot of its own, and passes nothing on.
 //
-// Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft: they
-// yield by a hundredth of the velocity that they take, which the position correction makes up for.
+// Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft:
+// they yield by a hundredth of the velocity that they take, which the position correction makes up for.
 //
 // The impulses of the last instant are where the next one starts, as most contacts last longer than an instant. They
 // are forgotten as a tick begins, so that what outlives a tick is the state of the islands alone.
@@ -58,10 +58,10 @@
 namespace taut::contact {
 
 struct SolverOptions {
-    int sweeps = 20;           // at most
-    double settled = 1e-5;     // sweeps end when they change less than this share of the thickness per instant [-]
-    double recovery = 0.2;     // share of an overlap that is corrected in an instant [-]
-    double restSpeed = 0.0;    // [m/s] what closes slower does not bounce
+    int sweeps = 20;         // at most
+    double settled = 1e-5;   // sweeps end when they change less than this share of the thickness per instant [-]
+    double recovery = 0.2;   // share of an overlap that is corrected in an instant [-]
+    double restSpeed = 0.0;  // [m/s] what closes slower does not bounce
 };
 
 // Points that keep their distances.
@@ -111,7 +111,7 @@ class ContactSolver {
     // (pairs, then contacts with colliders) [N s] along the normal, and tangential, on the first side or the point.
     std::span<const double> impulses() const { return impulses_; }
     std::span<const dvec3> frictions() const { return frictions_; }
-    int sweeps() const { return mostSweeps_; }                      // of the cluster that took most
+    int sweeps() const { return mostSweeps_; }  // of the cluster that took most
     int clusters() const { return static_cast<int>(clusters_.size()); }
 
   private:
@@ -130,9 +130,9 @@ class ContactSolver {
         int slot;  // of its velocity; then comes that of its spin
     };
     struct Cluster {
-        std::size_t first, last;  // of rows_
-        double tolerance;         // [m/s] smaller changes end the sweeps
-        int sweeps;               // at most
+        std::size_t first, last;         // of rows_
+        double tolerance;                // [m/s] smaller changes end the sweeps
+        int sweeps;                      // at most
         std::vector<RigidSlots> solids;  // that are solved at once: several, near rest
     };
     struct LastImpulse {
@@ -167,24 +167,24 @@ class ContactSolver {
     Levers levers() const { return {turns_, shares_}; }
 
     // A source is a pair, or after all pairs a contact with a collider.
-    std::vector<Row> rows_;                    // cluster by cluster, contacts with colliders after the pairs
-    std::vector<std::uint64_t> keys_;          // (rows) the same for the same contact in every instant
+    std::vector<Row> rows_;            // cluster by cluster, contacts with colliders after the pairs
+    std::vector<std::uint64_t> keys_;  // (rows) the same for the same contact in every instant
     std::vector<Cluster> clusters_;
     std::vector<int> parent_;          // (points) union-find; -1: in no pair
     std::vector<int> touched_;         // points that move those of pairs, ascending
     std::vector<int> slots_;           // (points) of those touched that move
     std::vector<Four> u_, v_, shift_;  // (slots)
     std::span<const Solid> solids_;
-    std::vector<int> solidAt_;                // (points) empty where there are none; -1: of none
-    std::vector<Body> bodies_;                // (solids) of those that are touched
+    std::vector<int> solidAt_;  // (points) empty where there are none; -1: of none
+    std::vector<Body> bodies_;  // (solids) of those that are touched
     CarriedPoints none_;
     const CarriedPoints* carried_ = &none_;
-    std::vector<Turn> turns_;                 // of rows
-    std::vector<Share> shares_;               // likewise
+    std::vector<Turn> turns_;    // of rows
+    std::vector<Share> shares_;  // likewise
     // Of the row that is being made: what moves its points, and its solids.
     struct Term {
         int slot;
-        double weight, inverseMass;    // [-], [1/kg]
+        double weight, inverseMass;  // [-], [1/kg]
         const Body* body = nullptr;  // of a solid
     };
     struct SolidTerm {

@@ -23,8 +23,8 @@ void prepareFolderOf(const std::filesystem::path& path);
 // of that name from before is untouched.
 class WholeFile {
   public:
-    // Makes the temporary file anew, also where a killed process has left one; waits at most so long for another that is
-    // writing it. Throws core::Error(inputOutput).
+    // Makes the temporary file anew, also where a killed process has left one; waits at most so long for another that
+    // is writing it. Throws core::Error(inputOutput).
     explicit WholeFile(std::filesystem::path path, std::chrono::milliseconds patience = {});
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;

@@ -22,20 +22,20 @@ enum class FieldKind {
     flag,          // true or false
     flagOrChoice,  // true, false or one of `choices`
     text,
-    choice,       // one of `choices`
-    stepLength,   // "auto" or a number
-    vector,       // `components` numbers
-    wholeVector,  // `components` whole numbers
-    direction,    // three numbers that are not all zero
-    colour,       // three numbers 0 … 1 or "#rrggbb"
-    segment,      // two points of `components` numbers
-    places,       // a list of points of `components` numbers
-    texts,        // a list of texts
+    choice,          // one of `choices`
+    stepLength,      // "auto" or a number
+    vector,          // `components` numbers
+    wholeVector,     // `components` whole numbers
+    direction,       // three numbers that are not all zero
+    colour,          // three numbers 0 … 1 or "#rrggbb"
+    segment,         // two points of `components` numbers
+    places,          // a list of points of `components` numbers
+    texts,           // a list of texts
     oneOrMoreTexts,  // a text, or a list of texts
-    wholes,       // a list of whole numbers
-    numbers,      // a number, a list of numbers or a colour: what another field may hold
-    table,        // fields of its own
-    tables,       // a list of tables
+    wholes,          // a list of whole numbers
+    numbers,         // a number, a list of numbers or a colour: what another field may hold
+    table,           // fields of its own
+    tables,          // a list of tables
 };
 
 // Closed limits of a number. No limit is infinite: 1e12 of any unit is a typing error.

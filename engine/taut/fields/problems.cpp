@@ -160,8 +160,8 @@ std::vector<Problems::Problem> Problems::sorted(const std::vector<Problem>& prob
     std::size_t first = 0;  // of those at the same place
     for (Problem& problem : all) {
         if (first < once.size() && rank(once[first]) != rank(problem)) first = once.size();
-        const bool isSaid = std::any_of(
-            once.begin() + static_cast<std::ptrdiff_t>(first), once.end(), [&](const Problem& other) {
+        const bool isSaid =
+            std::any_of(once.begin() + static_cast<std::ptrdiff_t>(first), once.end(), [&](const Problem& other) {
                 const bool isOfAnother = !other.subject.empty() && !problem.subject.empty();
                 return other.message == problem.message || (isOfAnother && other.subject != problem.subject);
             });

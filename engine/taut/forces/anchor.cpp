@@ -4,9 +4,9 @@
 #include <map>
 
 #include "taut/core/error.h"
+#include "taut/forces/force.h"
 #include "taut/mechanics/private/anchor.h"
 #include "taut/spec/common_rows.h"
-#include "taut/forces/force.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {

@@ -265,9 +265,9 @@ std::string GlbWriter::Impl::json() {
     nodes.add(fmt::format(R"({{"name":"camera","camera":0,{}}})", pose(cameras, nodes.count())));
     JsonItems shining;
     for (const FarLight& one : lights) {
-        const std::size_t number = shining.add(
-            fmt::format(R"({{"type":"directional","name":{},"color":[{},{},{}],"intensity":{}}})", jsonText(one.name),
-                        one.colour.x, one.colour.y, one.colour.z, one.brightness));
+        const std::size_t number =
+            shining.add(fmt::format(R"({{"type":"directional","name":{},"color":[{},{},{}],"intensity":{}}})",
+                                    jsonText(one.name), one.colour.x, one.colour.y, one.colour.z, one.brightness));
         nodes.add(fmt::format(R"({{"name":{},"extensions":{{"KHR_lights_punctual":{{"light":{}}}}},{}}})",
                               jsonText(one.name), number, pose({one.pose}, nodes.count())));
     }

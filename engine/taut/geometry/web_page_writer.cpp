@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "taut/core/private/base64.h"
 #include "taut/core/error.h"
+#include "taut/core/private/base64.h"
 #include "taut/core/whole_file.h"
 
 namespace taut::geometry {

@@ -12,8 +12,8 @@
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
-#include "taut/image/read.h"
 #include "taut/image/private/srgb_curve.h"
+#include "taut/image/read.h"
 
 namespace taut::image {
 namespace {

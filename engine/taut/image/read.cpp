@@ -34,8 +34,7 @@ std::size_t fittingCount(const std::filesystem::path& path, ImageSize size, std:
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
 }
 
-Image pngImage(const std::filesystem::path& path, const std::string& content, std::int64_t maxPixels,
-               bool keepsAlpha) {
+Image pngImage(const std::filesystem::path& path, const std::string& content, std::int64_t maxPixels, bool keepsAlpha) {
     const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), &spng_ctx_free);
     const auto expect = [&](int error) {
         if (error != SPNG_OK) failDamaged(path, spng_strerror(error));

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "taut/core/private/child_process.h"
 #include "taut/core/error.h"
+#include "taut/core/private/child_process.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/with_alpha.h"
 

@@ -9,14 +9,14 @@
 #include <type_traits>
 
 #include "taut/bodies/private/ties.h"
+#include "taut/island/private/constraint_slot.h"
+#include "taut/island/private/island_contacts.h"
+#include "taut/island/private/rounding_watch.h"
+#include "taut/island/report.h"
 #include "taut/mechanics/private/anchor.h"
 #include "taut/mechanics/private/element_bending.h"
 #include "taut/mechanics/private/grid_bending.h"
 #include "taut/mechanics/private/grid_friction.h"
-#include "taut/island/private/island_contacts.h"
-#include "taut/island/report.h"
-#include "taut/island/private/rounding_watch.h"
-#include "taut/island/private/constraint_slot.h"
 
 namespace taut::world {
 namespace {
@@ -59,8 +59,7 @@ class DynamicsOf final : public Dynamics {
         if (isMaterial)
             for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
         if (isMaterial && !volumes_.empty()) bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
-        if (isMaterial || changes.has(Change::points) || changes.has(Change::grips))
-            setBendings();
+        if (isMaterial || changes.has(Change::points) || changes.has(Change::grips)) setBendings();
         if (changes.has(Change::grips)) addGrips();
     }
 
@@ -101,12 +100,12 @@ class DynamicsOf final : public Dynamics {
         addGrips();
     }
     bool callsBack(const ForceList& forces) const override {
-        return std::any_of(acting_.begin(), acting_.end(),
-                           [&](const auto& acting) { return forces[acting.first]->isCallback(); });
+        return std::any_of(
+            acting_.begin(), acting_.end(), [&](const auto& acting) { return forces[acting.first]->isCallback(); });
     }
     bool isSteady(const ForceList& forces) const override {
-        return std::all_of(acting_.begin(), acting_.end(),
-                           [&](const auto& acting) { return forces[acting.first]->isSteady(); });
+        return std::all_of(
+            acting_.begin(), acting_.end(), [&](const auto& acting) { return forces[acting.first]->isSteady(); });
     }
     void steer(const ForceList& forces) override {
         for (const auto& [number, generator] : acting_) forces[number]->steer(*generator);
@@ -389,8 +388,8 @@ class DynamicsOf final : public Dynamics {
         addVolumes();
         for (Friction& friction : frictions_) {
             const Body& body = *friction.body;
-            auto generator = std::make_unique<mechanics::GridFriction<Real>>(
-                gridFrictionOf(plan_, body), body.pointOf, friction.sliders, turnOf(body));
+            auto generator = std::make_unique<mechanics::GridFriction<Real>>(gridFrictionOf(plan_, body), body.pointOf,
+                                                                             friction.sliders, turnOf(body));
             friction.generator = generator.get();
             system_.add(std::move(generator));
         }
@@ -477,7 +476,7 @@ class DynamicsOf final : public Dynamics {
     std::vector<std::pair<const Body*, mechanics::VolumePreservation<Real>*>> volumes_;
     std::vector<std::pair<const Body*, mechanics::GridBending<Real>*>> gridBendings_;
     std::vector<std::pair<const Body*, mechanics::ElementBending<Real>*>> elementBendings_;
-    std::vector<Friction> frictions_;  // of the bodies that have any
+    std::vector<Friction> frictions_;                         // of the bodies that have any
     std::vector<std::pair<std::size_t, Generator*>> acting_;  // the forces that act here, by their number
     std::size_t firstGrip_ = 0;
     std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones

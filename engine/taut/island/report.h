@@ -45,14 +45,14 @@ struct Metrics {                      // at a published tick, velocities synchro
     glm::dvec3 angularMomentum{0.0};  // [kg m²/s] about the origin
     double maxStrain = 0;             // largest |l - L|/L of all rods and of all springs except bending springs
     int contacts = 0;
-    int invertedCells = 0;   // V/V0 <= 0
-    int brokenSprings = 0;   // cut or torn since the start
-    double volume = 0;       // [m³] of the cells of blocks
-    double restVolume = 0;   // [m³] of the same cells without force
-    double penetration = 0;  // [m] largest depth of a free, colliding point inside a collider
-    int asleep = 0;                     // points of islands that sleep
-    double sleptEnergy = 0;             // [J] of motion, which falling asleep has taken since the start
-    glm::dvec3 sleptMomentum{0.0};      // [kg m/s] likewise
+    int invertedCells = 0;          // V/V0 <= 0
+    int brokenSprings = 0;          // cut or torn since the start
+    double volume = 0;              // [m³] of the cells of blocks
+    double restVolume = 0;          // [m³] of the same cells without force
+    double penetration = 0;         // [m] largest depth of a free, colliding point inside a collider
+    int asleep = 0;                 // points of islands that sleep
+    double sleptEnergy = 0;         // [J] of motion, which falling asleep has taken since the start
+    glm::dvec3 sleptMomentum{0.0};  // [kg m/s] likewise
     double facePenetration =
         0;  // [m] largest height of a collider's corner or edge out of a triangle of a body that meets faces
     double minVolumeRatio = 1;  // smallest V/V0

@@ -273,11 +273,9 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
         of.limit = automaticStep(*method, leastTauShare, modeAt(choice.anywhere.omega, part * damping));
         if (plan.solver.dt) return *plan.solver.dt;
         // The limit of motion that turns on rods depends on its state.
-        const bool isBounded =
-            std::isfinite(of.limit) ||
-            (!plan.constraints.empty() && std::isfinite(method->automaticStep({.omega = 1.0})));
-        if (now == nullptr || !method->caution.empty() || !isBounded)
-            return plan.solver.safety * of.limit;
+        const bool isBounded = std::isfinite(of.limit) ||
+                               (!plan.constraints.empty() && std::isfinite(method->automaticStep({.omega = 1.0})));
+        if (now == nullptr || !method->caution.empty() || !isBounded) return plan.solver.safety * of.limit;
         const mechanics::FastestNow then{now->omega2, part * now->damping, part * now->pairs};
         of.need = StepNeed{method, tickSeconds, plan.solver.safety, modeAt(0, 0), 0, leastTauShare};
         of.need->raise(share, inverseMassesOf(plan));

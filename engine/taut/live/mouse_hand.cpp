@@ -7,10 +7,10 @@
 namespace taut::live {
 namespace {
 
-constexpr int placeDecimals = 3;    // [m]: to the millimetre
-constexpr double leastWay = 0.002;  // [m]
-constexpr int timeDecimals = 6;     // [s]: far finer than a tick
-constexpr int forceDecimals = 3;    // [N]
+constexpr int placeDecimals = 3;     // [m]: to the millimetre
+constexpr double leastWay = 0.002;   // [m]
+constexpr int timeDecimals = 6;      // [s]: far finer than a tick
+constexpr int forceDecimals = 3;     // [N]
 constexpr double leastForce = 1e-3;  // [N]
 
 glm::dvec3 roundedPlace(const glm::dvec3& place) {
@@ -39,7 +39,7 @@ Own MouseHand::action(std::int64_t tick) const {
 }
 
 void MouseHand::grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place,
-                double maxForce) {
+                     double maxForce) {
     if (isHolding_) wantsRelease_ = true;
     auto grab = action<world::GrabAction>(0);
     grab.target = std::move(target);

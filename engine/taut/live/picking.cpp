@@ -95,8 +95,7 @@ std::string nameOf(const PickedPoint& picked) {
 }
 
 std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces,
-                                std::span<const BodyPoints> bodies,
-                           double reach) {
+                                std::span<const BodyPoints> bodies, double reach) {
     const Hit hit = firstHit(ray, surfaces);
     if (hit.surface != nullptr)
         for (const BodyPoints& body : bodies)

@@ -48,7 +48,7 @@ inline constexpr double pickReach = 0.03;
 // The point nearest to the ray. If the ray hits a body, it is a point of that body. Otherwise it is a point within
 // `reach` [m per metre of distance] of the ray that nothing opaque hides. None if a collider is in the way, or nothing
 // is near.
-std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
-                           double reach);
+std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces,
+                                std::span<const BodyPoints> bodies, double reach);
 
 }  // namespace taut::live

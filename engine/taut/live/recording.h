@@ -38,8 +38,8 @@ std::string scenarioText(const Recording& recording);
 // core::Error(badContent) for an action of a kind that is not in the table.
 std::string actionText(const world::ActionSpec& action, double t, const world::KindTable<world::ActionSpec>& kinds);
 
-// "solver.dt = 1e-4" for "solver.dt=1e-4", with quotes around a plain word. Empty for an element of a list and for a key
-// with a *.
+// "solver.dt = 1e-4" for "solver.dt=1e-4", with quotes around a plain word. Empty for an element of a list and for a
+// key with a *.
 std::string overrideLine(const std::string& text);
 
 }  // namespace taut::live

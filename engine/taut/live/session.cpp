@@ -194,7 +194,8 @@ double Session::handForce(const std::string& body) const {
     const auto has = [](const world::IslandInfo& island, const std::string& name) {
         return std::find(island.bodies.begin(), island.bodies.end(), name) != island.bodies.end();
     };
-    const auto own = std::find_if(islands.begin(), islands.end(), [&](const auto& island) { return has(island, body); });
+    const auto own =
+        std::find_if(islands.begin(), islands.end(), [&](const auto& island) { return has(island, body); });
     double mass = 0.0;
     impl_->world.registry().each<world::BodyPart>([&](ecs::Entity, const world::BodyPart& part) {
         if (own == islands.end() || !has(*own, part.body->fullName())) return;

@@ -105,9 +105,10 @@ void Anchor<Real>::addProduct(std::size_t p, Real weight, const Slope& slope, in
     if (slope.share < 1.0)
         for (int axis = 0; axis < 3; ++axis) along += slope.along[axis] * static_cast<double>(u[at(axis)]);
     for (int axis = 0; axis < 3; ++axis) {
-        const Real change = slope.share < 1.0 ? static_cast<Real>(slope.share * (static_cast<double>(u[at(axis)]) -
-                                                                                 along * slope.along[axis]))
-                                              : u[at(axis)];
+        const Real change =
+            slope.share < 1.0
+                ? static_cast<Real>(slope.share * (static_cast<double>(u[at(axis)]) - along * slope.along[axis]))
+                : u[at(axis)];
         out[at(axis)] += weight * change;
     }
 }

@@ -51,9 +51,10 @@ void expectMatchingSides(std::span<const std::array<int, 3>> triangles) {
     expectNone(open,
                "the mesh is not closed, so that it has no inside: {} edges have faces on one side only, the first "
                "of them at this face; fill its holes, and merge vertices that lie on each other");
-    expectNone(doubled,
-               "the mesh has no inside: at {} edges three faces meet, or a larger odd number, the first of them at this "
-               "face; take out faces that are there twice, or lie within");
+    expectNone(
+        doubled,
+        "the mesh has no inside: at {} edges three faces meet, or a larger odd number, the first of them at this "
+        "face; take out faces that are there twice, or lie within");
     expectNone(turned,
                "faces that share an edge are turned against each other, at {} edges, the first of them at this "
                "face; let all fronts look outwards");

@@ -27,7 +27,7 @@ class Gravity final : public ForceGenerator<Real> {
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
     bool isUniform() const override { return masses_.empty(); }
     bool isWeight() const override { return true; }
-    glm::dvec3 uniformAcceleration(double t) const override { return acceleration_.at(t); }  // if it is
+    glm::dvec3 uniformAcceleration(double t) const override { return acceleration_.at(t); }                 // if it is
     double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;  // -Σ m g·x
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
     void addStability(const Motion<Real>&, StabilityShare&) const override {}

@@ -22,8 +22,9 @@ namespace taut::mechanics {
 // The number of a place in a box of so many, x fastest, then y, then z.
 inline std::size_t indexIn(glm::ivec3 counts, glm::ivec3 place) {
     return static_cast<std::size_t>(place.x) +
-           static_cast<std::size_t>(counts.x) * (static_cast<std::size_t>(place.y) +
-                                                 static_cast<std::size_t>(counts.y) * static_cast<std::size_t>(place.z));
+           static_cast<std::size_t>(counts.x) *
+               (static_cast<std::size_t>(place.y) +
+                static_cast<std::size_t>(counts.y) * static_cast<std::size_t>(place.z));
 }
 
 // Corners as those of VolumeCell: corner c is at the far end of axis 0, 1, 2 if bit 0, 1, 2 of c is set.

@@ -1,6 +1,6 @@
 #include "taut/core/error.h"
-#include "taut/mechanics/private/builder_support.h"
 #include "taut/mechanics/builders.h"
+#include "taut/mechanics/private/builder_support.h"
 
 namespace taut::mechanics {
 

@@ -16,8 +16,8 @@
 #include <cmath>
 
 #include "taut/core/private/vectorise.h"
-#include "taut/ode/private/implicit_solve.h"
 #include "taut/ode/method.h"
+#include "taut/ode/private/implicit_solve.h"
 #include "taut/ode/private/step_limits.h"
 
 namespace taut::ode {

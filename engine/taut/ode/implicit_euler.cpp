@@ -145,18 +145,16 @@ class ImplicitEuler final : public Method<Real> {
         std::copy(state.v.begin(), state.v.end(), trial_.begin());
         now.system.prescribe(now.end, place_.data(), trial_.data());
         std::fill(b_.begin(), b_.end(), Real(0));
-        forEachNumber(
-            state.layout,
-            [&](std::size_t at, std::size_t i) {
-                if (isFree(now, i)) {
-                    b_[at] = h * (mass[i] * acceleration_[at] - mass[i] * drag[i] * state.v[at]) - scratch_[at] +
-                             mass[i] * supports_.rubbed(at);
-                    change_[at] = state.memory[0][at];
-                } else {
-                    const Real end = supports_.isFree(i) ? place_[at] : supports_.given(at);
-                    change_[at] = (end - state.x[at]) / h - state.v[at];
-                }
-            });
+        forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
+            if (isFree(now, i)) {
+                b_[at] = h * (mass[i] * acceleration_[at] - mass[i] * drag[i] * state.v[at]) - scratch_[at] +
+                         mass[i] * supports_.rubbed(at);
+                change_[at] = state.memory[0][at];
+            } else {
+                const Real end = supports_.isFree(i) ? place_[at] : supports_.given(at);
+                change_[at] = (end - state.x[at]) / h - state.v[at];
+            }
+        });
         // Points held along a normal get the change along it that takes them to where the contact put them.
         supports_.forEachAlong([&](const Support& support) {
             const auto part = [&](const Real* rows) { return supports_.along(support, rows); };

@@ -26,8 +26,8 @@
 // The first kick is half as long. From then on v lags by half a step, as in leap-frog.
 #include <algorithm>
 
-#include "taut/ode/private/leapfrog_parts.h"
 #include "taut/ode/method.h"
+#include "taut/ode/private/leapfrog_parts.h"
 #include "taut/ode/split_system.h"
 
 namespace taut::ode {

@@ -23,7 +23,7 @@ namespace taut::pipeline {
 
 // The smallest step of all islands, and what else is known from the start.
 struct SmallestStep {
-    double step = 0.0;         // [s]
+    double step = 0.0;          // [s]
     double limit = 0.0;         // [s] largest stable; infinite: none
     bool bodiesTouch = false;   // each other, or themselves
     bool followsState = false;  // the step is chosen anew as the state changes, below the limit of each state
@@ -61,7 +61,7 @@ class Overlay {
     // moments that no later picture will show. Before the first moment it paints nothing. Small pictures get the
     // figures without the graph. Returns the box that it covers.
     PictureBox paint(image::Image& picture, double time, std::span<const OverlayLine> above = {},
-              const OverlayLook& look = {});
+                     const OverlayLook& look = {});
 
     // For text of the same kind elsewhere in the picture.
     render::TextPainter& letters() { return letters_; }

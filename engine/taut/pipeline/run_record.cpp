@@ -8,9 +8,9 @@
 
 #include "taut/forces/wind.h"
 #include "taut/island/metric_table.h"
+#include "taut/spec/spec.h"
 #include "taut/world/result_bits.h"
 #include "taut/world/world.h"
-#include "taut/spec/spec.h"
 
 namespace taut::pipeline {
 namespace {

@@ -205,8 +205,9 @@ void holdMylar(Bench& bench) {
                 const std::vector<glm::dvec3>&a = threads[i], &b = threads[(i + 1) % threads.size()];
                 sum += std::hypot(a.back().x, a.back().z);
                 for (std::size_t k = 0; k + 1 < a.size(); ++k)
-                    under += (glm::dot(a[k], glm::cross(a[k + 1], b[k + 1])) +
-                              glm::dot(a[k], glm::cross(b[k + 1], b[k]))) / 6;
+                    under +=
+                        (glm::dot(a[k], glm::cross(a[k + 1], b[k + 1])) + glm::dot(a[k], glm::cross(b[k + 1], b[k]))) /
+                        6;
             }
             volumes += std::abs(under);
         }

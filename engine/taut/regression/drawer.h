@@ -12,8 +12,8 @@
 
 #include "taut/image/image.h"
 #include "taut/render/renderer.h"
-#include "taut/view/frame_view.h"
 #include "taut/spec/source.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::world {
 struct PictureSpec;

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "taut/scene/private/by_key.h"
-#include "taut/spec/actions.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
+#include "taut/scene/private/by_key.h"
+#include "taut/spec/actions.h"
 
 namespace taut::regression {
 namespace {

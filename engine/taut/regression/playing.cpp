@@ -6,8 +6,8 @@
 #include "taut/ecs/registry.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario_checks.h"
-#include "taut/world/components.h"
 #include "taut/spec/private/motion.h"
+#include "taut/world/components.h"
 #include "taut/world/world.h"
 
 namespace taut::regression {

@@ -50,8 +50,8 @@ Program& SurfacePass::programUnder(const LightKind& kind) {
 int SurfacePass::rowOf(const view::Surface& surface) {
     const view::Finish& finish = *surface.finish;
     const Material material{glm::vec4(finish.back, finish.roughness),
-                            {finish.sheen, surface.dulled - surface.greyed, surface.twoSided ? finish.translucency : 0.0F,
-                             finish.weave > 0.0F ? 1.0F : 0.0F},
+                            {finish.sheen, surface.dulled - surface.greyed,
+                             surface.twoSided ? finish.translucency : 0.0F, finish.weave > 0.0F ? 1.0F : 0.0F},
                             {finish.anisotropy, 0.0F, 0.0F, 0.0F}};
     const auto known = std::find(materials_.rbegin(), materials_.rend(), material);
     if (known != materials_.rend()) return static_cast<int>(materials_.rend() - known) - 1;

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "taut/core/error.h"
-#include "taut/image/read.h"
 #include "taut/image/private/resize.h"
+#include "taut/image/read.h"
 
 namespace taut::report {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "taut/core/private/child_process.h"
 #include "taut/core/error.h"
+#include "taut/core/private/child_process.h"
 #include "taut/core/whole_file.h"
 
 namespace taut::report {

@@ -63,8 +63,7 @@ std::unique_ptr<world::ActionSpec> ActionReader::read(const std::string& table, 
         world::SceneSpec copy = spec;
         const std::optional<RampKey> key = rampKey(change->key, root_, sections, copy, fault);
         if (!key) report("key", fault);
-        const std::optional<Value> value =
-            key ? fieldValue(*key->field, *item.at("to"), problems) : std::nullopt;
+        const std::optional<Value> value = key ? fieldValue(*key->field, *item.at("to"), problems) : std::nullopt;
         if (value) {
             change->field = key->access;
             if (const double* number = std::get_if<double>(&*value)) change->value = {*number};

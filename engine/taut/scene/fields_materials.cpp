@@ -105,9 +105,10 @@ SceneSection materialSection() {
         "air_kg_per_m2", &MaterialSpec::air, "kg/m²", notNegative,
         "Mass of the air that a square metre takes along where there is a [wind]: it has inertia and no weight. "
         "Folds of length λ take along ρ λ/π, some 0.05.");
-    list.number("flutter", &MaterialSpec::flutter, "", fields::Range{0.0, 10.0},
-                "The share of air_kg_per_m2 that acts as on a stiff plate that turns: it swings to and fro as it falls. "
-                "For stiff sheets: what is limp may crumple.");
+    list.number(
+        "flutter", &MaterialSpec::flutter, "", fields::Range{0.0, 10.0},
+        "The share of air_kg_per_m2 that acts as on a stiff plate that turns: it swings to and fro as it falls. "
+        "For stiff sheets: what is limp may crumple.");
     section.fields = withPlasticity(withLosses(list))
                          .choice("lumping", &MaterialSpec::lumping, lumpingNames(),
                                  "How mass is shared out: by area, or the same for every point.")

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include "taut/bodies/joints/joints.h"
+#include "taut/bodies/private/ties.h"
 #include "taut/collision/shape_table.h"
 #include "taut/fields/field_list.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/merged_rows.h"
 #include "taut/scene/private/sections.h"
-#include "taut/bodies/joints/joints.h"
-#include "taut/bodies/private/ties.h"
 
 namespace taut::scene {
 
@@ -86,10 +86,10 @@ Section partSection(const collision::ShapeKinds& shapes) {
     Section section;
     section.variant = shapeOf;
     section.variantKey = "shape";
-    section.fields = shapeFields(shapes, In::compound)
-                         .table("finish", &ColliderSpec::ownFinish, finishSection(),
-                                "How it looks; as the compound if not given.")
-                         .take();
+    section.fields =
+        shapeFields(shapes, In::compound)
+            .table("finish", &ColliderSpec::ownFinish, finishSection(), "How it looks; as the compound if not given.")
+            .take();
     return section;
 }
 
@@ -147,10 +147,9 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
         const std::vector<std::string> variants = variantsOf(row != nullptr ? *row : kinds.all().front());
         const auto isOn = [&](const char* key) {
             const Member* side = table.find(key);
-            return side != nullptr &&
-                   (isCollider(side->value.text) ||
-                    std::any_of(side->value.items.begin(), side->value.items.end(),
-                                [](const Node& item) { return isCollider(item.text); }));
+            return side != nullptr && (isCollider(side->value.text) ||
+                                       std::any_of(side->value.items.begin(), side->value.items.end(),
+                                                   [](const Node& item) { return isCollider(item.text); }));
         };
         return isOn("a") || isOn("b") ? variants.back() : variants.front();
     };
@@ -235,7 +234,7 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
             .ramps(Affects::colliders)
             .number("restitution", &ColliderSpec::restitution, "", share, "Speed after a bounce over speed before.")
             .ramps(Affects::colliders)
-.text("animation", &ColliderSpec::animation, Role::none, "The animation of its file that moves it.")
+            .text("animation", &ColliderSpec::animation, Role::none, "The animation of its file that moves it.")
             .only(shapesWith(shapes, "animation"))
             .number("start_s", &ColliderSpec::start, "s", placeRange, "Where the animation begins.")
             .only(shapesWith(shapes, "animation"))

@@ -128,11 +128,11 @@ class Elements {
         for (const Member& candidate : table_.members)
             if (&candidate != &element) names.push_back(candidate.key);
         const bool isOfAnother = name.find('.') != std::string::npos;
-        problems_.addError(like->value.place,
-                           isOfAnother ? fmt::format("a {} cannot be like {}", section_.name, name)
-                                       : fmt::format("there is no {} \"{}\"", section_.name, name),
-                           isOfAnother ? fmt::format("name a {} of this scene", section_.name)
-                                       : suggestion(name, names));
+        problems_.addError(
+            like->value.place,
+            isOfAnother ? fmt::format("a {} cannot be like {}", section_.name, name)
+                        : fmt::format("there is no {} \"{}\"", section_.name, name),
+            isOfAnother ? fmt::format("name a {} of this scene", section_.name) : suggestion(name, names));
         return nullptr;
     }
 

@@ -21,7 +21,8 @@ bool isSame(const path& a, const path& b) {
 }
 
 bool isAmong(const path& file, const std::vector<path>& files) {
-    return std::any_of(files.begin(), files.end(), [&](const path& other) { return isSame(file, other); });
+    return std::any_of(
+        files.begin(), files.end(), [&](const path& other) { return isSame(file, other); });
 }
 
 // "a.toml -> b.toml -> c.toml": each builds on the next.

@@ -30,8 +30,8 @@ void checkName(const NameReference& reference, const std::string& kind, const st
 void checkJointName(const NameReference& reference, const world::ColliderTarget& target,
                     const world::ColliderSpec& collider, Problems& problems) {
     if (collider.shape != "figure")
-        return problems.addError(reference.place, fmt::format("{} has no joints: it is a {}", target.collider,
-                                                              collider.shape),
+        return problems.addError(reference.place,
+                                 fmt::format("{} has no joints: it is a {}", target.collider, collider.shape),
                                  fmt::format("write {}", target.collider));
     if (collider.meshData == nullptr || collider.meshData->figure == nullptr) return;  // said already
     std::vector<std::string> names;

@@ -257,9 +257,8 @@ class SceneReader {
         if (field.role == Role::none) return;
         if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
             for (std::size_t i = 0; i < texts->size(); ++i)
-                out_.references.push_back({field.role,
-                                           node.kind == NodeKind::text ? node.place : node.items[i].place, (*texts)[i],
-                                           0.0, owner_});
+                out_.references.push_back({field.role, node.kind == NodeKind::text ? node.place : node.items[i].place,
+                                           (*texts)[i], 0.0, owner_});
         else if (const auto* text = std::get_if<std::string>(&value))
             out_.references.push_back({field.role, node.place, *text, 0.0, owner_});
         else if (const auto* number = std::get_if<double>(&value))

@@ -48,8 +48,8 @@ void set(Node& root, const KeyPath& path, const Node& value, const Change& chang
         if (node->kind == NodeKind::table && node->find(key) == nullptr) node->members.push_back({key, {}, Node{}});
         Node* next = node->at(key);
         if (next == nullptr)
-            fail(change, node->kind == NodeKind::list ? "the list has no such element"
-                                                      : "there is a plain value on its way");
+            fail(change,
+                 node->kind == NodeKind::list ? "the list has no such element" : "there is a plain value on its way");
         node = next;
     }
     *node = value;

@@ -6,8 +6,8 @@
 #include "taut/core/private/hash.h"
 #include "taut/scene/private/document.h"
 #include "taut/spec/actions.h"
-#include "taut/spec/ticks.h"
 #include "taut/spec/spec.h"
+#include "taut/spec/ticks.h"
 
 namespace taut::scene {
 namespace {

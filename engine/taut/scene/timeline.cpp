@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "taut/bodies/private/ties.h"
 #include "taut/fields/private/value_reader.h"
 #include "taut/scene/private/body_index.h"
 #include "taut/scene/private/ramp_key.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/targets.h"
 #include "taut/spec/ticks.h"
-#include "taut/bodies/private/ties.h"
 
 namespace taut::scene {
 
@@ -151,8 +151,9 @@ class Timeline {
     }
 
     bool isJoint(const std::string& id) const {
-        return std::any_of(scene_.spec.joints.begin(), scene_.spec.joints.end(),
-                           [&](const JointSpec& joint) { return joint.name == id; });
+        return std::any_of(
+            scene_.spec.joints.begin(), scene_.spec.joints.end(),
+            [&](const JointSpec& joint) { return joint.name == id; });
     }
 
     void checkRelease(const Event& event, const std::string& id) {

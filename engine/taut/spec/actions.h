@@ -29,11 +29,11 @@ struct GrabAction final : SpecOf<GrabAction, PointsAction> {
     static constexpr std::string_view kindName = "grab";
     void perform(World& world) const override;
 
-    std::string id;             // of the hand
-    double radius = 0.0;        // [m] also points of the target's bodies this near to a point of the target
-    bool rigid = false;         // points follow exactly; else springs draw them
-    double strength = 200.0;    // [N/m] of the whole hand, shared by mass
-    double dampingRatio = 0.3;  // of the grabbed mass on the hand's spring [-]
+    std::string id;                  // of the hand
+    double radius = 0.0;             // [m] also points of the target's bodies this near to a point of the target
+    bool rigid = false;              // points follow exactly; else springs draw them
+    double strength = 200.0;         // [N/m] of the whole hand, shared by mass
+    double dampingRatio = 0.3;       // of the grabbed mass on the hand's spring [-]
     std::optional<double> maxForce;  // [N] largest force of the whole hand, shared by mass; none: no limit
 };
 

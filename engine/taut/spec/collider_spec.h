@@ -32,10 +32,10 @@ struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh, a figure
     double height = 1.0;           // [m] cylinder, cone: whole; capsule: between the centres of its half spheres
     std::map<std::string, double, std::less<>> sizes;  // further sizes of the shape, by key
     double scale = 1.0;
-    std::string animation;  // of a figure; empty: as it stands at rest
-    double start = 0.0;     // [s] of the animation at the start of the scene
-    double speed = 1.0;     // of the animation [-]
-    bool loops = true;      // the animation begins again; else it stays at its end
+    std::string animation;            // of a figure; empty: as it stands at rest
+    double start = 0.0;               // [s] of the animation at the start of the scene
+    double speed = 1.0;               // of the animation [-]
+    bool loops = true;                // the animation begins again; else it stays at its end
     std::vector<ColliderSpec> parts;  // compound
     double friction = 0.3;            // Coulomb's μ [-]
     double restitution = 0.0;         // 0 … 1: speed after a bounce / speed before [-]

@@ -10,8 +10,8 @@
 #include "taut/spec/action_spec.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/force_spec.h"
-#include "taut/spec/specs.h"
 #include "taut/spec/joint_spec.h"
+#include "taut/spec/specs.h"
 
 namespace taut::world {
 
@@ -140,15 +140,14 @@ template <class Own>
 Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
     Kind<JointSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};
     kind.section.help = std::move(help);
-    kind.section.fields =
-        fields::FieldList<Own>()
-            .targets("a", &JointSpec::a, &JointSide::targets, fields::Role::tieable,
-                     "Points: KIND.NAME@SELECTOR, or a list of such.")
-            .required()
-            .targets("b", &JointSpec::b, &JointSide::targets, fields::Role::tieable,
-                     "The others, of the same body or of others; or collider.NAME, on either side.")
-            .required()
-            .take();
+    kind.section.fields = fields::FieldList<Own>()
+                              .targets("a", &JointSpec::a, &JointSide::targets, fields::Role::tieable,
+                                       "Points: KIND.NAME@SELECTOR, or a list of such.")
+                              .required()
+                              .targets("b", &JointSpec::b, &JointSide::targets, fields::Role::tieable,
+                                       "The others, of the same body or of others; or collider.NAME, on either side.")
+                              .required()
+                              .take();
     for (fields::Field& row : own.take()) {
         TAUT_EXPECTS(row.inside.empty());
         kind.section.fields.push_back(std::move(row));

@@ -29,7 +29,7 @@ struct FinishSpec {
     int smooth = 0;             // times that a cloth or a rope is drawn twice as fine
     std::string skin;           // path of a mesh that is drawn in place of a cloth or a block; empty: none
     std::shared_ptr<const MeshData> skinData;  // what the file holds; null: none
-    std::string texture;        // path, resolved by the loader
+    std::string texture;                       // path, resolved by the loader
 };
 
 }  // namespace taut::world

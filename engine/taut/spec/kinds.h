@@ -13,8 +13,8 @@
 #include "taut/spec/body_spec.h"
 #include "taut/spec/common_rows.h"
 #include "taut/spec/force_spec.h"
-#include "taut/spec/specs.h"
 #include "taut/spec/joint_spec.h"
+#include "taut/spec/specs.h"
 
 namespace taut::world {
 

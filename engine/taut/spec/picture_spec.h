@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/view/frame_view.h"
 #include "taut/spec/source.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::world {
 
@@ -81,10 +81,10 @@ struct LabelSpec {
 };
 
 struct PictureSpec {
-    ivec2 size{1280, 720};  // [px]
-    std::string camera;     // name; empty: the first by name
-    int samples = 4;        // samples per pixel: 1, 4, 8 or 16
-    int shadowSize = 2048;  // [px] edge of the shadow map
+    ivec2 size{1280, 720};      // [px]
+    std::string camera;         // name; empty: the first by name
+    int samples = 4;            // samples per pixel: 1, 4, 8 or 16
+    int shadowSize = 2048;      // [px] edge of the shadow map
     std::optional<int> smooth;  // in place of that of every finish
 };
 

@@ -16,11 +16,11 @@
 #include "taut/spec/claim_spec.h"
 #include "taut/spec/collider_spec.h"
 #include "taut/spec/force_spec.h"
+#include "taut/spec/joint_spec.h"
 #include "taut/spec/picture_spec.h"
 #include "taut/spec/run_spec.h"
 #include "taut/spec/solver_spec.h"
 #include "taut/spec/specs.h"
-#include "taut/spec/joint_spec.h"
 
 namespace taut::collision {
 class ShapeKinds;
@@ -75,8 +75,8 @@ struct SceneSpec {
     BackgroundSpec background;
     std::map<std::string, MaterialSpec> materials;
     Specs<BodySpec> bodies;
-    Specs<JointSpec> joints;        // in the order of the file
-    std::vector<MassSpec> masses;   // in the order of the file
+    Specs<JointSpec> joints;       // in the order of the file
+    std::vector<MassSpec> masses;  // in the order of the file
     std::vector<ColliderSpec> colliders;
     std::shared_ptr<const collision::ShapeKinds> shapes;  // that colliders may have; none: the engine's own
     Specs<ForceSpec> forces;                              // in the order in which they are added

@@ -36,7 +36,8 @@ std::optional<GridPlace> gridPlace(std::string_view selector) {
     for (const std::string_view cell : core::cellsOf(selector.substr(1, selector.size() - 2)))
         numbers.push_back(core::numberIn(cell).value_or(-1));
     if (numbers.size() == 2) numbers.push_back(0);
-    if (numbers.size() != 3 || *std::min_element(numbers.begin(), numbers.end()) < 0 || numbers[0] > 1 || numbers[1] > 1)
+    if (numbers.size() != 3 || *std::min_element(numbers.begin(), numbers.end()) < 0 || numbers[0] > 1 ||
+        numbers[1] > 1)
         return std::nullopt;
     return GridPlace{numbers[0], numbers[1], numbers[2]};
 }

@@ -45,8 +45,8 @@ std::optional<double> ropePlace(std::string_view selector);    // "50%": 0.5
 std::optional<double> pointNumber(std::string_view selector);  // "#12": 12; not negative, but may be too large
 
 // The points of a selector, ascending, or of a group in its own order: a group of the model ("left", "corners", "all"
-// …), "#12" (by index), "(u,v)" (the grid point nearest to that fraction of width and height, from the top left), "(u,v,r)" (besides all within r [m]
-// of that place of the flat cloth), "50%" (along a rope). Empty if it names none.
+// …), "#12" (by index), "(u,v)" (the grid point nearest to that fraction of width and height, from the top left),
+// "(u,v,r)" (besides all within r [m] of that place of the flat cloth), "50%" (along a rope). Empty if it names none.
 std::vector<int> selectPoints(const mechanics::Model& model, std::string_view selector);
 
 }  // namespace taut::world

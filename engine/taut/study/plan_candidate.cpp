@@ -5,15 +5,15 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "taut/core/error.h"
-#include "taut/scene/fabrics.h"
-#include "taut/scene/private/by_key.h"
 #include "taut/bodies/block.h"
+#include "taut/bodies/body.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
 #include "taut/bodies/rope.h"
-#include "taut/bodies/body.h"
+#include "taut/core/error.h"
 #include "taut/forces/wind.h"
+#include "taut/scene/fabrics.h"
+#include "taut/scene/private/by_key.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
 #include "taut/world/world.h"

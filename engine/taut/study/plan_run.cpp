@@ -5,15 +5,15 @@
 #include <chrono>
 #include <cmath>
 
-#include "taut/core/error.h"
 #include "taut/bodies/block.h"
+#include "taut/bodies/body.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
-#include "taut/bodies/body.h"
+#include "taut/core/error.h"
 #include "taut/ecs/registry.h"
 #include "taut/spec/spec.h"
-#include "taut/world/components.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/components.h"
 #include "taut/world/world.h"
 
 namespace taut::study {

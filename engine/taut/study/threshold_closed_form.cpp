@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "taut/core/error.h"
-#include "taut/spec/spec.h"
-#include "taut/study/threshold.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
+#include "taut/core/error.h"
 #include "taut/forces/anchor.h"
+#include "taut/spec/spec.h"
+#include "taut/study/threshold.h"
 
 namespace taut::study {
 namespace {

@@ -86,7 +86,8 @@ struct FaceCorner {
 Fan fanOf(const std::vector<FaceCorner>& corners) {
     Fan fan;
     const auto find = [&](std::uint32_t next) {
-        return std::find_if(corners.begin(), corners.end(), [&](const FaceCorner& c) { return c.next == next; });
+        return std::find_if(
+            corners.begin(), corners.end(), [&](const FaceCorner& c) { return c.next == next; });
     };
     const auto isFirst = [&](const FaceCorner& c) {
         return std::none_of(corners.begin(), corners.end(), [&](const FaceCorner& o) { return o.before == c.next; });
@@ -307,7 +308,8 @@ FineMesh subdivided(std::vector<Face> faces, std::span<const dvec3> rest, bool k
     }
 
     for (std::uint32_t v = 0; v < mesh.rows.size(); ++v) {
-        limit(v, fans[v], [&](std::uint32_t of, double w) { sum.add(mesh.rows[of], dvec3(w, 0.0, 0.0)); });
+        limit(
+            v, fans[v], [&](std::uint32_t of, double w) { sum.add(mesh.rows[of], dvec3(w, 0.0, 0.0)); });
         tangents(v, fans[v], [&](std::uint32_t of, glm::dvec2 w) { sum.add(mesh.rows[of], dvec3(0.0, w.x, w.y)); });
         append(sum.take(), fine.surface);
     }

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "taut/collision/colliders.h"
 #include "taut/bodies/body.h"
-#include "taut/spec/collider_spec.h"
 #include "taut/bodies/drawing.h"
+#include "taut/collision/colliders.h"
 #include "taut/ecs/registry.h"
+#include "taut/spec/collider_spec.h"
 #include "taut/spec/picture_spec.h"
 
 namespace taut::world {

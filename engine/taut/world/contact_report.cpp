@@ -58,10 +58,9 @@ void ContactReport::look(const ContactStage& stage, double start) {
             contacts_.push_back({c.place, c.normal, c.impulse, bodyOf(c.surfaceA), bodyOf(c.surfaceB)});
     // Edges that cross, by the names of both sides: two bodies, or a body and a figure.
     std::map<std::pair<std::string, std::string>, std::set<int>> edges;
-    for (const contact::Crossing& crossing : stage.crossingsBefore()) {
+    for (const contact::Crossing& crossing : stage.crossingsBefore())
         if (const auto sides = stage.sidesOf(crossing))
             edges[{stage.nameOf(sides->first), stage.nameOf(sides->second)}].insert(crossing.edge);
-    }
     // Updates old warnings: crossings go on, end, or come back.
     for (Said& said : said_) {
         const bool isOn = edges.count({said.first, said.second}) > 0;

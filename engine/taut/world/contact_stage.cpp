@@ -22,7 +22,7 @@ constexpr int fewerForSolids = 4;          // times
 constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tick without contact
 constexpr double mostClosing = 0.35;     // closing of a pair
 constexpr double mostClosingOfSolids = 1.0;
-constexpr double stickingShare = 0.9;    // of Coulomb's limit: up to there friction may hold what sleeps
+constexpr double stickingShare = 0.9;  // of Coulomb's limit: up to there friction may hold what sleeps
 
 using Clock = std::chrono::steady_clock;  // for reports only
 
@@ -240,8 +240,7 @@ int ContactStage::commonSubsteps() const {
 int ContactStage::instantsFor(std::span<const int> surfaces) const {
     int needed = 1;
     for (int s : surfaces)
-        if (isOfBody(s) && !bodyOf(s).island->isStill())
-            needed = std::max(needed, bodyOf(s).island->instantsToPress());
+        if (isOfBody(s) && !bodyOf(s).island->isStill()) needed = std::max(needed, bodyOf(s).island->instantsToPress());
     return needed;
 }
 
@@ -581,8 +580,7 @@ void ContactStage::addFootholds() {
                 const auto own = static_cast<std::size_t>(k);
                 place += std::abs(pair.weights[own]) * x1_[static_cast<std::size_t>(pair.points[own])];
             }
-            footholds_[bodyOf(surface).island].push_back(
-                {place, glm::length(friction), pair.friction * normal, false});
+            footholds_[bodyOf(surface).island].push_back({place, glm::length(friction), pair.friction * normal, false});
         }
     });
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
@@ -618,7 +616,8 @@ bool ContactStage::crosses(const Island& island) const {
 }
 
 bool ContactStage::anySleeps() const {
-    return std::any_of(islands_.begin(), islands_.end(), [](const Island* island) { return island->isAsleep(); });
+    return std::any_of(
+        islands_.begin(), islands_.end(), [](const Island* island) { return island->isAsleep(); });
 }
 
 bool ContactStage::movesAny() const {
@@ -633,13 +632,15 @@ int ContactStage::instantsToFollow() const {
     return wanted < most ? static_cast<int>(wanted) : most;
 }
 
-// Whether an instant was too long for its result: in a trial any impulse, else a shift that works against stiff springs,
-// or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the same.
+// Whether an instant was too long for its result: in a trial any impulse, else a shift that works against stiff
+// springs, or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the
+// same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
     if (result_.impulses > 0 && (isTrial || instants_ < fewestFor(result_.surfaces))) return true;
     if (instants_ < instantsToFollow()) return true;
-    return instants_ < mostInstantsForSpeed && (result_.deepest > mostClosingOf(result_.surfaces) || result_.slides > 0);
+    return instants_ < mostInstantsForSpeed &&
+           (result_.deepest > mostClosingOf(result_.surfaces) || result_.slides > 0);
 }
 
 // One try of the tick. Returns true, early, if it needs more instants. Also ends early on a fault.
@@ -698,8 +699,8 @@ double ContactStage::turnOf(const Part& part, double h) const {
 void ContactStage::resolveInstant(double h) {
     kinematic_.clear();
     for (const Part& part : parts_)
-        for (const collision::Contact& c : part.island->isStill() ? std::span<const collision::Contact>{}
-                                                                  : part.island->contacts())
+        for (const collision::Contact& c :
+             part.island->isStill() ? std::span<const collision::Contact>{} : part.island->contacts())
             kinematic_.push_back(
                 {part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
     if (!wholes_.empty()) addWholeContacts(h);

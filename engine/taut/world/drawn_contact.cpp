@@ -25,7 +25,7 @@ double easedStep(double from, double to, double x) {
 
 // How a vertex goes: by the most that is asked of it, in the mean direction.
 struct Push {
-    double most = 0.0;    // [m]
+    double most = 0.0;  // [m]
     dvec3 direction{0.0};
 };
 
@@ -102,8 +102,8 @@ class NearSheet {
     const Near& operator[](std::size_t v) const { return near_[v]; }
     // Within reach, so that something may be near between them.
     bool areAll(std::span<const std::uint32_t> vertices) const {
-        return std::all_of(vertices.begin(), vertices.end(),
-                           [&](std::uint32_t v) { return std::isfinite(near_[v].distance); });
+        return std::all_of(
+            vertices.begin(), vertices.end(), [&](std::uint32_t v) { return std::isfinite(near_[v].distance); });
     }
     void measureAgain(std::uint32_t v) { near_[v] = measured(placeOf(v)); }  // after it has moved
 
@@ -134,8 +134,8 @@ class NearSheet {
     Near measured(const dvec3& place) const { return colliders_.nearest(place, reach_); }
     template <class Each>
     void forVertices(const Each& each) {
-        core::parallelFor(static_cast<int>(near_.size()), drawnAtOnce,
-                          [&](int v) { each(static_cast<std::uint32_t>(v)); });
+        core::parallelFor(
+            static_cast<int>(near_.size()), drawnAtOnce, [&](int v) { each(static_cast<std::uint32_t>(v)); });
     }
 
     const collision::Colliders& colliders_;

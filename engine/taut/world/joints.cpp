@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "taut/bodies/private/ties.h"
+#include "taut/spec/targets.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
-#include "taut/spec/targets.h"
-#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 namespace {
@@ -48,8 +48,8 @@ std::string warningOf(const JointReport& report) {
     return asWarning(at(joint.source)) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
            "\" does not tie " + names +
            (joint.isWeld() ? "; it reaches " + metres(joint.reach()) +
-                         ": move them together, raise reach_m, or use kind = \"spring\""
-                   : ": other bodies are nearer");
+                                 ": move them together, raise reach_m, or use kind = \"spring\""
+                           : ": other bodies are nearer");
 }
 
 // Warns of a weld that moves points further than a cell; else empty.
@@ -89,15 +89,15 @@ void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
 
 bool isJoint(const WorldImpl& w, const std::string& name) {
     return !name.empty() &&
-           std::any_of(w.spec.joints.begin(), w.spec.joints.end(),
-                       [&](const JointSpec& joint) { return joint.name == name; });
+           std::any_of(
+               w.spec.joints.begin(), w.spec.joints.end(), [&](const JointSpec& joint) { return joint.name == name; });
 }
 
 void releaseJoints(WorldImpl& w, const std::string& name) {
     for (const auto& island : w.islands)
-        island->release(w.now(), [&](const JointTie& tie) {
-            return w.spec.joints[static_cast<std::size_t>(tie.joint)].name == name;
-        });
+        island->release(
+            w.now(),
+            [&](const JointTie& tie) { return w.spec.joints[static_cast<std::size_t>(tie.joint)].name == name; });
 }
 
 void beginJoints(WorldImpl& w) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float frozenDullness = 0.93F;
 constexpr float asleepGreyness = 0.9F;  // in the debug view
-constexpr double fullStrain = 0.02;  // strain that the debug view shows in full colour
+constexpr double fullStrain = 0.02;     // strain that the debug view shows in full colour
 
 // Shows whether an island is frozen, and in the debug view whether it sleeps.
 void addStillness(const Island& island, bool debug, view::Surface& surface) {
@@ -42,8 +42,7 @@ void addMarks(const Island& island, view::Marks& marks) {
         const dvec3 a = island.position(s.a), b = island.position(s.b);
         const double l = std::sqrt(glm::dot(b - a, b - a));
         const double strain = s.restLength > 0 ? l / s.restLength - 1.0 : 0.0;
-        marks.lines.push_back(
-            {glm::vec3(a), glm::vec3(b), island.isAsleep() ? asleepColour : strainColour(strain)});
+        marks.lines.push_back({glm::vec3(a), glm::vec3(b), island.isAsleep() ? asleepColour : strainColour(strain)});
     }
     const std::vector<bool> isHeld = heldPointsOf(plan);
     for (std::size_t i = 0; i < plan.points.size(); ++i) {

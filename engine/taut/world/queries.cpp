@@ -42,7 +42,8 @@ Metrics metricsOf(WorldImpl& w, const std::function<bool(const Body&)>& wanted, 
 }  // namespace
 
 Metrics World::metrics(Measures what) const {
-    return metricsOf(*impl_, [](const Body&) { return true; }, what);
+    return metricsOf(
+        *impl_, [](const Body&) { return true; }, what);
 }
 
 Metrics World::metrics(const std::string& bodies) const {
@@ -70,7 +71,8 @@ Metrics World::metrics(const Selection& selection, Measures what) const {
     TAUT_EXPECTS(isCurrent(selection));
     std::set<const Body*> bodies;
     for (const Selection::Part& part : selection.parts) bodies.insert(part.body);
-    return metricsOf(*impl_, [&](const Body& body) { return bodies.contains(&body); }, what);
+    return metricsOf(
+        *impl_, [&](const Body& body) { return bodies.contains(&body); }, what);
 }
 
 PointsNow World::points(const Selection& selection) const {

@@ -74,7 +74,8 @@ void endWindow(WorldImpl& w) {
         Island& island = *w.islands[k];
         if (island.isStill() || isCalm[companies[k]] == 0) continue;
         if (rests[companies[k]] != 0)
-            island.fallAsleep(w.now(), static_cast<std::int64_t>(static_cast<std::size_t>(w.tick) * count + companies[k]));
+            island.fallAsleep(w.now(),
+                              static_cast<std::int64_t>(static_cast<std::size_t>(w.tick) * count + companies[k]));
         else
             island.restInVain();
     }

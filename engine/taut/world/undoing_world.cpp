@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "taut/core/error.h"
-#include "taut/world/components.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/components.h"
 
 namespace taut::world {
 namespace {

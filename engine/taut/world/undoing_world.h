@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "taut/collision/colliders.h"
+#include "taut/forces/callback.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/spec.h"
-#include "taut/forces/callback.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

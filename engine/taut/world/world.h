@@ -40,7 +40,7 @@ struct WorldImpl;
 struct Options {
     int threads = 0;                                     // 0: as many as the machine has
     std::vector<std::shared_ptr<const Force>> forces{};  // beyond those of the scene; steps allow for them
-    bool keepsSteps = false;  // the first tick's, to the end; else "auto" follows the state
+    bool keepsSteps = false;                             // the first tick's, to the end; else "auto" follows the state
 };
 
 class World {
@@ -54,9 +54,9 @@ class World {
 
     double tickSeconds() const;  // [s]
     int ticksPerFrame() const;
-    std::int64_t tick() const;  // how many there have been
+    std::int64_t tick() const;       // how many there have been
     std::int64_t startTick() const;  // 0, or that of the kept state
-    double time() const;        // [s] = tick / ticks per second, computed from whole numbers
+    double time() const;             // [s] = tick / ticks per second, computed from whole numbers
 
     // Plays one tick: every island does its substeps of forces, integration and collision, side by side. If an island
     // diverges, the world keeps the state of the tick before and the diagnosis is returned; only the views may be

@@ -25,8 +25,8 @@ struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
 // Springs; their rest length is the starting distance unless given.
 struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
     static constexpr std::string_view kindName = "spring";
-    double stiffness = 1e4;     // [N/m] of each spring
-    double dampingTime = 1e-4;  // [s]
+    double stiffness = 1e4;            // [N/m] of each spring
+    double dampingTime = 1e-4;         // [s]
     std::optional<double> restLength;  // [m]; none: the distance at the start
 
     std::string_view title() const override { return "a spring joint"; }

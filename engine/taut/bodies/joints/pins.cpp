@@ -128,17 +128,16 @@ void Pins::check() const {
             const std::string first = placeOf(root).collider, second = placeOf(node.number).collider;
             if (first != second)
                 throw core::Error(core::ErrorKind::badContent,
-                                  at(pins_[static_cast<std::size_t>(node.pin)].source) +
-                                      "a point is tied to " + first + " already and cannot go with " + second +
-                                      " too; take different points");
+                                  at(pins_[static_cast<std::size_t>(node.pin)].source) + "a point is tied to " + first +
+                                      " already and cannot go with " + second + " too; take different points");
         }
     }
 }
 
 bool Pins::isDue(double t) const {
-    return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) {
-        return pin.closing.length == Closing::notBegun && t >= pin.closing.start;
-    });
+    return std::any_of(
+        pins_.begin(), pins_.end(),
+        [&](const Pin& pin) { return pin.closing.length == Closing::notBegun && t >= pin.closing.start; });
 }
 
 void Pins::begin(double t, std::span<const dvec3> x) {
@@ -206,9 +205,7 @@ bool Pins::join(std::span<dvec3> values, const Moment& moment) {
         const auto nodes = std::span(nodes_).subspan(static_cast<std::size_t>(cluster.first),
                                                      static_cast<std::size_t>(cluster.last - cluster.first));
         const auto value = [&](const Node& node) -> dvec3& { return values[static_cast<std::size_t>(node.number)]; };
-        const auto weight = [&](const Node& node) {
-            return moment.inverseMass[static_cast<std::size_t>(node.number)];
-        };
+        const auto weight = [&](const Node& node) { return moment.inverseMass[static_cast<std::size_t>(node.number)]; };
         const auto fixed = std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return !(weight(n) > 0); });
         // Where the cluster goes: to the fixed node, or to the centre of mass.
         dvec3 target = value(fixed != nodes.end() ? *fixed : nodes.front());

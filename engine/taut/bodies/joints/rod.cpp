@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/mechanics/pose_path.h"
-#include "taut/spec/common_rows.h"
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/joints.h"
 #include "taut/bodies/private/joints/only_constraint.h"
 #include "taut/bodies/private/joints/rods.h"
+#include "taut/mechanics/pose_path.h"
+#include "taut/spec/common_rows.h"
 
 namespace taut::world {
 namespace {

@@ -1,6 +1,6 @@
-#include "taut/spec/common_rows.h"
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/joints.h"
+#include "taut/spec/common_rows.h"
 
 namespace taut::world {
 

@@ -27,8 +27,8 @@ TieDrawing::TieDrawing(const JointSpec& joint, int number)
       look_(joint.look),
       finish_(finishOf(*look_.finish)) {
     const auto points = static_cast<int>(line({0, 0, 0}, {1, 0, 0}).size());
-    topology_ = std::make_shared<view::Topology>(
-        view::tubeTopology(points, 1, sides, 1.0F, static_cast<float>(look_.radius)));
+    topology_ =
+        std::make_shared<view::Topology>(view::tubeTopology(points, 1, sides, 1.0F, static_cast<float>(look_.radius)));
 }
 
 // Half a turn at each end leads from the axis to the coil.

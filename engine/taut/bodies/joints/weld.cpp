@@ -1,9 +1,9 @@
-#include "taut/mechanics/pose_path.h"
-#include "taut/spec/common_rows.h"
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/joints.h"
 #include "taut/bodies/private/joints/only_constraint.h"
 #include "taut/bodies/private/joints/pins.h"
+#include "taut/mechanics/pose_path.h"
+#include "taut/spec/common_rows.h"
 
 namespace taut::world {
 
@@ -11,10 +11,12 @@ namespace taut::world {
 void WeldJoint::tie(IslandPlan& plan, int first, int second, double) const {
     if (first == second) return;
     std::vector<int> cluster;
-    changeOnly<Pins>(plan, [&](Pins& pins) {
-        pins.tie(first, second, source);
-        cluster = pins.clusterOf(first);
-    });
+    changeOnly<Pins>(
+        plan,
+        [&](Pins& pins) {
+            pins.tie(first, second, source);
+            cluster = pins.clusterOf(first);
+        });
     const auto held = std::find_if(cluster.begin(), cluster.end(),
                                    [&](int i) { return plan.points[static_cast<std::size_t>(i)].held; });
     const int place = held != cluster.end() ? *held : cluster.front();

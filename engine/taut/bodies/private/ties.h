@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/collision/colliders.h"
 #include "taut/bodies/island_plan.h"
+#include "taut/collision/colliders.h"
 
 namespace taut::world {
 

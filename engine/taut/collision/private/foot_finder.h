@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "taut/collision/private/facets.h"
 #include "taut/collision/geometry.h"
+#include "taut/collision/private/facets.h"
 #include "taut/collision/private/mesh_tree.h"
 
 namespace taut::collision {

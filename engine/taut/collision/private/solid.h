@@ -25,10 +25,10 @@ struct Solid {
     bool convex = true;
     ClosedShape closed;
     const FootFinder* feet = nullptr;  // of a mesh
-    bool bounded = true;  // false: a plane
-    HalfSpace above{};    // a plane's half-space in the world at the end of the step
-    core::Aabb localBounds;  // [m] unless it is a plane
-    core::Aabb bounds;    // [m] in the world, of the whole step
+    bool bounded = true;               // false: a plane
+    HalfSpace above{};                 // a plane's half-space in the world at the end of the step
+    core::Aabb localBounds;            // [m] unless it is a plane
+    core::Aabb bounds;                 // [m] in the world, of the whole step
 };
 
 // Throws core::Error(badContent) for a compound without parts or with a part whose pose is not finite.

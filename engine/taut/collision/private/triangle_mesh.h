@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "taut/collision/private/foot_finder.h"
 #include "taut/collision/form.h"
+#include "taut/collision/private/foot_finder.h"
 
 namespace taut::collision {
 

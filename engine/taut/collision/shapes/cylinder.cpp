@@ -1,7 +1,7 @@
 // A cylinder about the y axis.
 #include "taut/collision/private/convex_form.h"
-#include "taut/collision/shape_table.h"
 #include "taut/collision/private/shapes/shape_parts.h"
+#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 namespace {

@@ -4,8 +4,8 @@
 #include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/convex_hull.h"
 #include "taut/collision/private/foot_finder.h"
-#include "taut/collision/shape_table.h"
 #include "taut/collision/private/shapes/shape_parts.h"
+#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 

@@ -1,6 +1,6 @@
 // A surface of triangles, unchanged from its file; the work is in triangle_mesh.h.
-#include "taut/collision/shape_table.h"
 #include "taut/collision/private/triangle_mesh.h"
+#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 namespace {

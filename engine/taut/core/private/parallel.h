@@ -16,10 +16,11 @@ void parallelFor(int count, const std::function<bool(int)>& inTurn, const std::f
 // Calls each(0) … each(count - 1) likewise, `atOnce` of them in one task: for what is short.
 template <class Each>
 void parallelFor(int count, int atOnce, const Each& each) {
-    parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
-        const int first = task * atOnce, last = first + atOnce < count ? first + atOnce : count;
-        for (int i = first; i < last; ++i) each(i);
-    });
+    parallelFor((count + atOnce - 1) / atOnce,
+                [&](int task) {
+                    const int first = task * atOnce, last = first + atOnce < count ? first + atOnce : count;
+                    for (int i = first; i < last; ++i) each(i);
+                });
 }
 
 // How many threads parallelFor uses: at most that many in the whole process while a limit lives, and that many, even

@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "taut/mechanics/mass_spring_system.h"
-#include "taut/ode/method.h"
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/constraint.h"
 #include "taut/island/private/planar.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/ode/method.h"
 
 namespace taut::world {
 

@@ -7,15 +7,15 @@
 #include <span>
 #include <vector>
 
+#include "taut/bodies/island_plan.h"
+#include "taut/bodies/state_bytes.h"
 #include "taut/collision/colliders.h"
 #include "taut/core/private/hash.h"
+#include "taut/forces/force.h"
 #include "taut/mechanics/private/spring_watch.h"
 #include "taut/mechanics/private/state_bound.h"
 #include "taut/mechanics/private/volume.h"
 #include "taut/ode/method.h"
-#include "taut/forces/force.h"
-#include "taut/bodies/island_plan.h"
-#include "taut/bodies/state_bytes.h"
 
 namespace taut::world {
 

@@ -20,11 +20,11 @@
 #include "taut/island/private/memory.h"
 #include "taut/island/private/precision_watch.h"
 #include "taut/island/private/rest_watch.h"
-#include "taut/island/report.h"
 #include "taut/island/private/step_choice.h"
 #include "taut/island/private/step_following.h"
 #include "taut/island/private/tie_load.h"
 #include "taut/island/private/yielding.h"
+#include "taut/island/report.h"
 
 namespace taut::world {
 
@@ -282,7 +282,7 @@ class Island {
         std::int64_t company = 0;
         Slept taken;
         // Made when they are asked for:
-        std::optional<core::Aabb> box;                             // [m] of the points
+        std::optional<core::Aabb> box;  // [m] of the points
         std::vector<std::pair<const Body*, std::uint64_t>> hashes;
     } sleep_;
 };

@@ -8,8 +8,8 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/island/private/dynamics.h"
-#include "taut/island/report.h"
 #include "taut/island/private/step_following.h"
+#include "taut/island/report.h"
 
 namespace taut::world {
 

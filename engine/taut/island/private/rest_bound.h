@@ -16,8 +16,8 @@ using glm::dvec3;
 // K is the stiffness of the free points with all others held, and with points that something presses held along that
 // only. The first term is the way to where the forces balance. The second is the amplitude of a swing: each mode k goes
 // v_k / ω_k, so p·K⁻¹p is the mass times the mean square of the amplitude, exact over all points and modes; from the
-// mean to the furthest point it takes the share that the velocities have. Both use the motion that there is, so they are
-// no larger than |r| / λ + sqrt(2 KE / λ) with the smallest eigenvalue λ, which a method would have to find first.
+// mean to the furthest point it takes the share that the velocities have. Both use the motion that there is, so they
+// are no larger than |r| / λ + sqrt(2 KE / λ) with the smallest eigenvalue λ, which a method would have to find first.
 //
 // Infinite if K does not hold the points: it is not positive definite, or the conjugate gradients do not converge. A
 // velocity of `floor` [m/s] in all directions is added to v, so that what nothing draws back is found even at rest.

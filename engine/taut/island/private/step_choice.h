@@ -26,12 +26,12 @@
 #include <string>
 #include <vector>
 
+#include "taut/island/private/envelope.h"
+#include "taut/island/private/step_following.h"
 #include "taut/mechanics/force_generator.h"
 #include "taut/mechanics/private/stability.h"
 #include "taut/mechanics/private/state_bound.h"
 #include "taut/ode/method.h"
-#include "taut/island/private/envelope.h"
-#include "taut/island/private/step_following.h"
 
 namespace taut::world {
 
@@ -54,8 +54,8 @@ struct StepChoice {
     std::optional<StepNeed> need;  // if the step of the island follows its state
     bool splits = false;           // the dashpots act apart from the other forces
     double step = 0;               // h = tick / substeps [s]
-    double limit = 0;  // largest stable step [s], by the bound that holds in any shape, also of cells
-    ode::FastestMode mode;  // what the limit is computed from
+    double limit = 0;              // largest stable step [s], by the bound that holds in any shape, also of cells
+    ode::FastestMode mode;         // what the limit is computed from
     mechanics::FrequencyBound anywhere, here;
     std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
     std::vector<std::string> warnings;

@@ -25,8 +25,8 @@
 #include <span>
 #include <vector>
 
-#include "taut/mechanics/private/spring_watch.h"
 #include "taut/bodies/island_plan.h"
+#include "taut/mechanics/private/spring_watch.h"
 
 namespace taut::world {
 

@@ -6,7 +6,7 @@
 //
 //   keeps      Δp                           potential energy
 //   pressure   P                            -P V                                  a pump
-//   amount     (p₀ + P) V₀/V - p₀           p₀ (V - V₀) - (p₀ + P) V₀ ln(V/V₀)    a sealed gas, always as warm as the air
+//   amount     (p₀ + P) V₀/V - p₀           p₀ (V - V₀) - (p₀ + P) V₀ ln(V/V₀)    a sealed gas, as warm as the air
 //   volume     P + K (1 - V/V₀)             ½ K (V - V₀)²/V₀ - P V                a liquid
 //
 // P is the pressure at the first volume V₀, p₀ that of the air outside, K a bulk modulus. Below V₀/1000 a gas presses

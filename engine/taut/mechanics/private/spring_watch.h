@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "taut/mechanics/spring_network.h"
 #include "taut/mechanics/private/watch_kernel.h"
+#include "taut/mechanics/spring_network.h"
 
 namespace taut::mechanics {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "taut/core/error.h"
-#include "taut/ode/private/conjugate_gradient.h"
 #include "taut/ode/method.h"
+#include "taut/ode/private/conjugate_gradient.h"
 #include "taut/ode/private/supports.h"
 
 namespace taut::ode {

@@ -71,7 +71,7 @@ class MeshCache {
     std::map<const view::Topology*, TopologyEntry> topologies_;
     std::uint64_t uploads_ = 0;
     std::vector<ShadowShape> before_;  // of the surfaces of the call before
-    std::vector<GlObject> spare_;  // buffers of forgotten meshes, to be filled again
+    std::vector<GlObject> spare_;      // buffers of forgotten meshes, to be filled again
 };
 
 }  // namespace taut::render

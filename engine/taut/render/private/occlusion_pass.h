@@ -46,9 +46,9 @@ class OcclusionPass {
     void blur();
 
     const Gl* gl_;
-    GlObject texture_;           // of the map
-    OcclusionArea area_;         // of the map as it is
-    float groundHeight_ = 0.0F;  // [m]
+    GlObject texture_;                 // of the map
+    OcclusionArea area_;               // of the map as it is
+    float groundHeight_ = 0.0F;        // [m]
     std::vector<ShadowShape> shapes_;  // what the map shows
 
     std::vector<MapTriangle> triangles_;  // seen from above, with heights for depths

@@ -27,12 +27,12 @@ class ShadowPass {
 
     const Gl* gl_;
     ShadowMap map_;
-    GlObject depth_;             // texture of the map
-    GlObject bounds_;            // texture of its bounds; b, a: the wide ones, if `wide_` is above 0
-    int wide_ = 0;               // [blocks] that they reach
+    GlObject depth_;                   // texture of the map
+    GlObject bounds_;                  // texture of its bounds; b, a: the wide ones, if `wide_` is above 0
+    int wide_ = 0;                     // [blocks] that they reach
     std::vector<ShadowShape> shapes_;  // in the map
-    glm::mat4 drawnBox_{0.0F};   // its toMap
-    GlObject comparing_;         // a sampler that compares
+    glm::mat4 drawnBox_{0.0F};         // its toMap
+    GlObject comparing_;               // a sampler that compares
 };
 
 }  // namespace taut::render

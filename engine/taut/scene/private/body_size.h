@@ -4,7 +4,7 @@
 namespace taut::world {
 struct BodySpec;
 struct SceneSpec;
-}
+}  // namespace taut::world
 
 namespace taut::scene {
 

@@ -32,8 +32,9 @@ fields::Field shown(const fields::Field& field, const world::Kind<Base>& kind) {
     row.write = [](void*, const fields::Value&) {};
     row.read = [read = field.read, make = kind.make](const void*) { return read(dynamic_cast<void*>(make().get())); };
     if (field.enter)
-        row.enter = [enter = field.enter, own = std::shared_ptr<Base>(kind.make())](
-                        void*, const core::Source& source) { return enter(dynamic_cast<void*>(own.get()), source); };
+        row.enter = [enter = field.enter, own = std::shared_ptr<Base>(kind.make())](void*, const core::Source& source) {
+            return enter(dynamic_cast<void*>(own.get()), source);
+        };
     return row;
 }
 

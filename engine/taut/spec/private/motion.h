@@ -4,9 +4,9 @@
 #include <span>
 
 #include "taut/collision/colliders.h"
-#include "taut/view/frame_view.h"
 #include "taut/spec/collider_spec.h"
 #include "taut/spec/picture_spec.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::world {
 

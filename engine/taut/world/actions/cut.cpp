@@ -1,7 +1,7 @@
 // Cuts bodies along a plane or a line.
 #include "taut/fields/private/problems.h"
-#include "taut/world/private/actions/rows.h"
 #include "taut/island/private/cutting.h"
+#include "taut/world/private/actions/rows.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/timeline.h"

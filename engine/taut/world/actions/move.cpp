@@ -4,11 +4,11 @@
 
 #include "taut/core/trig.h"
 #include "taut/fields/private/problems.h"
+#include "taut/spec/private/rotation.h"
+#include "taut/spec/targets.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/timeline.h"
-#include "taut/spec/private/rotation.h"
-#include "taut/spec/targets.h"
 
 namespace taut::world {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/ecs/entity.h"
 #include "taut/bodies/private/ties.h"
+#include "taut/ecs/entity.h"
 #include "taut/island/private/island.h"
 #include "taut/spec/collider_spec.h"
 #include "taut/world/components.h"

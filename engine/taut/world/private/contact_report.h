@@ -13,8 +13,8 @@ namespace taut::world {
 
 // Two bodies that press on each other, or a body and a figure, at one place.
 struct BodyContact {
-    dvec3 place{0.0}, normal{0.0};  // [m] midpoint; unit, towards the first
-    double impulse = 0;             // [N s] of the last instant
+    dvec3 place{0.0}, normal{0.0};                   // [m] midpoint; unit, towards the first
+    double impulse = 0;                              // [N s] of the last instant
     const Body *first = nullptr, *second = nullptr;  // null: the figure
     bool isOf(const Body& body) const { return first == &body || second == &body; }
 };
@@ -36,9 +36,9 @@ class ContactReport {
     void look(const ContactStage& stage, double start);
     void forget(const Body& body);
 
-    const std::vector<BodyContact>& contacts() const { return contacts_; }  // at the end of the last tick
+    const std::vector<BodyContact>& contacts() const { return contacts_; }             // at the end of the last tick
     const std::map<const Body*, std::int64_t>& squeezed() const { return squeezed_; }  // number of points of a body
-    bool hadImpulse() const { return hadImpulse_; }                   // at any time since it was made
+    bool hadImpulse() const { return hadImpulse_; }                                    // at any time since it was made
     // One warning for each pair of bodies, or of a body and a figure, that cross or have crossed.
     std::vector<std::string> warnings() const;
 

@@ -99,7 +99,7 @@ class ContactStage {
     static constexpr int noSurface = -1;
     std::vector<contact::ContactPoint> contacts() const;
     std::span<const contact::Crossing> crossingsBefore() const;  // at its start
-    bool hadImpulse() const { return hadImpulse_; }        // whether any pair had an impulse, in any tick
+    bool hadImpulse() const { return hadImpulse_; }              // whether any pair had an impulse, in any tick
     const std::vector<contact::Crossing>& crossings();           // at present
     dvec3 position(int point) const {
         return x1_[static_cast<std::size_t>(point)];
@@ -115,7 +115,8 @@ class ContactStage {
     // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
     // rigid collider sticks out of a face, which is no crossing.
     std::optional<std::pair<int, int>> sidesOf(const contact::Crossing& crossing) const;
-    double depthOf(const contact::Crossing& crossing) const;  // [m] of the edge's closer end behind the triangle's plane
+    double depthOf(
+        const contact::Crossing& crossing) const;  // [m] of the edge's closer end behind the triangle's plane
     // How far colliders stick out of triangles of wanted bodies, between two ticks: edges of rigid ones as
     // penetrationOf() measures it, and figures as depthOf() does.
     struct Penetration {
@@ -171,21 +172,21 @@ class ContactStage {
     int fewest_;  // smallest number of instants in a tick with contact
     StepFollowing& pace_;
     std::vector<Island*> islands_;
-    std::vector<Part> parts_;          // (islands)
-    std::vector<const Body*> bodies_;  // (surfaces)
+    std::vector<Part> parts_;               // (islands)
+    std::vector<const Body*> bodies_;       // (surfaces)
     std::vector<std::vector<int>> solids_;  // their points in the group, ascending
     std::vector<int> wholes_;               // surfaces of bodies that meet colliders as a whole
-    std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements
+    std::vector<std::size_t> damage_;       // (surfaces) number of severed edges taken into the elements
     ColliderSurfaces colliders_;
     std::unique_ptr<contact::ContactGroup> group_;
     bool hasJumped_ = true;
     bool hadImpulse_ = false;
     bool areCrossingsKnown_ = false;
     std::vector<contact::Crossing> crossings_;
-    std::vector<dvec3> x0_, x1_, v_;   // (points)
+    std::vector<dvec3> x0_, x1_, v_;        // (points)
     std::vector<dvec3> xBefore_, vBefore_;  // (points) before the last instant of contact
     double turn_ = 0;                       // [rad] largest turnOf() in the last instant
-    std::vector<double> inverseMass_;  // (points)
+    std::vector<double> inverseMass_;       // (points)
     std::vector<contact::KinematicContact> kinematic_;
     // What contact did with a point in a tick, summed over pairs and instants.
     struct Press {

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "taut/island/private/island.h"
 #include "taut/spec/picture_spec.h"
 #include "taut/view/frame_view.h"
-#include "taut/island/private/island.h"
 
 namespace taut::world {
 

@@ -74,10 +74,10 @@ class Pins final : public ConstraintOf<Pins> {
     std::vector<Pin> pins_;
     std::vector<Node> nodes_;
     std::vector<Cluster> clusters_;
-    std::vector<int> open_;              // pins that are not closed yet at time_ [s]
+    std::vector<int> open_;  // pins that are not closed yet at time_ [s]
     double time_ = 0;
     double from_ = 0, until_ = HUGE_VAL;  // [s] when the pins that are open are these
-    std::vector<dvec3> sum_;  // (nodes) scratch
+    std::vector<dvec3> sum_;              // (nodes) scratch
 };
 
 }  // namespace taut::world

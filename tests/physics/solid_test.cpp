@@ -326,6 +326,38 @@ TEST(Solid, BouncesByTheFactorsOfBothSides) {
     EXPECT_NEAR(world.points("net.net").v[0].y, 0.8 * 0.25, 1e-9);
 }
 
+// Newton's law for an impact of a whole face: its corners give back their share at once, so that nothing turns.
+TEST(SolidBox, BouncesOffAFaceWithoutTurning) {
+    world::SceneSpec spec = scene();
+    spec.world.gravity = dvec3(0.0);
+    spec.colliders = {ground(0.0, 0.5)};
+    spec.colliders[0].restitution = 0.8;
+    SolidSpec one = box("one", {0.0, 0.3, 0.0}, dvec3(0.2));
+    one.velocity = {0.0, -2.0, 0.0};
+    spec.bodies.add(one);
+    World world(spec);
+    advanceBy(world, 0.2);
+    const core::RigidMotion motion = motionOf(world, "solid.one");
+    EXPECT_LT(glm::length(motion.velocity - dvec3(0.0, 0.8 * 2.0, 0.0)), 1e-6);
+    EXPECT_LT(glm::length(motion.spin), 1e-6);
+}
+
+// On its corners, with friction. A tick's energy is known but for what gravity does in it.
+TEST(SolidBox, GainsNoEnergyWhereItBouncesAndTurns) {
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0, 0.5)};
+    spec.colliders[0].restitution = 0.95;
+    SolidSpec one = box("one", {0.0, 0.6, 0.0}, {0.3, 0.2, 0.1});
+    one.rotation = {0.3, 0.2, 0.5};
+    spec.bodies.add(one);
+    World world(spec);
+    const double start = world.metrics().energy();
+    for (int tick = 0; tick < 120; ++tick) {
+        advanceBy(world, world.tickSeconds());
+        EXPECT_LT(world.metrics().energy(), 1.01 * start) << tick;
+    }
+}
+
 // Round ones hit each other and a box in free space: with a rim, a side, a tip.
 TEST(Solid, KeepsMomentaWhereItIsRound) {
     world::SceneSpec spec = scene(0.5);

@@ -136,7 +136,9 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
     // Response: impulses for the pairs that would close their gap, then the crossings.
     selectActive(instant);
     solver_.clear();
-    if (!active_.empty() || !crossings_.empty() || !solids_.empty() || !carried_.isEmpty()) {
+    const bool meetsWhole =
+        std::any_of(instant.kinematic.begin(), instant.kinematic.end(), [](const auto& own) { return own.isWhole; });
+    if (!active_.empty() || !crossings_.empty() || !solids_.empty() || meetsWhole) {
         solveActive(instant);
         if (options_.untangles && !crossings_.empty()) changeAsBodies(instant, u_, v_, [&] { untangle(instant); });
         handOver(instant, applyVelocities(instant));

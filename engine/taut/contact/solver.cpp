@@ -444,12 +444,31 @@ void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster
     solveRows(rows, cluster, cluster.tolerance, v_);
 }
 
-// Bounces: one row after the other, the fastest first, gives back its share of the speed with which it closes, until
-// none closes faster than restSpeed. So momentum goes through a row of balls as from one to the next. The impulses are
-// added to those that the rows get.
+// Whether two rows are between the same bodies that turn, so that they bounce as one impact.
+bool ContactSolver::areOfOneImpact(const Row& a, const Row& b) const {
+    if (&a == &b) return true;
+    const auto isIn = [&](const Row& row) {
+        return [this, &row](const Turn& turn) {
+            const auto all = row.turns.of(levers().turns);
+            return std::any_of(all.begin(), all.end(), [&](const Turn& own) { return own.slot == turn.slot; });
+        };
+    };
+    const auto ofA = a.turns.of(levers().turns), ofB = b.turns.of(levers().turns);
+    return !ofA.empty() && !ofB.empty() && std::all_of(ofA.begin(), ofA.end(), isIn(b)) &&
+           std::all_of(ofB.begin(), ofB.end(), isIn(a));
+}
+
+// Bounces: one impact after the other, the fastest first, gives back its share of the speeds with which its rows close,
+// until none closes faster than restSpeed. So momentum goes through a row of balls as from one to the next, and a box
+// that lands on a face leaves it without turning. Normal impulses of an impact that each give their row its speed take
+// Σ λ (1 - e) c / 2 of the energy. Friction comes after them, against the slip that they leave: against that before it
+// would be answered with energy of its own, where the impact turns a body. The impulses are added to those that the
+// rows get.
 void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, std::span<Four> velocities,
                            std::span<double> sizes) const {
-    constexpr std::size_t mostEach = 50;  // bounces of a row, on average
+    constexpr std::size_t mostEach = 50;  // impacts of a row, on average
+    constexpr int mostSweeps = 200;
+    constexpr double exactly = 1e-9;  // of the speed
     struct Bouncing {
         const Row* row;
         double restitution, gap, closing;  // [-], [m], [m/s]
@@ -473,30 +492,44 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
         for (int slot : row.slots) each(static_cast<std::size_t>(slot));
         for (const Share& share : row.shares.of(levers().shares)) each(static_cast<std::size_t>(share.slot));
     };
+    const auto closes = [&](const Bouncing& own) {
+        return own.closing > problem.options.restSpeed && own.gap <= own.closing * problem.h;
+    };
+    std::vector<Row> impact;
+    std::vector<const Row*> own;
     for (std::size_t left = mostEach * rows.size(); left > 0; --left) {
-        double fastest = problem.options.restSpeed;
-        const Bouncing* bouncing = nullptr;
-        for (const Bouncing& own : all) {
-            if (!(own.closing > fastest) || own.gap > own.closing * problem.h) continue;
-            fastest = own.closing;
-            bouncing = &own;
+        const Bouncing* fastest = nullptr;
+        for (const Bouncing& one : all)
+            if (closes(one) && (fastest == nullptr || one.closing > fastest->closing)) fastest = &one;
+        if (fastest == nullptr) return;
+        const double speed = fastest->closing;
+        impact.clear();
+        own.clear();
+        for (const Bouncing& one : all) {
+            if (!closes(one) || !areOfOneImpact(*one.row, *fastest->row)) continue;
+            own.push_back(one.row);
+            Row& row = impact.emplace_back(*one.row);
+            row.closing = -one.restitution * one.closing;
+            row.impulse = {};
+            row.friction = 0;
         }
-        if (bouncing == nullptr) return;
-        const Row* next = bouncing->row;
-        const double size = (1.0 + bouncing->restitution) * fastest * next->mass;
-        dvec3 impulse = size * vectorOf(next->normal);
-        const dvec3 velocity = relativeVelocity(*next, velocities, levers());
-        const double grip = next->grip > 0 ? next->grip : next->mass;
-        impulse += withinCone(-grip * (velocity + fastest * vectorOf(next->normal)), next->friction * size);
-        push(*next, impulse, velocities, levers());
-        if (!sizes.empty()) sizes[static_cast<std::size_t>(next - rows.data())] += size;
-        forEachSlot(*next, [&](std::size_t slot) { isOther[slot] = true; });
-        for (Bouncing& own : all) {
+        projectedGaussSeidel(impact, mostSweeps, exactly * speed, velocities, levers());
+        for (std::size_t k = 0; k < impact.size(); ++k) {
+            const Row& row = *own[k];
+            const double size = impact[k].impulse.of[3];
+            const dvec3 normal = vectorOf(row.normal), velocity = relativeVelocity(row, velocities, levers());
+            const double grip = row.grip > 0 ? row.grip : row.mass;
+            push(row, withinCone(-grip * (velocity - glm::dot(velocity, normal) * normal), row.friction * size),
+                 velocities, levers());
+            if (!sizes.empty()) sizes[static_cast<std::size_t>(&row - rows.data())] += size;
+            forEachSlot(row, [&](std::size_t slot) { isOther[slot] = true; });
+        }
+        for (Bouncing& one : all) {
             bool isAny = false;
-            forEachSlot(*own.row, [&](std::size_t slot) { isAny = isAny || isOther[slot]; });
-            if (isAny) measure(own);
+            forEachSlot(*one.row, [&](std::size_t slot) { isAny = isAny || isOther[slot]; });
+            if (isAny) measure(one);
         }
-        forEachSlot(*next, [&](std::size_t slot) { isOther[slot] = false; });
+        for (const Row* row : own) forEachSlot(*row, [&](std::size_t slot) { isOther[slot] = false; });
     }
 }
 

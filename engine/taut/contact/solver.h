@@ -157,6 +157,7 @@ class ContactSolver {
     int slotOf(int point, const Problem& problem);
     int addSlot(const dvec3& u, const dvec3& v);
     int solveCluster(const Cluster& cluster, const Problem& problem);
+    bool areOfOneImpact(const Row& a, const Row& b) const;
     void bounce(std::span<const Row> rows, const Problem& problem, std::span<Four> velocities,
                 std::span<double> sizes) const;
     int solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance, std::span<Four> velocities) const;

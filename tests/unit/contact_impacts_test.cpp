@@ -366,19 +366,26 @@ TEST(ContactImpact, TakesOverlapBackNotIntoWhatHoldsIt) {
     EXPECT_EQ(u[0], dvec3(0.0));
 }
 
-// What a method stores need not be the mean of the instant: each bounces as it arrives.
-TEST(ContactImpact, BouncesVelocitiesAsTheyArriveThemselves) {
-    ContactConstraint pair = restingPair(0, {1, 2, 3});
-    pair.restitution = 0.5;
-    const std::vector<double> inverseMass{1.0, 0.0, 0.0, 0.0};
-    std::vector<dvec3> u(4, dvec3(0.0)), v = u, shift = u;
-    u[0] = {0.0, -2.0, 0.0};
-    v[0] = {0.0, -3.0, 0.0};
-    SolverOptions options;
-    ContactSolver pressing;
-    pressing.solve(std::span(&pair, 1), {}, inverseMass, 1e-3, options, u, v, shift);
-    EXPECT_NEAR(u[0].y, 1.0, 1e-15);
-    EXPECT_NEAR(v[0].y, 1.5, 1e-15);
+// Forces that change 2 to 2.2 m/s from the middle of one instant to that of the next act on a pair that meets after a
+// share of the first: for 1/2 less that share it is slower than 2 m/s when it meets, and for 3/2 less the share they
+// act on what leaves with half of that. Its place is what half of the way back gives.
+TEST(ContactImpact, BouncesAtItsMoment) {
+    for (const double share : {0.0, 0.25, 0.75}) {
+        ContactConstraint pair = restingPair(0, {1, 2, 3});
+        pair.restitution = 0.5;
+        constexpr double h = 1e-3, closing = 2.0, drift = 0.2;
+        pair.distance = pair.thickness + share * closing * h;
+        const std::vector<double> inverseMass{1.0, 0.0, 0.0, 0.0};
+        std::vector<dvec3> u(4, dvec3(0.0)), v = u, shift = u;
+        u[0] = {0.0, -closing, 0.0};
+        v[0] = {0.0, -closing - drift, 0.0};
+        SolverOptions options;
+        ContactSolver pressing;
+        pressing.solve(std::span(&pair, 1), {}, inverseMass, h, options, u, v, shift);
+        const double meets = closing - (0.5 - share) * drift;
+        EXPECT_NEAR(u[0].y, -share * closing + (1.0 - share) * 0.5 * closing, 1e-12) << share;
+        EXPECT_NEAR(v[0].y, 0.5 * meets - (1.5 - share) * drift, 1e-12) << share;
+    }
 }
 
 // Two points on one triangle are one cluster by it, unless nothing moves it.

@@ -108,6 +108,17 @@ TEST(Filling, SurfacesAreClosedOpenTwistedOrFlat) {
     }
 }
 
+// As cells of a block may. Two corners of a cube, each a sixth of it.
+TEST(Filling, PartsThatMeetAlongAnEdgeAreClosed) {
+    const std::vector<dvec3> places{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+    const std::vector<Triangle> both{{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3},
+                                     {0, 4, 1}, {0, 5, 4}, {0, 1, 5}, {1, 4, 5}};
+    const std::vector<Chamber> chambers = chambersOf(both, places);
+    ASSERT_EQ(chambers.size(), 1U);
+    EXPECT_TRUE(chambers[0].isClosed());
+    EXPECT_NEAR(chambers[0].firstVolume, 2.0 / 6.0, 1e-15);
+}
+
 TEST(Filling, PressesAsItsLawSays) {
     const Octahedron solid;
     const double s = 1.1, v = s * s * s;  // of all lengths, of the volume

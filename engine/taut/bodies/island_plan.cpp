@@ -240,6 +240,7 @@ class Planner {
         const double reach = seam.reach() + 0.5 * std::max(as.longest, bs.longest);
         JointReport& report = reports_.emplace_back();
         report.spec = &seam;
+        report.sewn = {static_cast<int>(as.points.size()), static_cast<int>(bs.points.size())};
         std::map<std::pair<int, int>, int> sewn;  // by bodies: number of points
         for (const auto& [i, j] : pairedByLength(as.edge, bs.edge)) {
             const PointRef first = as.points[static_cast<std::size_t>(i)];

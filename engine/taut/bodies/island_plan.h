@@ -1,6 +1,7 @@
 // The plan from which an island is built: the bodies that move together, with their points and springs.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -88,6 +89,7 @@ struct JointReport {
     };
     std::vector<Pair> pairs;                            // in the order of the bodies
     double jump = 0;                                    // [m] largest distance of points that were welded
+    std::array<int, 2> sewn{};                          // points of the two edges of a seam
     std::vector<std::pair<const Body*, double>> loose;  // bodies that it names but does not join; smallest distance [m]
 };
 

@@ -11,6 +11,7 @@ namespace taut::contact {
 
 Elements::Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest)
     : surfaces_(std::move(surfaces)),
+      apart_(surfaces_.size()),
       rest_(std::move(rest)),
       surfaceOf_(rest_.size(), -1),
       oneOf_(rest_.size()),
@@ -77,6 +78,12 @@ void Elements::setGone(int number, const std::function<bool(std::size_t triangle
 void Elements::sew(int a, int b) {
     const int first = oneOf_[static_cast<std::size_t>(a)], second = oneOf_[static_cast<std::size_t>(b)];
     std::replace(oneOf_.begin(), oneOf_.end(), std::max(first, second), std::min(first, second));
+}
+
+void Elements::keepApart(int surfaceA, int surfaceB) {
+    if (surfaceA == surfaceB || !mayMeet(surfaceA, surfaceB)) return;
+    apart_[static_cast<std::size_t>(surfaceA)].push_back(surfaceB);
+    apart_[static_cast<std::size_t>(surfaceB)].push_back(surfaceA);
 }
 
 void Elements::refresh() {

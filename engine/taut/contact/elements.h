@@ -42,6 +42,8 @@ class Elements {
     void refresh();
     // Two points of a seam: their elements count as neighbours and never touch. To be called before any list is made.
     void sew(int a, int b);
+    // Two surfaces that do not touch each other, as bodies that a joint ties. Likewise.
+    void keepApart(int surfaceA, int surfaceB);
     bool areOne(int a, int b) const {
         return oneOf_[static_cast<std::size_t>(a)] == oneOf_[static_cast<std::size_t>(b)];
     }
@@ -83,6 +85,9 @@ class Elements {
         const ContactSurface &a = surface(surfaceA), &b = surface(surfaceB);
         if (isStill(surfaceA) && isStill(surfaceB)) return false;
         if (a.solid >= 0 && a.solid == b.solid) return false;
+        if (const std::vector<int>& own = apart_[static_cast<std::size_t>(surfaceA)];
+            std::find(own.begin(), own.end(), surfaceB) != own.end())
+            return false;
         if (surfaceA == surfaceB) return a.meetsItself && !a.isOfCollider();
         if (a.isOfCollider() || b.isOfCollider())
             return a.isOfCollider() != b.isOfCollider() && a.meetsRigid && b.meetsRigid;
@@ -104,6 +109,7 @@ class Elements {
     void addSurface(int number);
 
     std::vector<ContactSurface> surfaces_;
+    std::vector<std::vector<int>> apart_;  // (surfaces) surfaces that it does not touch
     std::vector<dvec3> rest_;
     std::vector<Triangle> triangles_;
     std::vector<Edge> edges_;

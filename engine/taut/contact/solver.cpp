@@ -464,19 +464,14 @@ bool ContactSolver::areOfOneImpact(const Row& a, const Row& b) const {
 // Σ λ (1 - e) c / 2 of the energy. Friction comes after them, against the slip that they leave: against that before it
 // would be answered with energy of its own, where the impact turns a body. The impulses are added to those that the
 // rows get.
-void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, std::span<Four> velocities,
-                           std::span<double> sizes) const {
-    constexpr std::size_t mostEach = 50;  // impacts of a row, on average
-    constexpr int mostSweeps = 200;
-    constexpr double exactly = 1e-9;  // of the speed
-    struct Bouncing {
-        const Row* row;
-        double restitution, gap, closing;  // [-], [m], [m/s]
-    };
-    std::vector<Bouncing> all;
-    const auto measure = [&](Bouncing& own) {
-        own.closing = -glm::dot(vectorOf(own.row->normal), relativeVelocity(*own.row, velocities, levers()));
-    };
+//
+//       the gap closes      now         Sides that close by c meet s before the end of the instant. Until then they use
+//     |-------- h - s ------|--- s ---| up the gap, then they part by e c. Forces, which change u to v by d along the
+//     instant before                    normal, act on until v: for h/2 + s under leap-frog, and before that on c.
+//
+void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, std::span<double> sizes) {
+    thread_local std::vector<Bouncing> all;
+    all.clear();
     const std::size_t pairCount = problem.pairs.size();
     for (const Row& row : rows) {
         const auto source = static_cast<std::size_t>(row.source);
@@ -484,16 +479,45 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
         const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - pairCount];
         const double restitution = isPair ? problem.pairs[source].restitution : contact->restitution;
         if (!(restitution > 0) || !isLikePair(row, problem)) continue;
-        measure(
-            all.emplace_back(Bouncing{&row, restitution, isPair ? problem.pairs[source].gap() : contact->gap, 0.0}));
+        const double gap = std::max(isPair ? problem.pairs[source].gap() : contact->gap, 0.0);
+        const auto closingIn = [&](std::span<const Four> velocities) {
+            return -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, levers()));
+        };
+        all.push_back({&row, restitution, gap, closingIn(v_) - closingIn(u_), 0.0});
     }
+    const double h = problem.h;
+    // Until the sides meet [s]; they part by e c then.
+    const auto untilMet = [h](const Bouncing& own, double closing) { return std::min(own.gap / closing, h); };
+    bounceIn(u_, all, rows, problem, {}, [&](const Bouncing& own) {
+        const double before = untilMet(own, own.closing);
+        return (before - own.restitution * (h - before)) * own.closing / h;
+    });
+    bounceIn(v_, all, rows, problem, sizes, [&](const Bouncing& own) {
+        const double then = own.closing - own.drift;  // of u
+        const double before = then > 0 ? untilMet(own, then) : h;
+        const double change = own.drift * (1.5 - before / h);
+        return -std::max(own.restitution * (own.closing - change) - change, 0.0);
+    });
+}
+
+// target(row): how fast it may close afterwards [m/s].
+void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& all, std::span<const Row> rows,
+                             const Problem& problem, std::span<double> sizes,
+                             const std::function<double(const Bouncing&)>& target) const {
+    constexpr std::size_t mostEach = 50;  // impacts of a row, on average
+    constexpr int mostSweeps = 200;
+    constexpr double exactly = 1e-9;  // of the speed
+    const auto measure = [&](Bouncing& own) {
+        own.closing = -glm::dot(vectorOf(own.row->normal), relativeVelocity(*own.row, velocities, levers()));
+    };
+    std::for_each(all.begin(), all.end(), measure);
     std::vector<bool> isOther(velocities.size(), false);
     const auto forEachSlot = [&](const Row& row, const auto& each) {
         for (int slot : row.slots) each(static_cast<std::size_t>(slot));
         for (const Share& share : row.shares.of(levers().shares)) each(static_cast<std::size_t>(share.slot));
     };
     const auto closes = [&](const Bouncing& own) {
-        return own.closing > problem.options.restSpeed && own.gap <= own.closing * problem.h;
+        return own.closing > problem.options.restSpeed && own.gap < own.closing * problem.h;
     };
     std::vector<Row> impact;
     std::vector<const Row*> own;
@@ -509,7 +533,7 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
             if (!closes(one) || !areOfOneImpact(*one.row, *fastest->row)) continue;
             own.push_back(one.row);
             Row& row = impact.emplace_back(*one.row);
-            row.closing = -one.restitution * one.closing;
+            row.closing = target(one);
             row.impulse = {};
             row.friction = 0;
         }
@@ -563,10 +587,7 @@ void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cl
 // sweeps for u.
 int ContactSolver::solveCluster(const Cluster& cluster, const Problem& problem) {
     const std::span<Row> rows(rows_.data() + cluster.first, cluster.last - cluster.first);
-    if (!bounces_.empty()) {
-        bounce(rows, problem, u_, std::span(bounces_).subspan(cluster.first, rows.size()));
-        bounce(rows, problem, v_, {});
-    }
+    if (!bounces_.empty()) bounce(rows, problem, std::span(bounces_).subspan(cluster.first, rows.size()));
     const int sweeps = solveRows(rows, cluster, cluster.tolerance, u_);
     if (rows.size() < parallelRows) {
         correctPositions(rows, cluster, problem);

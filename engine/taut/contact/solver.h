@@ -44,6 +44,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <utility>
@@ -158,8 +159,16 @@ class ContactSolver {
     int addSlot(const dvec3& u, const dvec3& v);
     int solveCluster(const Cluster& cluster, const Problem& problem);
     bool areOfOneImpact(const Row& a, const Row& b) const;
-    void bounce(std::span<const Row> rows, const Problem& problem, std::span<Four> velocities,
-                std::span<double> sizes) const;
+    struct Bouncing {
+        const Row* row;
+        double restitution, gap;  // [-], [m]
+        double drift;             // [m/s] by which v closes faster than u
+        double closing;           // [m/s] now
+    };
+    void bounce(std::span<const Row> rows, const Problem& problem, std::span<double> sizes);
+    void bounceIn(std::span<Four> velocities, std::vector<Bouncing>& all, std::span<const Row> rows,
+                  const Problem& problem, std::span<double> sizes,
+                  const std::function<double(const Bouncing&)>& target) const;
     int solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance, std::span<Four> velocities) const;
     void solveStored(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
     void correctPositions(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);

@@ -76,6 +76,13 @@ Edges edgesOf(std::span<const Triangle> triangles, std::span<const int> one) {
     return edges;
 }
 
+// Of an edge that several parts of a surface share, whether as many sides run along it as against it. Then it is open
+// nowhere: their shares of the volume, and of the force of a pressure, cancel.
+bool isShared(const std::vector<EdgeSide>& sides) {
+    const auto forward = std::count_if(sides.begin(), sides.end(), [](const EdgeSide& s) { return s.isForward; });
+    return sides.size() > 2 && 2 * static_cast<std::size_t>(forward) == sides.size();
+}
+
 // ½ (b - a) × (c - a): of a triangle its area, along its normal.
 inline dvec3 areaOf(const dvec3& a, const dvec3& b, const dvec3& c) {
     return 0.5 * glm::cross(b - a, c - a);
@@ -89,10 +96,10 @@ std::vector<Chamber> chambersOf(std::span<const Triangle> all, std::span<const d
     const Edges edges = edgesOf(triangles, one);
     std::vector<std::vector<std::pair<std::size_t, bool>>> beside(triangles.size());  // and whether turned alike
     for (const auto& [edge, sides] : edges)
-        if (sides.size() == 2) {
-            const bool isAlike = sides[0].isForward != sides[1].isForward;
-            beside[sides[0].triangle].emplace_back(sides[1].triangle, isAlike);
-            beside[sides[1].triangle].emplace_back(sides[0].triangle, isAlike);
+        for (std::size_t k = 1; k < sides.size() && (sides.size() == 2 || isShared(sides)); ++k) {
+            const bool isAlike = sides[0].isForward != sides[k].isForward || sides.size() > 2;
+            beside[sides[0].triangle].emplace_back(sides[k].triangle, isAlike);
+            beside[sides[k].triangle].emplace_back(sides[0].triangle, isAlike);
         }
     std::vector<Chamber> chambers;
     std::vector<std::size_t> chamberOf(triangles.size(), triangles.size());
@@ -131,7 +138,7 @@ std::vector<Chamber> chambersOf(std::span<const Triangle> all, std::span<const d
         chamber.firstVolume = isFlat ? 0.0 : std::abs(volume);
     }
     for (const auto& [edge, sides] : edges)
-        if (sides.size() != 2) ++chambers[chamberOf[sides[0].triangle]].openEdges;
+        if (sides.size() != 2 && !isShared(sides)) ++chambers[chamberOf[sides[0].triangle]].openEdges;
     return chambers;
 }
 

@@ -57,9 +57,9 @@ void checkCollider(const NameReference& reference, const std::vector<std::string
         return say(fmt::format("\"{}\" names no collider", reference.text), "write collider.NAME");
     if (const std::string_view title = world::withoutSelector(reference.text); title != reference.text)
         return say("a collider has no points to choose from", fmt::format("write {}", title));
-    std::string remedy = suggestion(reference.text, colliders);
-    if (remedy.empty()) remedy = fmt::format("add a table [{}]", reference.text);
-    say(fmt::format("there is no {}", reference.text), remedy);
+    std::string remedy = suggestion(target.collider, colliders);
+    if (remedy.empty()) remedy = fmt::format("add a table [{}]", target.collider);
+    say(fmt::format("there is no {}", target.collider), remedy);
 }
 
 void checkHoldOn(const NameReference& reference, const world::SceneSpec& scene, Problems& problems) {

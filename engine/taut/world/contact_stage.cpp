@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "taut/bodies/private/bare_faces.h"
@@ -35,6 +36,23 @@ int solidOf(const IslandPlan& plan, const Body& body, int first) {
     for (std::size_t k = 0; k < plan.solids.size(); ++k)
         if (std::count(plan.solids[k].begin(), plan.solids[k].end(), &body) > 0) return first + static_cast<int>(k);
     return -1;
+}
+
+// Calls each(a, b) for rigid bodies of which joints hold points together: their faces would keep apart what these join.
+template <class Each>
+void forEachJoinedPair(const IslandPlan& plan, const Each& each) {
+    std::vector<std::vector<const Body*>> at(plan.points.size());  // rigid bodies
+    for (const Body* body : plan.bodies)
+        if (body->spec->isRigid())
+            for (const int i : body->pointOf) at[static_cast<std::size_t>(i)].push_back(body);
+    for (const std::vector<const Body*>& own : at)  // of a merged point
+        for (std::size_t k = 1; k < own.size(); ++k) each(own[0], own[k]);
+    for (const JointTie& tie : plan.ties) {
+        if (tie.b < 0 || !holds(plan, tie)) continue;
+        for (const Body* a : at[static_cast<std::size_t>(tie.a)])
+            for (const Body* b : at[static_cast<std::size_t>(tie.b)])
+                if (a != b) each(a, b);
+    }
 }
 
 }  // namespace
@@ -149,6 +167,14 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     for (const Part& part : parts_)
         for (const JointTie& tie : part.island->plan().ties)
             if (tie.isSeam) group_->elements().sew(part.first + tie.a, part.first + tie.b);
+    std::map<const Body*, int> surfaceOf;
+    for (std::size_t k = 0; k < bodies_.size(); ++k) surfaceOf[bodies_[k]] = static_cast<int>(k);
+    for (const Part& part : parts_)
+        forEachJoinedPair(part.island->plan(), [&](const Body* a, const Body* b) {
+            const auto own = surfaceOf.find(a), other = surfaceOf.find(b);
+            if (own != surfaceOf.end() && other != surfaceOf.end())
+                group_->elements().keepApart(own->second, other->second);
+        });
     colliders_.placeAll(x1_);
     x0_ = x1_;
 }
@@ -740,6 +766,9 @@ void ContactStage::resolveInstant(double h) {
     vBefore_ = v_;
     const auto start = Clock::now();
     result_ = group_->resolve(instant);
+    accelerations_.clear();
+    for (const int i : result_.moved)
+        accelerations_.push_back((v_[static_cast<std::size_t>(i)] - vBefore_[static_cast<std::size_t>(i)]) / h);
     total_.seconds += secondsSince(start);
     total_.testedPairs += static_cast<std::int64_t>(group_->testedCount());
     hadImpulse_ = hadImpulse_ || result_.impulses > 0;
@@ -782,15 +811,12 @@ bool ContactStage::findFaults(double t, std::vector<std::optional<Fault>>& fault
 
 // Gives the islands the accelerations by contact in the last instant.
 void ContactStage::reportAccelerations() {
-    const double h = tickSeconds_ / instants_;
     std::vector<ContactAcceleration> accelerations;
-    auto moved = result_.moved.begin();
+    std::size_t next = 0;
     for (const Part& part : parts_) {
         accelerations.clear();
-        for (; moved != result_.moved.end() && *moved < part.last; ++moved) {
-            const auto i = static_cast<std::size_t>(*moved);
-            accelerations.push_back({*moved - part.first, (v_[i] - vBefore_[i]) / h});
-        }
+        for (; next < result_.moved.size() && result_.moved[next] < part.last; ++next)
+            accelerations.push_back({result_.moved[next] - part.first, accelerations_[next]});
         part.island->bear(accelerations);
     }
 }

@@ -1,6 +1,7 @@
 #include "taut/world/private/joints.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "taut/bodies/private/ties.h"
@@ -63,6 +64,17 @@ std::string jumpWarning(const JointReport& report) {
            "): move the bodies together, lower reach_m, or use kind = \"spring\"";
 }
 
+// Warns of a seam on which several points of an edge go with one of the other; else empty.
+std::string unevenWarning(const JointReport& report) {
+    const auto [a, b] = report.sewn;
+    if (a == b) return "";
+    const JointSpec& seam = *report.spec;
+    return asWarning(at(seam.source)) + "the seam \"" + seam.a.text() + "\" – \"" + seam.b.text() + "\" sews " +
+           std::to_string(a) + " points to " + std::to_string(b) +
+           ": cells between points that go with the same one are crushed to nothing, which a stiff edge does not bear; "
+           "give both edges as many cells";
+}
+
 }  // namespace
 
 void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
@@ -74,7 +86,8 @@ void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
             const JointReport& report = reports[next++];
             w.joints.push_back(infoOf(report, number));
             if (!report.loose.empty()) w.jointWarnings.push_back(warningOf(report));
-            if (std::string jerk = jumpWarning(report); !jerk.empty()) w.jointWarnings.push_back(std::move(jerk));
+            for (std::string& warning : std::array{jumpWarning(report), unevenWarning(report)})
+                if (!warning.empty()) w.jointWarnings.push_back(std::move(warning));
         } else {
             JointInfo& info = tied.emplace_back(infoOf(joint, number));
             for (const Body* body : bodiesOf(w))

@@ -84,13 +84,15 @@ bool touchesAny(const WorldImpl& w) {
 }
 
 void makeContactStage(WorldImpl& w) {
-    // The faces that a cut bares are surface from now on.
+    // The faces that a cut bares are surface from now on, and what no joint holds together any more touches.
     std::size_t gone = 0;
-    for (const auto& island : w.islands)
-        if (touches(island->plan()))
-            for (const Body* body : island->plan().bodies) gone += body->damage.goneAround();
-    if (w.contactStage && gone == w.goneAround) return;
-    w.goneAround = gone;
+    for (const auto& island : w.islands) {
+        if (!touches(island->plan())) continue;
+        for (const Body* body : island->plan().bodies) gone += body->damage.goneAround();
+        for (const JointTie& tie : island->plan().ties) gone += holds(island->plan(), tie) ? 0 : 1;
+    }
+    if (w.contactStage && gone == w.gone) return;
+    w.gone = gone;
     w.contactStage = std::make_unique<ContactStage>(w.islands, w.spec.contact, w.now(), w.contactPace,
                                                     [&w] { return touchedColliders(w); });
 }

@@ -53,10 +53,9 @@ class Constraint {
     virtual int size() const { return 1; }
     // The largest |l - L|/L of ties whose ends all count. Both arrays as in Moment.
     virtual double strain(std::span<const dvec3> /*x*/, const std::vector<bool>& /*counts*/) const { return 0.0; }
-    // What forces along ties add to ω² of points that turn about them. forces: (ties) [N]; the other arrays as in
-    // Moment.
-    virtual double turning(std::span<const dvec3> /*x*/, std::span<const double> /*inverseMass*/,
-                           std::span<const dvec3> /*forces*/) const {
+    // What turning about its ties adds to ω² for the step. forces: (ties) [N] along them; the other arrays as in Moment.
+    virtual double turning(std::span<const dvec3> /*x*/, std::span<const dvec3> /*v*/,
+                           std::span<const double> /*inverseMass*/, std::span<const dvec3> /*forces*/) const {
         return 0.0;
     }
     // Whether a collider carries this point of the plan by it, so that other points do not matter.

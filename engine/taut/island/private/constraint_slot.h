@@ -80,7 +80,7 @@ class ConstraintSlot {
             forces.clear();
             for (int own = 0; own < tie.constraint->size(); ++own)
                 forces.push_back(impulse_[static_cast<std::size_t>(tie.first + own)] / seconds);
-            most = std::max(most, tie.constraint->turning(tie.x, tie.w, forces));
+            most = std::max(most, tie.constraint->turning(tie.x, tie.v, tie.w, forces));
         }
         return most;
     }

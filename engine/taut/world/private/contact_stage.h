@@ -185,6 +185,7 @@ class ContactStage {
     std::vector<contact::Crossing> crossings_;
     std::vector<dvec3> x0_, x1_, v_;        // (points)
     std::vector<dvec3> xBefore_, vBefore_;  // (points) before the last instant of contact
+    std::vector<dvec3> accelerations_;      // (result_.moved) [m/s²] by it alone, before constraints share them
     double turn_ = 0;                       // [rad] largest turnOf() in the last instant
     std::vector<double> inverseMass_;       // (points)
     std::vector<contact::KinematicContact> kinematic_;

@@ -1,6 +1,7 @@
 // Soft bodies of a mesh: what touches is the mesh, not the cells that carry it.
 #include <memory>
 
+#include "taut/spec/actions.h"
 #include "taut/world/private/body_surfaces.h"
 #include "touching_scenes.h"
 
@@ -97,6 +98,25 @@ TEST(MeshBlock, LiesOnItsMesh) {
         for (const dvec3& x : positionsOf(world, "block.cube")) below = std::min(below, x.y);
         EXPECT_LT(below, -0.01);
     }
+}
+
+// Its cells touch then. They fill the cube exactly.
+TEST(MeshBlock, LiesOnTheGroundWhereItIsCut) {
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0)};
+    BlockSpec own = block("cube", cube(0.2), 0.1);
+    own.position = {0, 0.15, 0};
+    own.touch = world::Touch::nothing;
+    spec.bodies.add(own);
+    World world(spec);
+    world::CutAction cut;
+    cut.target = "block.cube";
+    cut.planePoint = dvec3(0.0);
+    cut.planeNormal = dvec3(1.0, 0.0, 0.0);
+    cut.perform(world);
+    for (int i = 0; i < 60; ++i) ASSERT_FALSE(world.advance());
+    EXPECT_GT(world.metrics().brokenSprings, 0);
+    for (const dvec3& x : positionsOf(world, "block.cube")) EXPECT_GT(x.y, 0.9 * own.thickness);
 }
 
 // Two meet in the air: what one gives the other takes, at the same place.

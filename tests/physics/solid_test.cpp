@@ -13,6 +13,7 @@
 #include "taut/core/private/rigid_motion.h"
 #include "taut/core/trig.h"
 #include "taut/forces/wind.h"
+#include "taut/spec/actions.h"
 #include "touching_scenes.h"
 
 namespace taut::test::touching {
@@ -295,6 +296,55 @@ TEST(SolidBox, WeldedOfHalvesMovesAsTheWhole) {
     EXPECT_LT(glm::length(motionOf(one, "solid.whole").velocity), 1e-3);
     EXPECT_LT(furthest, 1e-6);
     EXPECT_NEAR(glm::distance(motionOf(two, "solid.left").centre, motionOf(two, "solid.right").centre), 0.15, 1e-12);
+}
+
+// Two boxes with a corner each in one place, where their faces are nearer than their thickness: they turn about it as
+// if they could not touch; they touch once it has let go.
+TEST(SolidBox, TouchesNoneThatAJointHoldsToIt) {
+    world::SceneSpec spec = scene();
+    spec.world.gravity = dvec3(0.0);
+    SolidSpec one = box("one", {0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}), other = box("other", {0.298, 0.0, 0.0}, one.size);
+    one.spin = {0.0, 0.0, 5.0};
+    one.drag = other.drag = 0.0;
+    spec.bodies.add(one);
+    spec.bodies.add(other);
+    world::WeldJoint pin;
+    pin.name = "pin";
+    pin.a = "solid.one@#11";
+    pin.b = "solid.other@#10";
+    spec.joints.add(pin);
+    World world(spec);
+    const double start = world.metrics().energy();
+    for (int tick = 0; tick < 30; ++tick) {
+        ASSERT_FALSE(world.advance());
+        EXPECT_EQ(world.metrics().bodyContacts, 0);
+        EXPECT_NEAR(world.metrics().energy() / start, 1.0, 0.02) << tick;
+    }
+    world::ReleaseAction release;
+    release.id = "pin";
+    World apart(spec);
+    release.perform(apart);
+    world::PushAction push;
+    push.target = "solid.other";
+    push.impulse = {-10.0, 0.0, 0.0};
+    push.perform(apart);
+    ASSERT_FALSE(apart.advance());
+    EXPECT_LT(motionOf(apart, "solid.one").velocity.x, -1.0);
+}
+
+// At the longest step that a tick may have, 600 rad/s would be two and a half radians.
+TEST(SolidCylinder, KeepsASpinThatIsFastForTheTick) {
+    world::SceneSpec spec = scene();
+    spec.world.gravity = dvec3(0.0);
+    SolidSpec wheel = round("cylinder", "wheel", dvec3(0.0), 0.1, 0.05);
+    wheel.spin = {0.0, 600.0, 0.0};
+    wheel.drag = 0.0;
+    spec.bodies.add(wheel);
+    World world(spec);
+    const world::Metrics start = world.metrics();
+    advanceBy(world, 0.5);
+    EXPECT_NEAR(world.metrics().energy() / start.energy(), 1.0, 1e-4);
+    EXPECT_NEAR(world.metrics().angularMomentum.y / start.angularMomentum.y, 1.0, 1e-4);
 }
 
 // Without gravity: a ball and a point of a net against a wall, and two balls head on. What two bodies or a body and a

@@ -349,7 +349,8 @@ class Planner {
             islands_.unite(a.body, bs[best].body);
             ++pairs[{a.body, bs[best].body}];
             ++made;
-            if (merges)
+            // Points of two rigid bodies stay two: all that is held of these is found at once.
+            if (merges && !(body(a.body).spec->isRigid() && body(bs[best].body).spec->isRigid()))
                 welds_.unite(global(a), global(bs[best]));
             else
                 joints_.push_back({a, bs[best], &joint, ofScene, bestDistance});

@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "taut/bodies/state_bytes.h"
+#include "taut/core/private/rigid_motion.h"
 
 namespace taut::world {
 
@@ -49,11 +51,24 @@ class Constraint {
     // The same for v. Afterwards v has no component along the gradients at x.
     virtual bool projectVelocities(const Moment& moment) = 0;
 
+    // What its points are, if they move as one body. Both arrays as in Moment.
+    virtual std::optional<core::RigidMotion> bodyAt(std::span<const dvec3> /*x*/,
+                                                    std::span<const double> /*inverseMass*/) const {
+        return std::nullopt;
+    }
+    // Which of its points, by their places in Moment, it holds together at t [s], and by which tie: no more than hold
+    // all of them.
+    struct Pair {
+        int a, b, tie;
+    };
+    virtual std::vector<Pair> pairs(double /*t*/) { return {}; }
+
     // Number of its ties, with those that have let go. They are numbered from 0.
     virtual int size() const { return 1; }
     // The largest |l - L|/L of ties whose ends all count. Both arrays as in Moment.
     virtual double strain(std::span<const dvec3> /*x*/, const std::vector<bool>& /*counts*/) const { return 0.0; }
-    // What turning about its ties adds to ω² for the step. forces: (ties) [N] along them; the other arrays as in Moment.
+    // What turning about its ties adds to ω² for the step. forces: (ties) [N] along them; the other arrays as in
+    // Moment.
     virtual double turning(std::span<const dvec3> /*x*/, std::span<const dvec3> /*v*/,
                            std::span<const double> /*inverseMass*/, std::span<const dvec3> /*forces*/) const {
         return 0.0;

@@ -107,6 +107,17 @@ std::vector<int> Pins::clusterOf(int point) const {
     return all;
 }
 
+std::vector<Constraint::Pair> Pins::pairs(double t) {
+    if (t < from_ || t >= until_) layOut(t);
+    std::vector<Pair> all;
+    for (const Cluster& cluster : clusters_)
+        for (int n = cluster.first + 1; n < cluster.last; ++n) {
+            const Node& node = nodes_[static_cast<std::size_t>(n)];
+            all.push_back({node.number, nodes_[static_cast<std::size_t>(node.parent)].number, node.pin});
+        }
+    return all;
+}
+
 bool Pins::carries(int point) const {
     for (const Cluster& cluster : clusters_) {
         if (!isPlace(nodes_[static_cast<std::size_t>(cluster.first)].number)) continue;

@@ -8,10 +8,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/constraint.h"
+#include "taut/island/private/joined_bodies.h"
 #include "taut/island/private/planar.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/ode/method.h"
@@ -82,7 +84,12 @@ class ConstraintSlot {
                 forces.push_back(impulse_[static_cast<std::size_t>(tie.first + own)] / seconds);
             most = std::max(most, tie.constraint->turning(tie.x, tie.v, tie.w, forces));
         }
-        return most;
+        findJoined(x_);
+        if (joined_.isEmpty()) return most;
+        std::vector<double> held;
+        for (const JoinedBodies::Pair& pair : joined_.pairs())
+            held.push_back(std::sqrt(glm::dot(impulse_[pair.pull], impulse_[pair.pull])) / seconds);
+        return std::max(most, joined_.swing(x_, held));
     }
 
     // Projects the velocities before a method starts from x and v, both at t [s].
@@ -242,9 +249,56 @@ class ConstraintSlot {
             return;
         }
     }
+    // The rigid bodies and the pairs that ties hold -> joined_, where points are at these places. Returns the bodies'
+    // ties.
+    std::vector<Tie*> findJoined(const std::vector<dvec3>& at) {
+        joined_.begin(at.size());
+        std::vector<Tie*> bodies;
+        std::vector<dvec3> own;
+        for (Tie& tie : ties_) {
+            gather(tie);
+            own.clear();
+            for (const std::size_t n : tie.numbers) own.push_back(at[n]);
+            if (const auto body = tie.constraint->bodyAt(own, tie.w)) {
+                joined_.addBody(*body, tie.numbers);
+                bodies.push_back(&tie);
+            }
+            for (const auto& [a, b, number] : tie.constraint->pairs(time_))
+                joined_.addPair({tie.numbers[static_cast<std::size_t>(a)], tie.numbers[static_cast<std::size_t>(b)],
+                                 static_cast<std::size_t>(tie.first + number)});
+        }
+        return bodies;
+    }
+    // What pairs of ties hold of rigid bodies (joined_bodies.h).
+    void joinBodies(bool (Constraint::*projection)(const Constraint::Moment&)) {
+        constexpr int mostSolves = 20;
+        constexpr double settled = 1e-12;
+        const bool isOfPlaces = projection == &Constraint::projectPositions;
+        const std::vector<Tie*> bodies = findJoined(isOfPlaces ? from_ : x_);
+        if (joined_.isEmpty()) return;
+        std::vector<dvec3>& values = isOfPlaces ? x_ : v_;
+        for (int solves = 0; solves < mostSolves; ++solves) {
+            if (!joined_.solve(isOfPlaces ? from_ : x_, inverseMass_, values, settled)) return;
+            for (std::size_t k = 0; k < joined_.pairs().size(); ++k) {
+                const auto& [a, b, pull] = joined_.pairs()[k];
+                const dvec3& impulse = joined_.impulses()[k];
+                values[a] += inverseMass_[a] * impulse;
+                values[b] -= inverseMass_[b] * impulse;
+                pull_[pull] += impulse;
+            }
+            for (Tie* tie : bodies) {
+                gather(*tie);
+                std::vector<dvec3> ignored(1);
+                ((*tie->constraint).*projection)({tie->w, tie->from, tie->x, tie->v, ignored, time_});
+                for (std::size_t k = 0; k < tie->constraint->points().size(); ++k)
+                    values[tie->numbers[k]] = isOfPlaces ? tie->x[k] : tie->v[k];
+            }
+        }
+    }
     void takeTurns(bool (Constraint::*projection)(const Constraint::Moment&)) {
         constexpr int mostRounds = 50;
         std::fill(pull_.begin(), pull_.end(), dvec3(0.0));
+        joinBodies(projection);
         std::vector<dvec3> ignored(1);
         const bool isOfPlaces = projection == &Constraint::projectPositions;
         for (int round = 0; round < mostRounds; ++round) {
@@ -281,6 +335,7 @@ class ConstraintSlot {
     std::vector<dvec3> reached_;  // x before its projection; later the velocities at the time of x, as projected
     std::vector<dvec3> placed_, stored_;
     std::vector<dvec3> pull_, impulse_;  // (ties of all constraints)
+    JoinedBodies joined_;                // of the last turns
 };
 
 }  // namespace taut::world

@@ -38,6 +38,7 @@ class Pins final : public ConstraintOf<Pins> {
     int size() const override { return static_cast<int>(pins_.size()); }
     bool projectPositions(const Moment& moment) override { return project(moment.x, moment); }
     bool projectVelocities(const Moment& moment) override { return project(moment.v, moment); }
+    std::vector<Pair> pairs(double t) override;
     bool carries(int point) const override;
     void check() const override;
     bool isDue(double t) const override;

@@ -1,0 +1,129 @@
+#include "taut/island/private/joined_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut::world {
+namespace {
+
+using glm::dvec3;
+
+double sumOf(std::span<const dvec3> a, std::span<const dvec3> b, std::span<const double> over) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += over[k] > 0 ? glm::dot(a[k], b[k]) / over[k] : 0.0;
+    return sum;
+}
+
+}  // namespace
+
+void JoinedBodies::begin(std::size_t points) {
+    bodies_.clear();
+    pairs_.clear();
+    bodyOf_.assign(points, -1);
+}
+
+void JoinedBodies::addBody(const core::RigidMotion& body, std::span<const std::size_t> points) {
+    for (const std::size_t point : points)
+        if (bodyOf_[point] < 0) bodyOf_[point] = static_cast<int>(bodies_.size());
+    bodies_.push_back(body);
+}
+
+bool JoinedBodies::isEmpty() const {
+    return std::none_of(
+        pairs_.begin(), pairs_.end(), [&](const Pair& pair) { return bodyOf_[pair.a] >= 0 || bodyOf_[pair.b] >= 0; });
+}
+
+// moved_ = A way_
+void JoinedBodies::respond(std::span<const dvec3> at, std::span<const double> inverseMass) {
+    sum_.assign(bodies_.size(), dvec3(0.0));
+    turn_.assign(bodies_.size(), dvec3(0.0));
+    for (const Pair& pair : pairs_) force_[pair.a] = force_[pair.b] = dvec3(0.0);
+    const auto push = [&](std::size_t point, const dvec3& impulse) {
+        if (!(inverseMass[point] > 0)) return;
+        force_[point] += impulse;
+        if (bodyOf_[point] < 0) return;
+        const auto k = static_cast<std::size_t>(bodyOf_[point]);
+        sum_[k] += impulse;
+        turn_[k] += glm::cross(at[point] - bodies_[k].centre, impulse);
+    };
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+        push(pairs_[k].a, way_[k]);
+        push(pairs_[k].b, -way_[k]);
+    }
+    for (std::size_t k = 0; k < bodies_.size(); ++k) turn_[k] = bodies_[k].inverseInertia * turn_[k];
+    const auto moved = [&](std::size_t point) {
+        if (!(inverseMass[point] > 0)) return dvec3(0.0);
+        if (bodyOf_[point] < 0) return inverseMass[point] * force_[point];
+        const auto k = static_cast<std::size_t>(bodyOf_[point]);
+        return sum_[k] / bodies_[k].mass + glm::cross(turn_[k], at[point] - bodies_[k].centre);
+    };
+    for (std::size_t k = 0; k < pairs_.size(); ++k) moved_[k] = moved(pairs_[k].a) - moved(pairs_[k].b);
+}
+
+bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inverseMass, std::span<const dvec3> values,
+                         double settled) {
+    // What is redundant, as the third pin of a hinge, agrees only to the second order: a solve goes no further.
+    constexpr double exactly = 1e-4;
+    const std::size_t count = pairs_.size();
+    p_.assign(count, dvec3(0.0));
+    left_.resize(count);
+    moved_.resize(count);
+    ease_.resize(count);
+    force_.assign(bodyOf_.size(), dvec3(0.0));
+    const auto easeOf = [&](std::size_t point) {
+        if (!(inverseMass[point] > 0)) return 0.0;
+        if (bodyOf_[point] < 0) return inverseMass[point];
+        const core::RigidMotion& body = bodies_[static_cast<std::size_t>(bodyOf_[point])];
+        const dvec3 arm = at[point] - body.centre;
+        const glm::dmat3& i = body.inverseInertia;
+        return 1.0 / body.mass + glm::dot(arm, arm) * (i[0][0] + i[1][1] + i[2][2]) / 3.0;
+    };
+    double furthest = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Pair& pair = pairs_[k];
+        left_[k] = values[pair.b] - values[pair.a];
+        ease_[k] = easeOf(pair.a) + easeOf(pair.b);
+        const double size = 1.0 + std::sqrt(glm::dot(values[pair.a], values[pair.a]));
+        furthest = std::max(furthest, std::sqrt(glm::dot(left_[k], left_[k])) / size);
+    }
+    if (!(furthest > settled)) return false;
+
+    way_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) way_[k] = ease_[k] > 0 ? left_[k] / ease_[k] : dvec3(0.0);
+    double size = sumOf(left_, left_, ease_);
+    const double wanted = exactly * exactly * size;
+    for (std::size_t round = 0; round < 3 * count + 10 && size > wanted; ++round) {
+        respond(at, inverseMass);
+        double along = 0;
+        for (std::size_t k = 0; k < count; ++k) along += glm::dot(way_[k], moved_[k]);
+        if (!(along > 0)) break;
+        const double share = size / along;
+        for (std::size_t k = 0; k < count; ++k) {
+            p_[k] += share * way_[k];
+            left_[k] -= share * moved_[k];
+        }
+        const double next = sumOf(left_, left_, ease_);
+        for (std::size_t k = 0; k < count; ++k)
+            way_[k] = (ease_[k] > 0 ? left_[k] / ease_[k] : dvec3(0.0)) + next / size * way_[k];
+        size = next;
+    }
+    return true;
+}
+
+double JoinedBodies::swing(std::span<const dvec3> at, std::span<const double> forces) const {
+    std::vector<double> sum(bodies_.size(), 0.0);
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+        for (const std::size_t point : {pairs_[k].a, pairs_[k].b}) {
+            if (bodyOf_[point] < 0) continue;
+            const auto own = static_cast<std::size_t>(bodyOf_[point]);
+            const dvec3 arm = at[point] - bodies_[own].centre;
+            const double length = std::sqrt(glm::dot(arm, arm));
+            if (!(length > 0)) continue;
+            const glm::dmat3& i = bodies_[own].inverseInertia;
+            const dvec3 along = arm / length;
+            sum[own] += forces[k] * length * (i[0][0] + i[1][1] + i[2][2] - glm::dot(along, i * along));
+        }
+    return sum.empty() ? 0.0 : *std::max_element(sum.begin(), sum.end());
+}
+
+}  // namespace taut::world

@@ -1,0 +1,55 @@
+// What holds points of rigid bodies together, in pairs, solved for all bodies at once.
+//
+//     a body k moves by      δ(r) = F/m + (I⁻¹ Σ r × f) × r        f  impulses at its points, F their sum
+//     a pair (a, b) holds    δ(a) - δ(b) = x_b - x_a               f  +p at a, -p at b
+//
+// In turns a pin would move one point of little mass, and its body by that share alone: chains and heavy loads do not
+// settle so. Here the impulses p of all pairs solve one symmetric system, A p = x_b - x_a, by conjugate gradients. It
+// is the linear part of the motion, so a few solves follow each other. Points get p over their own mass, from which
+// their bodies find theirs. No body gains momentum by it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "taut/core/private/rigid_motion.h"
+
+namespace taut::world {
+
+class JoinedBodies {
+  public:
+    struct Pair {
+        std::size_t a, b;  // numbers of points
+        std::size_t pull;  // for the owner
+    };
+
+    // points: how many there are.
+    void begin(std::size_t points);
+    // Points that are of several bodies count for the first.
+    void addBody(const core::RigidMotion& body, std::span<const std::size_t> points);
+    void addPair(const Pair& pair) { pairs_.push_back(pair); }
+    bool isEmpty() const;  // no pair holds a body
+
+    // at (points) [m] where impulses act; inverseMass (points) [1/kg]. Returns false if all pairs hold to `settled` of
+    // values (points); else finds impulses.
+    bool solve(std::span<const glm::dvec3> at, std::span<const double> inverseMass, std::span<const glm::dvec3> values,
+               double settled);
+    // ω² [1/s²] of the bodies that swing about their pairs under these forces [N], at most: a force F on an arm r draws
+    // it back like a spring of F r against the inertia across r.
+    double swing(std::span<const glm::dvec3> at, std::span<const double> forces) const;
+    std::span<const Pair> pairs() const { return pairs_; }
+    std::span<const glm::dvec3> impulses() const { return p_; }  // (pairs) on a; the other way on b
+
+  private:
+    void respond(std::span<const glm::dvec3> at, std::span<const double> inverseMass);
+
+    std::vector<core::RigidMotion> bodies_;
+    std::vector<int> bodyOf_;  // (points) -1: none
+    std::vector<Pair> pairs_;
+    std::vector<glm::dvec3> p_, left_, way_, moved_;  // (pairs) impulse, what is left, direction, A times it
+    std::vector<double> ease_;                        // (pairs) [1/kg] about what an impulse of 1 does
+    std::vector<glm::dvec3> sum_, turn_;              // (bodies) of impulses, and of their moments
+    std::vector<glm::dvec3> force_;                   // (points) of impulses
+};
+
+}  // namespace taut::world

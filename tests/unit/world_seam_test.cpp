@@ -218,6 +218,16 @@ TEST(Seams, AreClosedAtOnceWhereTheyMeet) {
     EXPECT_EQ(named.joints().front().pairs.at(0).points, 7);
 }
 
+TEST(Seams, WarnWhereEdgesHaveUnlikePoints) {
+    const auto warnings = [](const std::string& text) { return World(sceneOf(text)).warnings(); };
+    const std::string uneven = panels("0.2", "over_s = 1\n");
+    std::string even = uneven;
+    even.replace(even.find("[3, 6]"), 6, "[3, 4]");
+    EXPECT_TRUE(warnings(even).empty());
+    ASSERT_EQ(warnings(uneven).size(), 1U);
+    EXPECT_NE(warnings(uneven)[0].find("sews 5 points to 7"), std::string::npos) << warnings(uneven)[0];
+}
+
 TEST(Seams, ComeApartWhenReleasedTornOrCut) {
     const std::string leaves = "velocity = [1, 0, 0]\n";
     const auto at = [](const std::string& action) { return "[[at]]\nt = 0.4\n" + action; };

@@ -36,22 +36,11 @@ bool RigidConstraint::projectVelocities(const Moment& moment) {
     return take(v, moment.inverseMass, moment.v);
 }
 
-std::optional<core::RigidMotion> RigidConstraint::bodyAt(std::span<const dvec3> x,
+std::optional<core::RigidMotion> RigidConstraint::bodyAt(std::span<const dvec3> x, std::span<const dvec3> v,
                                                          std::span<const double> inverseMass) const {
     std::vector<double> masses;
     if (!(core::massesOf(inverseMass, masses) > 0)) return std::nullopt;
-    return core::rigidMotionOf(masses, x, std::vector<dvec3>(x.size(), dvec3(0.0)));
-}
-
-// A step that turns it by θ has the momentum of sin θ (mechanics/rigid.h), so none has more than that of a quarter turn,
-// and θ is off by θ²/6. To the step this is a spring that may swing by mostSwing.
-double RigidConstraint::turning(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
-                                std::span<const dvec3> /*forces*/) const {
-    constexpr double mostTurn = 0.25, mostSwing = 1.5;  // [rad] in a step
-    std::vector<double> masses;
-    if (!(core::massesOf(inverseMass, masses) > 0)) return 0;
-    const dvec3 rate = (mostSwing / mostTurn) * core::rigidMotionOf(masses, x, v).spin;
-    return glm::dot(rate, rate);
+    return core::rigidMotionOf(masses, x, v);
 }
 
 }  // namespace taut::world

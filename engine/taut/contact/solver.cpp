@@ -446,16 +446,13 @@ void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster
 
 // Whether two rows are between the same bodies that turn, so that they bounce as one impact.
 bool ContactSolver::areOfOneImpact(const Row& a, const Row& b) const {
-    if (&a == &b) return true;
-    const auto isIn = [&](const Row& row) {
-        return [this, &row](const Turn& turn) {
-            const auto all = row.turns.of(levers().turns);
-            return std::any_of(all.begin(), all.end(), [&](const Turn& own) { return own.slot == turn.slot; });
-        };
+    const auto turnsAll = [&](const Row& row, const Row& other) {
+        const auto own = row.turns.of(levers().turns), wanted = other.turns.of(levers().turns);
+        return std::all_of(wanted.begin(), wanted.end(), [&](const Turn& turn) {
+            return std::any_of(own.begin(), own.end(), [&](const Turn& one) { return one.slot == turn.slot; });
+        });
     };
-    const auto ofA = a.turns.of(levers().turns), ofB = b.turns.of(levers().turns);
-    return !ofA.empty() && !ofB.empty() && std::all_of(ofA.begin(), ofA.end(), isIn(b)) &&
-           std::all_of(ofB.begin(), ofB.end(), isIn(a));
+    return &a == &b || (!a.turns.of(levers().turns).empty() && turnsAll(a, b) && turnsAll(b, a));
 }
 
 // Bounces: one impact after the other, the fastest first, gives back its share of the speeds with which its rows close,
@@ -468,7 +465,6 @@ bool ContactSolver::areOfOneImpact(const Row& a, const Row& b) const {
 //       the gap closes      now         Sides that close by c meet s before the end of the instant. Until then they use
 //     |-------- h - s ------|--- s ---| up the gap, then they part by e c. Forces, which change u to v by d along the
 //     instant before                    normal, act on until v: for h/2 + s under leap-frog, and before that on c.
-//
 void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, std::span<double> sizes) {
     thread_local std::vector<Bouncing> all;
     all.clear();
@@ -526,7 +522,6 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
         for (const Bouncing& one : all)
             if (closes(one) && (fastest == nullptr || one.closing > fastest->closing)) fastest = &one;
         if (fastest == nullptr) return;
-        const double speed = fastest->closing;
         impact.clear();
         own.clear();
         for (const Bouncing& one : all) {
@@ -537,7 +532,7 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
             row.impulse = {};
             row.friction = 0;
         }
-        projectedGaussSeidel(impact, mostSweeps, exactly * speed, velocities, levers());
+        projectedGaussSeidel(impact, mostSweeps, exactly * fastest->closing, velocities, levers());
         for (std::size_t k = 0; k < impact.size(); ++k) {
             const Row& row = *own[k];
             const double size = impact[k].impulse.of[3];

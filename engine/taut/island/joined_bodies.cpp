@@ -110,7 +110,8 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
     return true;
 }
 
-double JoinedBodies::swing(std::span<const dvec3> at, std::span<const double> forces) const {
+double JoinedBodies::turning(std::span<const dvec3> at, std::span<const double> forces) const {
+    constexpr double mostTurn = 0.25, mostSwing = 1.5;  // [rad] in a step, of a body and of a spring
     std::vector<double> sum(bodies_.size(), 0.0);
     for (std::size_t k = 0; k < pairs_.size(); ++k)
         for (const std::size_t point : {pairs_[k].a, pairs_[k].b}) {
@@ -123,7 +124,12 @@ double JoinedBodies::swing(std::span<const dvec3> at, std::span<const double> fo
             const dvec3 along = arm / length;
             sum[own] += forces[k] * length * (i[0][0] + i[1][1] + i[2][2] - glm::dot(along, i * along));
         }
-    return sum.empty() ? 0.0 : *std::max_element(sum.begin(), sum.end());
+    double most = 0;
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        const dvec3 rate = (mostSwing / mostTurn) * bodies_[k].spin;
+        most = std::max({most, sum[k], glm::dot(rate, rate)});
+    }
+    return most;
 }
 
 }  // namespace taut::world

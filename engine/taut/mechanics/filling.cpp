@@ -96,8 +96,10 @@ std::vector<Chamber> chambersOf(std::span<const Triangle> all, std::span<const d
     const Edges edges = edgesOf(triangles, one);
     std::vector<std::vector<std::pair<std::size_t, bool>>> beside(triangles.size());  // and whether turned alike
     for (const auto& [edge, sides] : edges)
-        for (std::size_t k = 1; k < sides.size() && (sides.size() == 2 || isShared(sides)); ++k) {
-            const bool isAlike = sides[0].isForward != sides[k].isForward || sides.size() > 2;
+        for (std::size_t k = 1; k < sides.size(); ++k) {
+            const bool isTwo = sides.size() == 2;
+            if (!isTwo && !isShared(sides)) break;
+            const bool isAlike = !isTwo || sides[0].isForward != sides[1].isForward;
             beside[sides[0].triangle].emplace_back(sides[k].triangle, isAlike);
             beside[sides[k].triangle].emplace_back(sides[0].triangle, isAlike);
         }

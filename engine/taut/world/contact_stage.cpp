@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "taut/bodies/private/bare_faces.h"
@@ -36,23 +35,6 @@ int solidOf(const IslandPlan& plan, const Body& body, int first) {
     for (std::size_t k = 0; k < plan.solids.size(); ++k)
         if (std::count(plan.solids[k].begin(), plan.solids[k].end(), &body) > 0) return first + static_cast<int>(k);
     return -1;
-}
-
-// Calls each(a, b) for rigid bodies of which joints hold points together: their faces would keep apart what these join.
-template <class Each>
-void forEachJoinedPair(const IslandPlan& plan, const Each& each) {
-    std::vector<std::vector<const Body*>> at(plan.points.size());  // rigid bodies
-    for (const Body* body : plan.bodies)
-        if (body->spec->isRigid())
-            for (const int i : body->pointOf) at[static_cast<std::size_t>(i)].push_back(body);
-    for (const std::vector<const Body*>& own : at)  // of a merged point
-        for (std::size_t k = 1; k < own.size(); ++k) each(own[0], own[k]);
-    for (const JointTie& tie : plan.ties) {
-        if (tie.b < 0 || !holds(plan, tie)) continue;
-        for (const Body* a : at[static_cast<std::size_t>(tie.a)])
-            for (const Body* b : at[static_cast<std::size_t>(tie.b)])
-                if (a != b) each(a, b);
-    }
 }
 
 }  // namespace
@@ -167,16 +149,28 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     for (const Part& part : parts_)
         for (const JointTie& tie : part.island->plan().ties)
             if (tie.isSeam) group_->elements().sew(part.first + tie.a, part.first + tie.b);
-    std::map<const Body*, int> surfaceOf;
-    for (std::size_t k = 0; k < bodies_.size(); ++k) surfaceOf[bodies_[k]] = static_cast<int>(k);
-    for (const Part& part : parts_)
-        forEachJoinedPair(part.island->plan(), [&](const Body* a, const Body* b) {
-            const auto own = surfaceOf.find(a), other = surfaceOf.find(b);
-            if (own != surfaceOf.end() && other != surfaceOf.end())
-                group_->elements().keepApart(own->second, other->second);
-        });
+    keepJoinedApart(offsets);
     colliders_.placeAll(x1_);
     x0_ = x1_;
+}
+
+// Faces of rigid bodies would keep apart the points that joints hold together. offsets: (bodies) of their island's
+// points.
+void ContactStage::keepJoinedApart(std::span<const int> offsets) {
+    std::vector<std::vector<int>> rigidAt(x1_.size());  // (points) surfaces
+    for (std::size_t k = 0; k < bodies_.size(); ++k)
+        if (bodies_[k]->spec->isRigid())
+            for (const int i : bodies_[k]->pointOf)
+                rigidAt[static_cast<std::size_t>(offsets[k] + i)].push_back(static_cast<int>(k));
+    const auto keepApart = [&](int a, int b) {
+        for (const int own : rigidAt[static_cast<std::size_t>(a)])
+            for (const int other : rigidAt[static_cast<std::size_t>(b)]) group_->elements().keepApart(own, other);
+    };
+    for (const Part& part : parts_) {
+        for (int i = part.first; i < part.last; ++i) keepApart(i, i);  // a merged point
+        for (const JointTie& tie : part.island->plan().ties)
+            if (tie.b >= 0 && holds(part.island->plan(), tie)) keepApart(part.first + tie.a, part.first + tie.b);
+    }
 }
 
 std::optional<std::pair<int, int>> ContactStage::sidesOf(const contact::Crossing& crossing) const {

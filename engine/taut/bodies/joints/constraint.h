@@ -51,13 +51,13 @@ class Constraint {
     // The same for v. Afterwards v has no component along the gradients at x.
     virtual bool projectVelocities(const Moment& moment) = 0;
 
-    // What its points are, if they move as one body. Both arrays as in Moment.
-    virtual std::optional<core::RigidMotion> bodyAt(std::span<const dvec3> /*x*/,
+    // The motion of its points, if they are one body that moves. The arrays as in Moment.
+    virtual std::optional<core::RigidMotion> bodyAt(std::span<const dvec3> /*x*/, std::span<const dvec3> /*v*/,
                                                     std::span<const double> /*inverseMass*/) const {
         return std::nullopt;
     }
-    // Which of its points, by their places in Moment, it holds together at t [s], and by which tie: no more than hold
-    // all of them.
+    // Pairs that it holds in one place at t [s]: their numbers in Moment, and the tie that bears them. None follows
+    // from the others.
     struct Pair {
         int a, b, tie;
     };
@@ -67,10 +67,10 @@ class Constraint {
     virtual int size() const { return 1; }
     // The largest |l - L|/L of ties whose ends all count. Both arrays as in Moment.
     virtual double strain(std::span<const dvec3> /*x*/, const std::vector<bool>& /*counts*/) const { return 0.0; }
-    // What turning about its ties adds to ω² for the step. forces: (ties) [N] along them; the other arrays as in
+    // What forces along ties add to ω² of points that turn about them. forces: (ties) [N]; the other arrays as in
     // Moment.
-    virtual double turning(std::span<const dvec3> /*x*/, std::span<const dvec3> /*v*/,
-                           std::span<const double> /*inverseMass*/, std::span<const dvec3> /*forces*/) const {
+    virtual double turning(std::span<const dvec3> /*x*/, std::span<const double> /*inverseMass*/,
+                           std::span<const dvec3> /*forces*/) const {
         return 0.0;
     }
     // Whether a collider carries this point of the plan by it, so that other points do not matter.

@@ -52,7 +52,7 @@ double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) c
 }
 
 // A rod under a tension T draws its ends back across, like a spring of T/L. Bounded by Gershgorin's theorem.
-double Rods::turning(std::span<const dvec3> x, std::span<const dvec3> /*v*/, std::span<const double> inverseMass,
+double Rods::turning(std::span<const dvec3> x, std::span<const double> inverseMass,
                      std::span<const dvec3> forces) const {
     std::vector<double> sum(inverseMass.size(), 0.0);
     for (int r = 0; r < size(); ++r) {

@@ -15,10 +15,8 @@ class RigidConstraint final : public ConstraintOf<RigidConstraint> {
     std::span<const int> points() const override { return points_; }
     bool projectPositions(const Moment& moment) override;
     bool projectVelocities(const Moment& moment) override;
-    std::optional<core::RigidMotion> bodyAt(std::span<const dvec3> x,
+    std::optional<core::RigidMotion> bodyAt(std::span<const dvec3> x, std::span<const dvec3> v,
                                             std::span<const double> inverseMass) const override;
-    double turning(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
-                   std::span<const dvec3> forces) const override;
 
   private:
     std::vector<int> points_;

@@ -82,14 +82,13 @@ class ConstraintSlot {
             forces.clear();
             for (int own = 0; own < tie.constraint->size(); ++own)
                 forces.push_back(impulse_[static_cast<std::size_t>(tie.first + own)] / seconds);
-            most = std::max(most, tie.constraint->turning(tie.x, tie.v, tie.w, forces));
+            most = std::max(most, tie.constraint->turning(tie.x, tie.w, forces));
         }
         findJoined(x_);
-        if (joined_.isEmpty()) return most;
         std::vector<double> held;
         for (const JoinedBodies::Pair& pair : joined_.pairs())
             held.push_back(std::sqrt(glm::dot(impulse_[pair.pull], impulse_[pair.pull])) / seconds);
-        return std::max(most, joined_.swing(x_, held));
+        return std::max(most, joined_.turning(x_, held));
     }
 
     // Projects the velocities before a method starts from x and v, both at t [s].
@@ -259,7 +258,7 @@ class ConstraintSlot {
             gather(tie);
             own.clear();
             for (const std::size_t n : tie.numbers) own.push_back(at[n]);
-            if (const auto body = tie.constraint->bodyAt(own, tie.w)) {
+            if (const auto body = tie.constraint->bodyAt(own, tie.v, tie.w)) {
                 joined_.addBody(*body, tie.numbers);
                 bodies.push_back(&tie);
             }
@@ -298,7 +297,7 @@ class ConstraintSlot {
     void takeTurns(bool (Constraint::*projection)(const Constraint::Moment&)) {
         constexpr int mostRounds = 50;
         std::fill(pull_.begin(), pull_.end(), dvec3(0.0));
-        joinBodies(projection);
+        if (ties_.size() > 1) joinBodies(projection);
         std::vector<dvec3> ignored(1);
         const bool isOfPlaces = projection == &Constraint::projectPositions;
         for (int round = 0; round < mostRounds; ++round) {

@@ -34,9 +34,11 @@ class JoinedBodies {
     // values (points); else finds impulses.
     bool solve(std::span<const glm::dvec3> at, std::span<const double> inverseMass, std::span<const glm::dvec3> values,
                double settled);
-    // ω² [1/s²] of the bodies that swing about their pairs under these forces [N], at most: a force F on an arm r draws
-    // it back like a spring of F r against the inertia across r.
-    double swing(std::span<const glm::dvec3> at, std::span<const double> forces) const;
+    // ω² [1/s²] for the step, at most, under these forces of the pairs [N]. A force F on an arm r draws its body back
+    // like a spring of F r against the inertia across r. A step that turns a body by θ has the momentum of sin θ
+    // (mechanics/rigid.h), so none has more than that of a quarter turn, and θ is off by θ²/6: to the step a spin is a
+    // spring that it has to follow closely.
+    double turning(std::span<const glm::dvec3> at, std::span<const double> forces) const;
     std::span<const Pair> pairs() const { return pairs_; }
     std::span<const glm::dvec3> impulses() const { return p_; }  // (pairs) on a; the other way on b
 

@@ -112,6 +112,7 @@ class ContactStage {
     std::string nameOf(int surface) const {
         return isOfBody(surface) ? bodyOf(surface).fullName() : colliders_.nameOf(surface);
     }
+    void keepJoinedApart(std::span<const int> offsets);
     // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
     // rigid collider sticks out of a face, which is no crossing.
     std::optional<std::pair<int, int>> sidesOf(const contact::Crossing& crossing) const;

@@ -28,7 +28,7 @@ class Rods final : public ConstraintOf<Rods> {
     bool projectVelocities(const Moment& moment) override;
     int size() const override { return static_cast<int>(rods_.size()); }
     double strain(std::span<const dvec3> x, const std::vector<bool>& counts) const override;
-    double turning(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
+    double turning(std::span<const dvec3> x, std::span<const double> inverseMass,
                    std::span<const dvec3> forces) const override;
     void check() const override;
 

@@ -10,7 +10,7 @@
 #include "support/piercings.h"
 #include "taut/bodies/joints/joints.h"
 #include "taut/bodies/solid.h"
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 #include "taut/core/trig.h"
 #include "taut/forces/wind.h"
 #include "taut/spec/actions.h"

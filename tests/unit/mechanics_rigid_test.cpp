@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 
 namespace taut::mechanics {
 namespace {

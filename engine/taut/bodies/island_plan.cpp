@@ -12,7 +12,7 @@
 #include "taut/bodies/private/seam_pairing.h"
 #include "taut/bodies/private/ties.h"
 #include "taut/core/error.h"
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 #include "taut/mechanics/bending.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"

@@ -1,6 +1,6 @@
 #include "taut/bodies/private/rigid_constraint.h"
 
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 #include "taut/mechanics/rigid.h"
 
 namespace taut::world {

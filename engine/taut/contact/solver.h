@@ -54,7 +54,7 @@
 #include "taut/contact/contact_constraint.h"
 #include "taut/contact/gauss_seidel.h"
 #include "taut/contact/rigid_step.h"
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 
 namespace taut::contact {
 

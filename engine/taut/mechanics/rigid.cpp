@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "taut/core/error.h"
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 
 namespace taut::mechanics {
 namespace {

@@ -10,7 +10,7 @@
 #include "taut/contact/penetration.h"
 #include "taut/contact/round_solids.h"
 #include "taut/core/private/parallel.h"
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 
 namespace taut::world {
 namespace {

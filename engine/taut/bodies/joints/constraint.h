@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "taut/bodies/state_bytes.h"
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 
 namespace taut::world {
 

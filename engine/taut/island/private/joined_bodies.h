@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "taut/core/private/rigid_motion.h"
+#include "taut/core/rigid_motion.h"
 
 namespace taut::world {
 

@@ -8,6 +8,22 @@
 #include "taut/core/error.h"
 
 namespace taut::collision {
+namespace {
+
+// Whether a path leads through a solid, or into it by another side than the nearest one of its end, `near`, which then
+// gets the plane on which the path first touched.
+bool goesThrough(const Solid& solid, const Path& path, Nearest& near) {
+    const dvec3 way = path.to - path.from;
+    const double length = std::sqrt(glm::dot(way, way));
+    if (!(near.distance < length)) return false;
+    HalfSpace touch{};
+    bool hasCrossed = false;
+    if (!solid.form->sweep(path, touch, hasCrossed) || touch.normal == near.normal) return false;
+    near = {glm::dot(touch.normal, path.to) - touch.offset, touch.normal};
+    return true;
+}
+
+}  // namespace
 
 Colliders::Colliders() : impl_(std::make_unique<Impl>()) {}
 Colliders::~Colliders() = default;
@@ -91,16 +107,24 @@ Colliders::Near Colliders::nearest(const glm::dvec3& position, double reach) con
     return near;
 }
 
-void Colliders::findNear(const glm::dvec3& position, double reach, double h, std::vector<Surface>& found) const {
+void Colliders::findNear(const Way& way, double reach, double h, std::vector<Surface>& found) const {
     for (const Solid& solid : impl_->solids) {
-        if (solid.bounded && !solid.bounds.overlaps({position, position}, reach)) continue;
-        const dvec3 local = solid.to.toLocal(position);
-        const Nearest near = solid.form->nearest(local);
-        if (!(near.distance < reach)) continue;
+        const auto velocityAt = [&](const dvec3& p) {
+            return solid.still ? dvec3(0.0) : (solid.to.toWorld(p) - solid.from.toWorld(p)) / h;
+        };
+        const dvec3 from = way.from + way.seconds * velocityAt(solid.to.toLocal(way.from));
+        if (solid.bounded) {
+            core::Aabb box{way.to, way.to};
+            box.add(from);
+            if (!solid.bounds.overlaps(box, reach)) continue;
+        }
+        const dvec3 local = solid.to.toLocal(way.to);
+        Nearest near = solid.form->nearest(local);
+        const bool isThrough = goesThrough(solid, {solid.to.toLocal(from), local, 0.0, 0.0}, near);
+        if (!isThrough && !(near.distance < reach)) continue;
         const dvec3 foot = local - near.distance * near.normal;
-        const dvec3 velocity = solid.still ? dvec3(0.0) : (solid.to.toWorld(foot) - solid.from.toWorld(foot)) / h;
         found.push_back(
-            {near.distance, solid.to.directionToWorld(near.normal), velocity, solid.collider, solid.material});
+            {near.distance, solid.to.directionToWorld(near.normal), velocityAt(foot), solid.collider, solid.material});
     }
 }
 

@@ -149,8 +149,13 @@ class Colliders {
     };
     Near nearest(const glm::dvec3& position, double reach) const;
 
-    // Appends the colliders whose surface is less than `reach` [m] from a position, at their end-of-step poses, in
-    // their order. Of a mesh the nearest place alone.
+    // Appends the colliders that a way leads through, or whose surface is less than `reach` [m] from its end, at their
+    // end-of-step poses, in their order. Of a mesh the nearest place alone. If it leads through, the surface is the
+    // plane on which it first touched.
+    struct Way {
+        glm::dvec3 from, to;  // [m]
+        double seconds;       // that it took, in which colliders move as in their step
+    };
     struct Surface {
         double distance;      // [m]
         glm::dvec3 away;      // unit, in which it grows fastest
@@ -158,7 +163,7 @@ class Colliders {
         int collider;
         Material material;
     };
-    void findNear(const glm::dvec3& position, double reach, double h, std::vector<Surface>& found) const;
+    void findNear(const Way& way, double reach, double h, std::vector<Surface>& found) const;
 
     // The collider whose end-of-step pose contains the position deepest, and how deep [m]; -1 and 0 outside all.
     struct Inside {

@@ -366,10 +366,10 @@ void ContactStage::takeSolids() {
     group_->setSolids(std::move(solids));
 }
 
-// Calls each(point, spec, surface) for the points of bodies that meet colliders as a whole which are, or might be
-// `seconds` [s] later, in contact with a collider, where they and it are now.
+// Calls each(point, spec, surface) for the points of bodies that meet colliders as a whole which are now, came through
+// one in the last `past` [s], from x0_, or might be `ahead` [s] later, in contact with a collider.
 template <class Each>
-void ContactStage::forEachNearCollider(double seconds, const Each& each) const {
+void ContactStage::forEachNearCollider(double past, double ahead, const Each& each) const {
     constexpr double nearShare = 0.05;  // of the thickness
     std::vector<collision::Colliders::Surface> found;
     for (int whole : wholes_) {
@@ -378,10 +378,10 @@ void ContactStage::forEachNearCollider(double seconds, const Each& each) const {
         if (!spec.collide || island.isStill()) continue;
         for (int i : elements().surface(whole).points) {
             const auto k = static_cast<std::size_t>(i);
-            const double way = seconds * std::sqrt(glm::dot(v_[k], v_[k]));
+            const double reach =
+                (1.0 + nearShare) * elements().surface(whole).thickness + ahead * std::sqrt(glm::dot(v_[k], v_[k]));
             found.clear();
-            const double thickness = elements().surface(whole).thickness;
-            island.colliders().findNear(x1_[k], (1.0 + nearShare) * thickness + way, island.step(), found);
+            island.colliders().findNear({past > 0 ? x0_[k] : x1_[k], x1_[k], past}, reach, island.step(), found);
             for (const auto& surface : found) each(i, spec, surface);
         }
     }
@@ -390,7 +390,7 @@ void ContactStage::forEachNearCollider(double seconds, const Each& each) const {
 // The contacts of whole bodies with colliders at the end of an instant h [s] long -> kinematic_.
 void ContactStage::addWholeContacts(double h) {
     forEachNearCollider(
-        0.0,
+        h, 0.0,
         [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
             const auto k = static_cast<std::size_t>(i);
             contact::KinematicContact& contact = kinematic_.emplace_back();
@@ -415,13 +415,14 @@ void ContactStage::addWholeContacts(double h) {
 void ContactStage::foreseeWholes(contact::Forecast& forecast) const {
     for (int whole : wholes_)
         if (bodyOf(whole).spec->isRigid() && !bodyOf(whole).island->isStill()) forecast.isInContact = true;
-    forEachNearCollider(tickSeconds_, [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
-        forecast.isInContact = true;
-        forecast.surfaces.push_back(elements().surfaceOf(i));
-        const dvec3 velocity = v_[static_cast<std::size_t>(i)] - surface.velocity;
-        forecast.closing = std::max(forecast.closing, -glm::dot(surface.away, velocity));
-        forecast.leastThickness = std::min(forecast.leastThickness, spec.thickness);
-    });
+    forEachNearCollider(0.0, tickSeconds_,
+                        [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
+                            forecast.isInContact = true;
+                            forecast.surfaces.push_back(elements().surfaceOf(i));
+                            const dvec3 velocity = v_[static_cast<std::size_t>(i)] - surface.velocity;
+                            forecast.closing = std::max(forecast.closing, -glm::dot(surface.away, velocity));
+                            forecast.leastThickness = std::min(forecast.leastThickness, spec.thickness);
+                        });
     std::sort(forecast.surfaces.begin(), forecast.surfaces.end());
     forecast.surfaces.erase(std::unique(forecast.surfaces.begin(), forecast.surfaces.end()), forecast.surfaces.end());
 }

@@ -140,7 +140,7 @@ class ContactStage {
     void addWholeContacts(double h);
     void foreseeWholes(contact::Forecast& forecast) const;
     template <class Each>
-    void forEachNearCollider(double seconds, const Each& each) const;
+    void forEachNearCollider(double past, double ahead, const Each& each) const;
     void wake(const TickTime& time, std::span<const std::int64_t> companies);
     void wakeCrossed(const TickTime& time);
     void addReached(int surfaceA, int surfaceB);

@@ -171,14 +171,17 @@ class Timeline {
     }
 
     // Returns whether the hand holds something. If not, reports it with suggestions.
-    bool checkHeld(const Event& event, const std::string& id, std::vector<std::string> others = {}) {
+    bool checkHeld(const Event& event, const std::string& id, std::vector<std::string> joints = {}) {
         if (grabbed_.contains(id)) return true;
-        others.insert(others.begin(), known_.begin(), known_.end());
-        const bool wasReleased = std::find(known_.begin(), known_.end(), id) != known_.end();
-        error(event, "id",
-              wasReleased ? fmt::format("\"{}\" has let go before {} s", id, event.action->t)
-                          : fmt::format("\"{}\" has grabbed nothing before {} s", id, event.action->t),
-              wasReleased ? "" : suggestion(id, others));
+        const double t = event.action->t;
+        if (std::find(known_.begin(), known_.end(), id) != known_.end()) {
+            error(event, "id", fmt::format("\"{}\" has let go before {} s", id, t));
+            return false;
+        }
+        std::string message = fmt::format("\"{}\" has grabbed nothing before {} s", id, t);
+        if (!joints.empty()) message += ", and no joint has that name";
+        joints.insert(joints.begin(), known_.begin(), known_.end());
+        error(event, "id", message, suggestion(id, joints));
         return false;
     }
 
@@ -254,10 +257,15 @@ class Timeline {
     void checkCut(const Event& event, const CutAction& cut) {
         const std::string& target = cut.target;
         if (!checkTarget(event, target)) return;
+        const auto matches = bodies_.matches(target);
         if (target.find('@') != std::string::npos) {
             report(event, "target", bodies_.bodyFault(target));
+        } else if (std::all_of(matches.begin(), matches.end(), [](const BodyEntry* body) {
+                       return !body->isFaulty && body->outline.springs + body->outline.volumes == 0;
+                   })) {
+            error(event, "target", fmt::format("{} has no springs to cut", matches.front()->title()));
         } else if (cut.from) {
-            for (const BodyEntry* body : bodies_.matches(target)) {
+            for (const BodyEntry* body : matches) {
                 if (body->outline.isGrid) continue;
                 return error(event, "target", fmt::format("{} is no cloth grid: it has no segment", body->title()),
                              "cut it with a plane");

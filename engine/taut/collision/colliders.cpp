@@ -1,7 +1,7 @@
 #include "taut/collision/colliders.h"
 
 #include <algorithm>
-
+#include <optional>
 #include <string>
 
 #include "taut/collision/private/impl.h"
@@ -10,12 +10,38 @@
 namespace taut::collision {
 namespace {
 
-// Whether a path leads through a solid, or into it by another side than the nearest one of its end, `near`, which then
-// gets the plane on which the path first touched.
-bool goesThrough(const Solid& solid, const Path& path, Nearest& near) {
+// The plane, as from the end of a path, on which this comes as near as its thickness to a convex form. It starts
+// farther off; none: it ends so too, and never comes near. Each step leads to the plane through the nearest place, so
+// never too far.
+std::optional<Nearest> meeting(const Form& form, const Path& path, Nearest near) {
+    constexpr int mostSteps = 32;
     const dvec3 way = path.to - path.from;
-    const double length = std::sqrt(glm::dot(way, way));
+    double share = 0;
+    for (int i = 0; i < mostSteps && near.distance - path.thickness > nearEnough(path); ++i) {
+        const double closing = -glm::dot(near.normal, way);
+        if (!(closing > 0)) return std::nullopt;
+        share += (near.distance - path.thickness) / closing;
+        if (!(share < 1)) return std::nullopt;
+        near = form.nearest(path.from + share * way);
+    }
+    return Nearest{near.distance + (1 - share) * glm::dot(near.normal, way), near.normal};
+}
+
+// Turns `near`, at the end of a path, to the plane on which the path met the form: with its thickness, if it began
+// farther off, else with none, if it leads through. Returns whether it has met the form and does not end near.
+bool turnToMeeting(const Solid& solid, Path path, Nearest& near) {
+    const double length = glm::distance(path.from, path.to);
+    if (!(near.distance < path.thickness + length)) return false;
+    const bool endsNear = near.distance < path.thickness;
+    if (solid.convex) {
+        if (const Nearest start = solid.form->nearest(path.from); start.distance > path.thickness) {
+            const std::optional<Nearest> met = meeting(*solid.form, path, start);
+            if (met && met->normal != near.normal) near = *met;
+            return met && !endsNear;
+        }
+    }
     if (!(near.distance < length)) return false;
+    path.thickness = 0;
     HalfSpace touch{};
     bool hasCrossed = false;
     if (!solid.form->sweep(path, touch, hasCrossed) || touch.normal == near.normal) return false;
@@ -120,8 +146,8 @@ void Colliders::findNear(const Way& way, double reach, double h, std::vector<Sur
         }
         const dvec3 local = solid.to.toLocal(way.to);
         Nearest near = solid.form->nearest(local);
-        const bool isThrough = goesThrough(solid, {solid.to.toLocal(from), local, 0.0, 0.0}, near);
-        if (!isThrough && !(near.distance < reach)) continue;
+        const bool hasMet = turnToMeeting(solid, {solid.to.toLocal(from), local, way.thickness, 0.0}, near);
+        if (!hasMet && !(near.distance < reach)) continue;
         const dvec3 foot = local - near.distance * near.normal;
         found.push_back(
             {near.distance, solid.to.directionToWorld(near.normal), velocityAt(foot), solid.collider, solid.material});

@@ -150,11 +150,12 @@ class Colliders {
     Near nearest(const glm::dvec3& position, double reach) const;
 
     // Appends the colliders that a way leads through, or whose surface is less than `reach` [m] from its end, at their
-    // end-of-step poses, in their order. Of a mesh the nearest place alone. If it leads through, the surface is the
-    // plane on which it first touched.
+    // end-of-step poses, in their order. Of a mesh the nearest place alone. What the way has met, the surface is a
+    // plane where it did.
     struct Way {
         glm::dvec3 from, to;  // [m]
         double seconds;       // that it took, in which colliders move as in their step
+        double thickness;     // [m] what goes there meets a surface that is so near
     };
     struct Surface {
         double distance;      // [m]

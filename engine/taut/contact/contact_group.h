@@ -173,6 +173,7 @@ class ContactGroup {
                                    std::span<const dvec3> x0) const;
     double convexity(const ContactConstraint& pair, std::int64_t where, std::span<const dvec3> x) const;
     bool meetInside(const ContactConstraint& pair, std::int64_t where) const;
+    void turnToMeeting(ContactConstraint& pair, const dvec3& way, std::span<const dvec3> x) const;
     bool isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const;
     bool isTangled(const ContactConstraint& pair) const;
 

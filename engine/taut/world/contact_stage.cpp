@@ -21,7 +21,7 @@ constexpr int fewerForSolids = 4;          // times
 // In one instant, as shares of the thickness:
 constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tick without contact
 constexpr double mostClosing = 0.35;     // closing of a pair
-constexpr double mostClosingOfSolids = 1.0;
+constexpr double mostClosingOfSolids = 4.0;
 constexpr double stickingShare = 0.9;  // of Coulomb's limit: up to there friction may hold what sleeps
 
 using Clock = std::chrono::steady_clock;  // for reports only
@@ -378,10 +378,11 @@ void ContactStage::forEachNearCollider(double past, double ahead, const Each& ea
         if (!spec.collide || island.isStill()) continue;
         for (int i : elements().surface(whole).points) {
             const auto k = static_cast<std::size_t>(i);
-            const double reach =
-                (1.0 + nearShare) * elements().surface(whole).thickness + ahead * std::sqrt(glm::dot(v_[k], v_[k]));
+            const double thickness = elements().surface(whole).thickness;
+            const double reach = (1.0 + nearShare) * thickness + ahead * std::sqrt(glm::dot(v_[k], v_[k]));
             found.clear();
-            island.colliders().findNear({past > 0 ? x0_[k] : x1_[k], x1_[k], past}, reach, island.step(), found);
+            island.colliders().findNear({past > 0 ? x0_[k] : x1_[k], x1_[k], past, thickness}, reach, island.step(),
+                                        found);
             for (const auto& surface : found) each(i, spec, surface);
         }
     }

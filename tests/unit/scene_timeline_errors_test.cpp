@@ -84,7 +84,7 @@ TEST(SceneErrors, HandsOutOfTheirOrderAreReported) {
          "at = [{ t = 1, do = \"cut\", target = \"solid.s\" }]\n"
          "[solid.s]\n"
          "shape = \"sphere\"\n",
-         "s.toml:2:37: error: solid.s has no springs to cut\n"
+         "s.toml:2:37: error: solid.s has neither springs nor joints to cut\n"
          "  at = [{ t = 1, do = \"cut\", target = \"solid.s\" }]\n"
          "                                      ^"},
         {"a claim about a joint that is not there",

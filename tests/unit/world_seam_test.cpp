@@ -228,6 +228,34 @@ TEST(Seams, WarnWhereEdgesHaveUnlikePoints) {
     EXPECT_NE(warnings(uneven)[0].find("sews 5 points to 7"), std::string::npos) << warnings(uneven)[0];
 }
 
+// Of two panels the coarser side gets the points of the finer; a panel gets those of a grid, whose cells are given. A
+// panel whose cells would differ too much stays as it is, and a warning says so.
+TEST(Seams, GivePanelsThePointsOfWhatTheyAreSewnTo) {
+    const auto worldOf = [](const std::string& seam, const std::string& cell) {
+        return World(
+            sceneOf("schema = 1\n[material.m]\n"
+                    "[cloth.coarse]\nmaterial = \"m\"\ncell_m = " +
+                    cell +
+                    "\norigin = [0, 0, 0.1]\n"
+                    "outline = [[0, 0], [0.3, 0], [0.34, 0.2], [0.3, 0.4], [0, 0.4]]\n"
+                    "edges = [{ name = \"bent\", corners = [1, 3] }]\n"
+                    "[cloth.fine]\nmaterial = \"m\"\ncell_m = 0.04\n"
+                    "outline = [[0.3, 0], [0.6, 0], [0.6, 0.46], [0.3, 0.46]]\n"
+                    "[cloth.grid]\nmaterial = \"m\"\nsize = [0.3, 0.42]\ncells = [4, 7]\norigin = [-0.3, 0.4, 0]\n"
+                    "[[seam]]\nover_s = 1.0\n" +
+                    seam));
+    };
+    const std::string toFine = "a = \"cloth.coarse@bent\"\nb = \"cloth.fine@side3\"\n";
+    const std::string toGrid = "a = \"cloth.grid@right\"\nb = \"cloth.coarse@side4\"\n";
+    for (const auto& [seam, points] : {std::pair{toFine, 13}, {toGrid, 8}}) {
+        const World world = worldOf(seam, "0.05");
+        EXPECT_EQ(world.joints().front().pairs.at(0).points, points);
+        EXPECT_TRUE(world.warnings().empty()) << world.warnings().front();
+    }
+    ASSERT_EQ(worldOf(toFine, "0.1").warnings().size(), 1U);
+    EXPECT_NE(worldOf(toFine, "0.1").warnings()[0].find("sews 5 points to 13"), std::string::npos);
+}
+
 TEST(Seams, ComeApartWhenReleasedTornOrCut) {
     const std::string leaves = "velocity = [1, 0, 0]\n";
     const auto at = [](const std::string& action) { return "[[at]]\nt = 0.4\n" + action; };

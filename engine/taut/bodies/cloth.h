@@ -34,7 +34,8 @@ struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     std::vector<dvec2> corners;  // [m]; empty: it is none
     std::vector<ClothHoleSpec> holes;
     std::vector<ClothEdgeSpec> edges;
-    double cell = 0.02;  // [m] length of its edges, nearly
+    double cell = 0.02;                       // [m] length of its edges, nearly
+    std::vector<std::vector<int>> sideEdges;  // of the outline and each hole, see PanelShape; evenSeams() gives them
     // … or a mesh, which has nothing of this.
     dvec3 position{0.0};  // [m]
     dvec3 rotation{0.0};  // [rad] about x, then y, then z

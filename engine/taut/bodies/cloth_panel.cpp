@@ -102,6 +102,7 @@ void ClothSpec::meshPanel() {
     shape.rings.push_back(corners);
     for (const ClothHoleSpec& hole : holes) shape.rings.push_back(hole.corners);
     shape.cell = cell;
+    shape.edges = sideEdges;
     // The outline has y up: a warp that turns towards down turns with the clock.
     const double c = core::cosine(grain), s = core::sine(grain);
     shape.along = {c, -s};

@@ -30,10 +30,13 @@ std::optional<Nearest> meeting(const Form& form, const Path& path, Nearest near)
 // Turns `near`, at the end of a path, to the plane on which the path met the form: with its thickness, if it began
 // farther off, else with none, if it leads through. Returns whether it has met the form and does not end near.
 bool turnToMeeting(const Solid& solid, Path path, Nearest& near) {
-    const double length = glm::distance(path.from, path.to);
-    if (!(near.distance < path.thickness + length)) return false;
+    const dvec3 way = path.to - path.from;
+    const double length = std::sqrt(glm::dot(way, way));
     const bool endsNear = near.distance < path.thickness;
     if (solid.convex) {
+        // It lies behind the plane through the place nearest to the end.
+        if (!endsNear && near.distance - glm::dot(near.normal, way) >= path.thickness) return false;
+        if (near.distance + length <= path.thickness) return false;
         if (const Nearest start = solid.form->nearest(path.from); start.distance > path.thickness) {
             const std::optional<Nearest> met = meeting(*solid.form, path, start);
             if (met && met->normal != near.normal) near = *met;
@@ -133,24 +136,35 @@ Colliders::Near Colliders::nearest(const glm::dvec3& position, double reach) con
     return near;
 }
 
-void Colliders::findNear(const Way& way, double reach, double h, std::vector<Surface>& found) const {
+void Colliders::findNear(std::span<const Way> ways, double h, std::vector<Surface>& found) const {
+    const auto boxOf = [](const Way& way, const dvec3& from) {
+        core::Aabb box{way.to, way.to};
+        box.add(from);
+        box.grow(way.reach);
+        return box;
+    };
+    core::Aabb all;
+    for (const Way& way : ways) all.add(boxOf(way, way.from));
     for (const Solid& solid : impl_->solids) {
+        if (solid.bounded && solid.still && !solid.bounds.overlaps(all, 0.0)) continue;
         const auto velocityAt = [&](const dvec3& p) {
             return solid.still ? dvec3(0.0) : (solid.to.toWorld(p) - solid.from.toWorld(p)) / h;
         };
-        const dvec3 from = way.from + way.seconds * velocityAt(solid.to.toLocal(way.from));
-        if (solid.bounded) {
-            core::Aabb box{way.to, way.to};
-            box.add(from);
-            if (!solid.bounds.overlaps(box, reach)) continue;
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+            const Way& way = ways[k];
+            dvec3 from = way.from;
+            if (!solid.still) from += way.seconds * velocityAt(solid.to.toLocal(from));
+            if (solid.bounded && !solid.bounds.overlaps(boxOf(way, from), 0.0)) continue;
+            const dvec3 local = solid.to.toLocal(way.to);
+            Nearest near = solid.form->nearest(local);
+            if (!(near.distance < way.reach) && !(near.distance < way.thickness + glm::distance(from, way.to)))
+                continue;
+            const bool hasMet = turnToMeeting(solid, {solid.to.toLocal(from), local, way.thickness, 0.0}, near);
+            if (!hasMet && !(near.distance < way.reach)) continue;
+            const dvec3 foot = local - near.distance * near.normal;
+            found.push_back({k, near.distance, solid.to.directionToWorld(near.normal), velocityAt(foot), solid.collider,
+                             solid.material});
         }
-        const dvec3 local = solid.to.toLocal(way.to);
-        Nearest near = solid.form->nearest(local);
-        const bool hasMet = turnToMeeting(solid, {solid.to.toLocal(from), local, way.thickness, 0.0}, near);
-        if (!hasMet && !(near.distance < reach)) continue;
-        const dvec3 foot = local - near.distance * near.normal;
-        found.push_back(
-            {near.distance, solid.to.directionToWorld(near.normal), velocityAt(foot), solid.collider, solid.material});
     }
 }
 

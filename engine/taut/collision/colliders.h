@@ -149,22 +149,24 @@ class Colliders {
     };
     Near nearest(const glm::dvec3& position, double reach) const;
 
-    // Appends the colliders that a way leads through, or whose surface is less than `reach` [m] from its end, at their
-    // end-of-step poses, in their order. Of a mesh the nearest place alone. What the way has met, the surface is a
-    // plane where it did.
+    // Appends what ways lead through, and colliders whose surface is less than `reach` from their ends, at their
+    // end-of-step poses, in their order; for each, the ways in theirs. Of a mesh the nearest place alone. What a way
+    // has met, the surface is a plane where it did.
     struct Way {
         glm::dvec3 from, to;  // [m]
         double seconds;       // that it took, in which colliders move as in their step
         double thickness;     // [m] what goes there meets a surface that is so near
+        double reach;         // [m]
     };
     struct Surface {
+        std::size_t way;
         double distance;      // [m]
         glm::dvec3 away;      // unit, in which it grows fastest
         glm::dvec3 velocity;  // [m/s] of the surface there, over a step of h [s]
         int collider;
         Material material;
     };
-    void findNear(const Way& way, double reach, double h, std::vector<Surface>& found) const;
+    void findNear(std::span<const Way> ways, double h, std::vector<Surface>& found) const;
 
     // The collider whose end-of-step pose contains the position deepest, and how deep [m]; -1 and 0 outside all.
     struct Inside {

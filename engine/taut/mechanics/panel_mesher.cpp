@@ -118,7 +118,11 @@ void addOutline(const PanelShape& shape, const std::vector<Side>& sides, PanelMe
     mesh.corners.resize(shape.rings.size());
     for (const Side& side : sides) {
         mesh.corners[static_cast<std::size_t>(side.ring)].push_back(static_cast<int>(mesh.points.size()));
-        const double edges = std::max(1.0, std::floor(glm::length(side.b - side.a) / shape.cell + 0.5));
+        const auto ring = static_cast<std::size_t>(side.ring), corner = static_cast<std::size_t>(side.corner);
+        const bool isGiven =
+            ring < shape.edges.size() && corner < shape.edges[ring].size() && shape.edges[ring][corner] > 0;
+        const double edges = isGiven ? shape.edges[ring][corner]
+                                     : std::max(1.0, std::floor(glm::length(side.b - side.a) / shape.cell + 0.5));
         for (int i = 0; i < edges; ++i) mesh.points.push_back(side.a + (i / edges) * (side.b - side.a));
     }
     mesh.outlinePoints = static_cast<int>(mesh.points.size());

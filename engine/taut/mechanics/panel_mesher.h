@@ -16,6 +16,8 @@ struct PanelShape {
     std::vector<std::vector<glm::dvec2>> rings;
     double cell = 0.02;          // length that edges shall have [m]
     glm::dvec2 along{1.0, 0.0};  // unit; rows of points inside run along it
+    // (rings)(sides) How many edges each side gets; 0, or not there: as many as the cell says.
+    std::vector<std::vector<int>> edges{};
 };
 
 struct PanelMesh {

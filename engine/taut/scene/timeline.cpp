@@ -89,18 +89,27 @@ class Timeline {
                 error(event, "target",
                       fmt::format("{} is spawned already at {} s", name, events_[before->second].action->t));
         }
-        for (const JointSpec& joint : scene_.spec.joints) {
-            if (isTie(joint)) continue;
-            std::vector<std::string> ends = joint.a.targets;
-            ends.insert(ends.end(), joint.b.targets.begin(), joint.b.targets.end());
-            for (const std::string& end : ends) {
-                for (const BodyEntry* body : bodies_.matches(end)) {
-                    const auto tied = bodies_.matches(target);
-                    if (std::find(tied.begin(), tied.end(), body) == tied.end()) continue;
-                    return error(event, "target", fmt::format("a joint ties {}: it cannot be spawned", body->title()));
-                }
-            }
-        }
+        for (const BodyEntry* body : bodies_.matches(target))
+            if (isJoined(*body, [](const JointSpec& joint) { return !isTie(joint); }))
+                return error(event, "target", fmt::format("a joint ties {}: it cannot be spawned", body->title()));
+    }
+
+    // Whether a wanted joint has the body on one of its sides.
+    template <class Wanted>
+    bool isJoined(const BodyEntry& body, const Wanted& isWanted) const {
+        return std::any_of(
+            scene_.spec.joints.begin(), scene_.spec.joints.end(),
+            [&](const JointSpec& joint) {
+                if (!isWanted(joint)) return false;
+                std::vector<std::string> ends = joint.a.targets;
+                ends.insert(ends.end(), joint.b.targets.begin(), joint.b.targets.end());
+                return std::any_of(
+                    ends.begin(), ends.end(),
+                    [&](const std::string& end) {
+                        const auto joined = bodies_.matches(end);
+                        return std::find(joined.begin(), joined.end(), &body) != joined.end();
+                    });
+            });
     }
 
     void checkEvent(const Event& event) {
@@ -260,10 +269,11 @@ class Timeline {
         const auto matches = bodies_.matches(target);
         if (target.find('@') != std::string::npos) {
             report(event, "target", bodies_.bodyFault(target));
-        } else if (std::all_of(matches.begin(), matches.end(), [](const BodyEntry* body) {
-                       return !body->isFaulty && body->outline.springs + body->outline.volumes == 0;
+        } else if (std::all_of(matches.begin(), matches.end(), [&](const BodyEntry* body) {
+                       return !body->isFaulty && body->outline.springs + body->outline.volumes == 0 &&
+                              !isJoined(*body, [](const JointSpec&) { return true; });
                    })) {
-            error(event, "target", fmt::format("{} has no springs to cut", matches.front()->title()));
+            error(event, "target", fmt::format("{} has neither springs nor joints to cut", matches.front()->title()));
         } else if (cut.from) {
             for (const BodyEntry* body : matches) {
                 if (body->outline.isGrid) continue;

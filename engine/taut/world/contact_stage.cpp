@@ -371,20 +371,22 @@ void ContactStage::takeSolids() {
 template <class Each>
 void ContactStage::forEachNearCollider(double past, double ahead, const Each& each) const {
     constexpr double nearShare = 0.05;  // of the thickness
+    std::vector<collision::Colliders::Way> ways;
     std::vector<collision::Colliders::Surface> found;
     for (int whole : wholes_) {
         const Island& island = *bodyOf(whole).island;
         const BodySpec& spec = *bodyOf(whole).spec;
         if (!spec.collide || island.isStill()) continue;
-        for (int i : elements().surface(whole).points) {
+        const contact::ContactSurface& surface = elements().surface(whole);
+        ways.clear();
+        for (int i : surface.points) {
             const auto k = static_cast<std::size_t>(i);
-            const double thickness = elements().surface(whole).thickness;
-            const double reach = (1.0 + nearShare) * thickness + ahead * std::sqrt(glm::dot(v_[k], v_[k]));
-            found.clear();
-            island.colliders().findNear({past > 0 ? x0_[k] : x1_[k], x1_[k], past, thickness}, reach, island.step(),
-                                        found);
-            for (const auto& surface : found) each(i, spec, surface);
+            const double reach = (1.0 + nearShare) * surface.thickness + ahead * std::sqrt(glm::dot(v_[k], v_[k]));
+            ways.push_back({past > 0 ? x0_[k] : x1_[k], x1_[k], past, surface.thickness, reach});
         }
+        found.clear();
+        island.colliders().findNear(ways, island.step(), found);
+        for (const auto& near : found) each(surface.points[near.way], spec, near);
     }
 }
 

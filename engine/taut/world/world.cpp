@@ -14,10 +14,19 @@
 #include "taut/world/private/timeline.h"
 
 namespace taut::world {
+namespace {
+
+SceneSpec completed(SceneSpec scene) {
+    meetFigures(scene);
+    evenSeams(scene);
+    return scene;
+}
+
+}  // namespace
 
 WorldImpl::WorldImpl(const SceneSpec& scene, const Options& options)
-    : spec(scene),
-      start(std::make_unique<const SceneSpec>(scene)),
+    : spec(completed(scene)),
+      start(std::make_unique<const SceneSpec>(spec)),
       threadCount(options.threads),
       threads(options.threads),
       keepsSteps(options.keepsSteps),
@@ -31,7 +40,6 @@ WorldImpl::WorldImpl(const SceneSpec& scene, const Options& options)
         registry.add(entity, CameraPart{camera});
     }
     for (const ColliderSpec& collider : spec.colliders) addCollider(*this, collider);
-    meetFigures(spec);
     if (spec.picture.smooth)
         for (BodySpec& body : spec.bodies) body.finish.smooth = *spec.picture.smooth;
     addBodies(*this);

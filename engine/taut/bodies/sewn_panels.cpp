@@ -1,0 +1,126 @@
+// Panels that are sewn get as many points along a seam as what they are sewn to.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/private/seam_pairing.h"
+#include "taut/mechanics/panel_mesher.h"
+#include "taut/spec/spec.h"
+#include "taut/spec/targets.h"
+
+namespace taut::world {
+namespace {
+
+// Of a panel, from a corner to the next.
+struct Side {
+    ClothSpec* panel;
+    std::size_t ring, corner;
+    double length;  // [m]
+};
+
+// What one side of a seam names.
+struct Named {
+    int edges = 0;            // between its points; 0: unknown
+    std::vector<Side> chain;  // none: not all of it is of panels
+};
+
+class Evening {
+  public:
+    explicit Evening(SceneSpec& spec) : spec_(spec) {}
+
+    // The side with fewer edges gets as many as the other; if one is no panel, the panel gets its number.
+    void even(const JointSpec& seam) {
+        const Named a = named(seam.a), b = named(seam.b);
+        if (a.edges == b.edges || a.edges == 0 || b.edges == 0) return;
+        const bool changesA = b.chain.empty() || (!a.chain.empty() && a.edges < b.edges);
+        divide((changesA ? a : b).chain, (changesA ? b : a).edges);
+    }
+
+  private:
+    const mechanics::Model& modelOf(const BodySpec& body) {
+        const auto found = models_.find(&body);
+        return found != models_.end() ? found->second : models_.emplace(&body, body.build(spec_)).first->second;
+    }
+
+    Named named(const JointSide& side) {
+        Named all;
+        bool areSides = true;
+        for (const std::string& text : side.targets) {
+            const Target target = parseTarget(text);
+            const auto body = std::find_if(spec_.bodies.begin(), spec_.bodies.end(), [&](const BodySpec& own) {
+                return own.kind() == target.kind &&
+                       (own.name == target.name || target.name.starts_with(own.name + "."));
+            });
+            if (body == spec_.bodies.end()) return {};
+            const Line line = lineOf(modelOf(*body), selectPoints(modelOf(*body), target.selector));
+            if (line.points.empty()) return {};
+            all.edges += static_cast<int>(line.points.size()) - (line.isClosed ? 0 : 1);
+            const std::vector<Side> chain = sidesOf(*body, target.selector);
+            areSides = areSides && !chain.empty();
+            all.chain.insert(all.chain.end(), chain.begin(), chain.end());
+        }
+        if (!areSides) all.chain.clear();
+        return all;
+    }
+
+    static std::vector<Side> sidesOf(BodySpec& body, const std::string& selector) {
+        auto* panel = dynamic_cast<ClothSpec*>(&body);
+        if (panel == nullptr || !panel->isPanel()) return {};
+        const auto along = [&](std::size_t ring, std::size_t first, std::size_t count) {
+            const std::vector<dvec2>& corners = ring == 0 ? panel->corners : panel->holes[ring - 1].corners;
+            std::vector<Side> chain;
+            for (std::size_t k = 0; k < count; ++k) {
+                const std::size_t from = (first + k) % corners.size(), to = (from + 1) % corners.size();
+                chain.push_back({panel, ring, from, glm::distance(corners[from], corners[to])});
+            }
+            return chain;
+        };
+        const std::size_t corners = panel->corners.size();
+        for (std::size_t i = 0; i < corners; ++i)
+            if (selector == "side" + std::to_string(i)) return along(0, i, 1);
+        for (std::size_t i = 0; i < panel->holes.size(); ++i)
+            if (selector == "hole" + std::to_string(i)) return along(i + 1, 0, panel->holes[i].corners.size());
+        for (const ClothEdgeSpec& edge : panel->edges) {
+            const auto from = static_cast<std::size_t>(edge.corners.x), to = static_cast<std::size_t>(edge.corners.y);
+            if (selector == edge.name) return along(0, from, (to + corners - from) % corners);
+        }
+        return {};
+    }
+
+    // By length, unless cells would differ from what the panel asks for by half.
+    void divide(const std::vector<Side>& chain, int edges) {
+        double length = 0;
+        for (const Side& side : chain) length += side.length;
+        for (const Side& side : chain)
+            if (std::abs(length / edges - side.panel->cell) > 0.5 * side.panel->cell) return;
+        double passed = 0;
+        int given = 0;
+        for (const Side& side : chain) {
+            passed += side.length;
+            const int upTo = static_cast<int>(std::floor(edges * passed / length + 0.5));
+            auto& own = side.panel->sideEdges;
+            own.resize(1 + side.panel->holes.size());
+            own[side.ring].resize(std::max(own[side.ring].size(), side.corner + 1), 0);
+            own[side.ring][side.corner] = std::max(upTo - given, 1);
+            given = upTo;
+        }
+        for (const Side& side : chain)
+            if (models_.erase(side.panel) > 0) side.panel->meshPanel();
+    }
+
+    SceneSpec& spec_;
+    std::map<const BodySpec*, mechanics::Model> models_;
+};
+
+}  // namespace
+
+void evenSeams(SceneSpec& spec) {
+    Evening evening(spec);
+    for (const JointSpec& joint : spec.joints)
+        if (joint.isSeam()) evening.even(joint);
+}
+
+}  // namespace taut::world

@@ -53,7 +53,10 @@ void checkEdges(const fields::CheckInput& input, const ClothSpec& cloth) {
         const auto report = [&](const char* key, const std::string& message, const std::string& remedy) {
             if (const fields::Node* value = item.at(key)) input.problems.addError(value->place, message, remedy);
         };
-        const bool isOwn = edge.name == "all" || edge.name.starts_with("side") || edge.name.starts_with("hole");
+        const std::string_view number = std::string_view(edge.name).substr(std::min<std::size_t>(edge.name.size(), 4));
+        const bool isNumbered = !number.empty() && number.find_first_not_of("0123456789") == std::string_view::npos &&
+                                (edge.name.starts_with("side") || edge.name.starts_with("hole"));
+        const bool isOwn = edge.name == "all" || isNumbered;
         if (!fields::isName(edge.name) || isOwn)
             report(
                 "name", fmt::format("\"{}\" cannot be the name of an edge", edge.name),

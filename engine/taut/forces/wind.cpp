@@ -5,6 +5,7 @@
 #include "taut/core/trig.h"
 #include "taut/forces/force.h"
 #include "taut/mechanics/private/wind.h"
+#include "taut/mechanics/rigid.h"
 #include "taut/spec/common_rows.h"
 #include "taut/spec/spec.h"
 
@@ -23,13 +24,20 @@ void addTo(mechanics::WindTargets& targets, const Body& body) {
     const mechanics::Model& model = body.model;
     const bool hasInside = body.spec->isRigid() || !model.cells.empty();
     const auto pointOf = [&](int i) { return body.pointOf[static_cast<std::size_t>(i)]; };
+    const double rounding = body.spec->rounding();
+    std::vector<dvec3> rounded;  // corners of faces that lie farther out than the triangles
+    if (rounding > 0) rounded = mechanics::withFacesOutward(model.positions, model.triangles, rounding);
     for (std::size_t t = 0; t < model.triangles.size(); ++t) {
         if (body.damage.isTriangleGone(t)) continue;
         const auto& [a, b, c] = model.triangles[t];
-        const auto at = [&](int i) { return model.positions[static_cast<std::size_t>(i)]; };
+        const auto areaOf = [&, corners = model.triangles[t]](std::span<const dvec3> x) {
+            const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(corners[k])]; };
+            return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+        };
+        const double area = areaOf(model.positions);
         targets.triangles.push_back({pointOf(a), pointOf(b), pointOf(c)});
-        targets.sides.push_back(hasInside ? 0.5 : 1.0);
-        targets.plateAir.push_back(model.plateAir * 0.5 * glm::length(glm::cross(at(b) - at(a), at(c) - at(a))));
+        targets.sides.push_back((hasInside ? 0.5 : 1.0) * (rounding > 0 ? areaOf(rounded) / area : 1.0));
+        targets.plateAir.push_back(model.plateAir * area);
     }
     if (!model.triangles.empty()) return;
     const double radius = body.spec->thickness;

@@ -154,6 +154,26 @@ Model buildRigid(const RigidShape& shape) {
     return model;
 }
 
+// A corner moves by what has `outward` along the normals of all faces there, in the sense of least squares; along what
+// none has, it stays.
+std::vector<dvec3> withFacesOutward(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles,
+                                    double outward) {
+    constexpr double none = 1e-6;
+    std::vector<dmat3> squares(positions.size(), dmat3(none));
+    std::vector<dvec3> sums(positions.size(), dvec3(0.0));
+    for (const std::array<int, 3>& t : triangles) {
+        const auto at = [&](std::size_t k) { return positions[static_cast<std::size_t>(t[k])]; };
+        const dvec3 normal = glm::normalize(glm::cross(at(1) - at(0), at(2) - at(0)));
+        for (const int i : t) {
+            squares[static_cast<std::size_t>(i)] += glm::outerProduct(normal, normal);
+            sums[static_cast<std::size_t>(i)] += outward * normal;
+        }
+    }
+    std::vector<dvec3> moved(positions.begin(), positions.end());
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += glm::inverse(squares[i]) * sums[i];
+    return moved;
+}
+
 dmat3 rotationBetween(const std::array<dvec3, 3>& rest, const std::array<dvec3, 3>& now) {
     const auto triad = [](const std::array<dvec3, 3>& p) {
         const dvec3 u = glm::normalize(p[1] - p[0]), w = glm::normalize(glm::cross(u, p[2] - p[0]));

@@ -46,6 +46,10 @@ inline constexpr int innerPoints = 6;
 // Expects positions that are not all far outside of the body.
 Model buildRigid(const RigidShape& shape);
 
+// The corners of the polyhedron whose faces lie `outward` [m] farther out than these triangles.
+std::vector<dvec3> withFacesOutward(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles,
+                                    double outward);
+
 // The rotation, as orthonormal columns, in which three points with places `now` stand that have places `rest` in the
 // body's axes, nearly.
 dmat3 rotationBetween(const std::array<dvec3, 3>& rest, const std::array<dvec3, 3>& now);

@@ -59,7 +59,8 @@ struct WindSettings {
 // What the air moves past; all points are those of a Motion.
 struct WindTargets {
     std::vector<std::array<int, 3>> triangles{};
-    std::vector<double> sides{};     // (triangles) 1, or ½ where the air is on one side only; empty: 1
+    std::vector<double> sides{};  // (triangles) Areas in the air over that of the triangle: 1, or ½ where it has one
+                                  // side there; empty: 1
     std::vector<double> plateAir{};  // (triangles) [kg] makes them flutter; empty: none
     // A rod from a to b, or a ball at a point, which is a and b.
     struct Round {

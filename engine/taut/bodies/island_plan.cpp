@@ -240,7 +240,12 @@ class Planner {
         const double reach = seam.reach() + 0.5 * std::max(as.longest, bs.longest);
         JointReport& report = reports_.emplace_back();
         report.spec = &seam;
-        report.sewn = {static_cast<int>(as.points.size()), static_cast<int>(bs.points.size())};
+        // Points that others are in one place with count once.
+        const auto countOf = [](const Row& row) {
+            return static_cast<int>(row.points.size()) -
+                   static_cast<int>(std::count(row.edge.steps.begin(), row.edge.steps.end(), 0.0));
+        };
+        report.sewn = {countOf(as), countOf(bs)};
         std::map<std::pair<int, int>, int> sewn;  // by bodies: number of points
         for (const auto& [i, j] : pairedByLength(as.edge, bs.edge)) {
             const PointRef first = as.points[static_cast<std::size_t>(i)];

@@ -1,5 +1,6 @@
 // Panels that are sewn get as many points along a seam as what they are sewn to.
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <string>
@@ -22,21 +23,22 @@ struct Side {
 };
 
 // What one side of a seam names.
-struct Named {
+struct SewnSide {
     int edges = 0;            // between its points; 0: unknown
     std::vector<Side> chain;  // none: not all of it is of panels
 };
 
-class Evening {
+class SeamEvener {
   public:
-    explicit Evening(SceneSpec& spec) : spec_(spec) {}
+    explicit SeamEvener(SceneSpec& spec) : spec_(spec) {}
 
     // The side with fewer edges gets as many as the other; if one is no panel, the panel gets its number.
-    void even(const JointSpec& seam) {
-        const Named a = named(seam.a), b = named(seam.b);
-        if (a.edges == b.edges || a.edges == 0 || b.edges == 0) return;
+    // Returns whether it has changed a panel.
+    bool even(const JointSpec& seam) {
+        const SewnSide a = sideOf(seam.a), b = sideOf(seam.b);
+        if (a.edges == b.edges || a.edges == 0 || b.edges == 0) return false;
         const bool changesA = b.chain.empty() || (!a.chain.empty() && a.edges < b.edges);
-        divide((changesA ? a : b).chain, (changesA ? b : a).edges);
+        return divide((changesA ? a : b).chain, (changesA ? b : a).edges);
     }
 
   private:
@@ -45,14 +47,14 @@ class Evening {
         return found != models_.end() ? found->second : models_.emplace(&body, body.build(spec_)).first->second;
     }
 
-    Named named(const JointSide& side) {
-        Named all;
+    SewnSide sideOf(const JointSide& side) {
+        SewnSide all;
         bool areSides = true;
         for (const std::string& text : side.targets) {
             const Target target = parseTarget(text);
             const auto body = std::find_if(spec_.bodies.begin(), spec_.bodies.end(), [&](const BodySpec& own) {
                 return own.kind() == target.kind &&
-                       (own.name == target.name || target.name.starts_with(own.name + "."));
+                       (matches(target.name, own.name) || target.name.starts_with(own.name + "."));
             });
             if (body == spec_.bodies.end()) return {};
             const Line line = lineOf(modelOf(*body), selectPoints(modelOf(*body), target.selector));
@@ -91,11 +93,11 @@ class Evening {
     }
 
     // By length, unless cells would differ from what the panel asks for by half.
-    void divide(const std::vector<Side>& chain, int edges) {
+    bool divide(const std::vector<Side>& chain, int edges) {
         double length = 0;
         for (const Side& side : chain) length += side.length;
         for (const Side& side : chain)
-            if (std::abs(length / edges - side.panel->cell) > 0.5 * side.panel->cell) return;
+            if (std::abs(length / edges - side.panel->cell) > 0.5 * side.panel->cell) return false;
         double passed = 0;
         int given = 0;
         for (const Side& side : chain) {
@@ -109,6 +111,7 @@ class Evening {
         }
         for (const Side& side : chain)
             if (models_.erase(side.panel) > 0) side.panel->meshPanel();
+        return !chain.empty();
     }
 
     SceneSpec& spec_;
@@ -118,9 +121,14 @@ class Evening {
 }  // namespace
 
 void evenSeams(SceneSpec& spec) {
-    Evening evening(spec);
-    for (const JointSpec& joint : spec.joints)
-        if (joint.isSeam()) evening.even(joint);
+    SeamEvener evener(spec);
+    // A panel may pass on what it got, from seam to seam.
+    bool isOther = true;
+    for (std::size_t round = 0; isOther && round < spec.joints.size(); ++round) {
+        isOther = false;
+        for (const JointSpec& joint : spec.joints)
+            if (joint.isSeam() && evener.even(joint)) isOther = true;
+    }
 }
 
 }  // namespace taut::world

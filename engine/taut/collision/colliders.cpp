@@ -1,19 +1,30 @@
 #include "taut/collision/colliders.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
+#include "taut/collision/private/cull.h"
 #include "taut/collision/private/impl.h"
 #include "taut/core/error.h"
 
 namespace taut::collision {
 namespace {
 
-// The plane, as from the end of a path, on which this comes as near as its thickness to a convex form. It starts
-// farther off; none: it ends so too, and never comes near. Each step leads to the plane through the nearest place, so
-// never too far.
-std::optional<Nearest> meeting(const Form& form, const Path& path, Nearest near) {
+// What a way meets, as from its end: a plane, and the place on the form where it is met.
+struct Met {
+    Nearest plane;
+    dvec3 place;  // [m]
+};
+
+Met metAtEnd(const Path& path, const Nearest& near) {
+    return {near, path.to - near.distance * near.normal};
+}
+
+// Where a path first comes as near as its thickness to a convex form. It starts farther off; none: it ends so too, and
+// never comes near. Each step leads to the plane through the nearest place, so never too far.
+std::optional<Met> meeting(const Form& form, const Path& path, Nearest near) {
     constexpr int mostSteps = 32;
     const dvec3 way = path.to - path.from;
     double share = 0;
@@ -24,32 +35,44 @@ std::optional<Nearest> meeting(const Form& form, const Path& path, Nearest near)
         if (!(share < 1)) return std::nullopt;
         near = form.nearest(path.from + share * way);
     }
-    return Nearest{near.distance + (1 - share) * glm::dot(near.normal, way), near.normal};
+    const dvec3 place = path.from + share * way - near.distance * near.normal;
+    return Met{{near.distance + (1 - share) * glm::dot(near.normal, way), near.normal}, place};
 }
 
-// Turns `near`, at the end of a path, to the plane on which the path met the form: with its thickness, if it began
-// farther off, else with none, if it leads through. Returns whether it has met the form and does not end near.
-bool turnToMeeting(const Solid& solid, Path path, Nearest& near) {
+// What a path meets whose end is nearest to `near`: a convex form with its thickness, if it begins farther off; else,
+// with none, what it leads through. Of all others what is nearest to its end; none if that is no nearer than `reach`.
+std::optional<Met> metBy(const Solid& solid, Path path, const Nearest& near, double reach) {
+    const std::optional<Met> atEnd = near.distance < reach ? std::optional(metAtEnd(path, near)) : std::nullopt;
     const dvec3 way = path.to - path.from;
     const double length = std::sqrt(glm::dot(way, way));
     const bool endsNear = near.distance < path.thickness;
-    if (solid.convex) {
-        // It lies behind the plane through the place nearest to the end.
-        if (!endsNear && near.distance - glm::dot(near.normal, way) >= path.thickness) return false;
-        if (near.distance + length <= path.thickness) return false;
+    // A convex form lies behind the plane through the place nearest to the end.
+    const bool mayMeet = endsNear ? near.distance + length > path.thickness
+                                  : near.distance - glm::dot(near.normal, way) < path.thickness;
+    if (solid.convex && mayMeet) {
         if (const Nearest start = solid.form->nearest(path.from); start.distance > path.thickness) {
-            const std::optional<Nearest> met = meeting(*solid.form, path, start);
-            if (met && met->normal != near.normal) near = *met;
-            return met && !endsNear;
+            const std::optional<Met> met = meeting(*solid.form, path, start);
+            return met && met->plane.normal != near.normal ? met : atEnd;
         }
     }
-    if (!(near.distance < length)) return false;
-    path.thickness = 0;
+    if (!(near.distance < length)) return atEnd;
+    path.thickness = solid.convex ? 0.0 : 8.0 * path.skin;
     HalfSpace touch{};
     bool hasCrossed = false;
-    if (!solid.form->sweep(path, touch, hasCrossed) || touch.normal == near.normal) return false;
-    near = {glm::dot(touch.normal, path.to) - touch.offset, touch.normal};
-    return true;
+    if (!solid.form->sweep(path, touch, hasCrossed) || touch.normal == near.normal) return atEnd;
+    const double distance = glm::dot(touch.normal, path.to) - touch.offset + path.thickness;
+    const double closing = -glm::dot(touch.normal, way);
+    const double past = closing > 0 ? std::clamp(-distance / closing, 0.0, 1.0) : 0.0;  // share of the way
+    return Met{{distance, touch.normal}, path.to - past * way};
+}
+
+// What a solid's motion of a step makes of a place, so many times.
+Frame motionOf(const Solid& solid, int times) {
+    const glm::dmat3 turn = solid.to.rotation * glm::transpose(solid.from.rotation);
+    const Frame once{turn, solid.to.position - turn * solid.from.position, true};
+    Frame all;
+    for (int i = 0; i < times; ++i) all = once.of(all);
+    return all;
 }
 
 }  // namespace
@@ -146,24 +169,26 @@ void Colliders::findNear(std::span<const Way> ways, double h, std::vector<Surfac
     core::Aabb all;
     for (const Way& way : ways) all.add(boxOf(way, way.from));
     for (const Solid& solid : impl_->solids) {
-        if (solid.bounded && solid.still && !solid.bounds.overlaps(all, 0.0)) continue;
-        const auto velocityAt = [&](const dvec3& p) {
-            return solid.still ? dvec3(0.0) : (solid.to.toWorld(p) - solid.from.toWorld(p)) / h;
-        };
+        const bool isStill = solid.still || solid.travel > fastestSurface * h;  // it jumps
+        if (solid.bounded && isStill && !solid.bounds.overlaps(all, 0.0)) continue;
+        const double seconds = ways.empty() ? 0.0 : ways.front().seconds;
+        const Frame moved = isStill ? Frame{} : motionOf(solid, static_cast<int>(std::lround(seconds / h)));
         for (std::size_t k = 0; k < ways.size(); ++k) {
             const Way& way = ways[k];
-            dvec3 from = way.from;
-            if (!solid.still) from += way.seconds * velocityAt(solid.to.toLocal(from));
+            const dvec3 from = isStill ? way.from : moved.toWorld(way.from);
             if (solid.bounded && !solid.bounds.overlaps(boxOf(way, from), 0.0)) continue;
             const dvec3 local = solid.to.toLocal(way.to);
-            Nearest near = solid.form->nearest(local);
+            const Nearest near = solid.form->nearest(local);
             if (!(near.distance < way.reach) && !(near.distance < way.thickness + glm::distance(from, way.to)))
                 continue;
-            const bool hasMet = turnToMeeting(solid, {solid.to.toLocal(from), local, way.thickness, 0.0}, near);
-            if (!hasMet && !(near.distance < way.reach)) continue;
-            const dvec3 foot = local - near.distance * near.normal;
-            found.push_back({k, near.distance, solid.to.directionToWorld(near.normal), velocityAt(foot), solid.collider,
-                             solid.material});
+            const double skin = skinPerMetre<double> * (glm::dot(glm::abs(way.to), dvec3(1.0)) + way.thickness);
+            const std::optional<Met> met =
+                metBy(solid, {solid.to.toLocal(from), local, way.thickness, skin}, near, way.reach);
+            if (!met) continue;
+            const dvec3 velocity =
+                isStill ? dvec3(0.0) : (solid.to.toWorld(met->place) - solid.from.toWorld(met->place)) / h;
+            found.push_back({k, met->plane.distance, solid.to.directionToWorld(met->plane.normal), velocity,
+                             solid.collider, solid.material});
         }
     }
 }

@@ -69,9 +69,9 @@ bool ContactGroup::isFeatureNearest(const ContactConstraint& pair, int feature, 
     return true;
 }
 
-// The normal of two solids that are apart at x0 becomes that at the moment when they meet, after a share of the way on
-// which the first comes nearer: balls that meet aslant fly apart as they lie then. Between faces, and edges that are
-// not parallel, it stays. Returns whether they meet.
+// The normal of two solids that are apart at x0 and meet on the way, on which the first comes nearer, becomes that at
+// the moment when they do: balls that meet aslant fly apart as they lie then. At faces and between the insides of two
+// edges it stays.
 void ContactGroup::turnToMeeting(ContactConstraint& pair, const dvec3& way, std::span<const dvec3> x) const {
     // Feet slide along the edges that they are on.
     dvec3 along(0.0);

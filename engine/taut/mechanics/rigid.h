@@ -46,7 +46,7 @@ inline constexpr int innerPoints = 6;
 // Expects positions that are not all far outside of the body.
 Model buildRigid(const RigidShape& shape);
 
-// The corners of the polyhedron whose faces lie `outward` [m] farther out than these triangles.
+// The corners of the polyhedron whose faces lie `outward` [m] farther out than these triangles, which have areas.
 std::vector<dvec3> withFacesOutward(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles,
                                     double outward);
 

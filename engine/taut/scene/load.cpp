@@ -172,9 +172,9 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     checkFitKeys(root, sections, scene, problems);
     checkLights(scene, problems);
     throwIfAny(problems);
-    world::evenSeams(scene.spec);
     checkSize(scene, options.memoryLimit > 0 ? options.memoryLimit : memoryLimit(), problems);
     throwIfAny(problems);
+    world::evenSeams(scene.spec);
 
     reportSuspicions(scene, problems);
     sortByName(scene.spec, kinds);

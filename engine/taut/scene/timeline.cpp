@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "taut/bodies/private/ties.h"
@@ -89,27 +90,23 @@ class Timeline {
                 error(event, "target",
                       fmt::format("{} is spawned already at {} s", name, events_[before->second].action->t));
         }
+        const std::set<const BodyEntry*> joined = joinedBy([](const JointSpec& joint) { return !isTie(joint); });
         for (const BodyEntry* body : bodies_.matches(target))
-            if (isJoined(*body, [](const JointSpec& joint) { return !isTie(joint); }))
+            if (joined.contains(body))
                 return error(event, "target", fmt::format("a joint ties {}: it cannot be spawned", body->title()));
     }
 
-    // Whether a wanted joint has the body on one of its sides.
+    // The bodies on the sides of wanted joints.
     template <class Wanted>
-    bool isJoined(const BodyEntry& body, const Wanted& isWanted) const {
-        return std::any_of(
-            scene_.spec.joints.begin(), scene_.spec.joints.end(),
-            [&](const JointSpec& joint) {
-                if (!isWanted(joint)) return false;
-                std::vector<std::string> ends = joint.a.targets;
-                ends.insert(ends.end(), joint.b.targets.begin(), joint.b.targets.end());
-                return std::any_of(
-                    ends.begin(), ends.end(),
-                    [&](const std::string& end) {
-                        const auto joined = bodies_.matches(end);
-                        return std::find(joined.begin(), joined.end(), &body) != joined.end();
-                    });
-            });
+    std::set<const BodyEntry*> joinedBy(const Wanted& isWanted) const {
+        std::set<const BodyEntry*> joined;
+        for (const JointSpec& joint : scene_.spec.joints) {
+            if (!isWanted(joint)) continue;
+            for (const JointSide& side : {joint.a, joint.b})
+                for (const std::string& end : side.targets)
+                    for (const BodyEntry* body : bodies_.matches(end)) joined.insert(body);
+        }
+        return joined;
     }
 
     void checkEvent(const Event& event) {
@@ -269,9 +266,10 @@ class Timeline {
         const auto matches = bodies_.matches(target);
         if (target.find('@') != std::string::npos) {
             report(event, "target", bodies_.bodyFault(target));
-        } else if (std::all_of(matches.begin(), matches.end(), [&](const BodyEntry* body) {
+        } else if (const auto joined = joinedBy([](const JointSpec&) { return true; });
+                   std::all_of(matches.begin(), matches.end(), [&](const BodyEntry* body) {
                        return !body->isFaulty && body->outline.springs + body->outline.volumes == 0 &&
-                              !isJoined(*body, [](const JointSpec&) { return true; });
+                              !joined.contains(body);
                    })) {
             error(event, "target", fmt::format("{} has neither springs nor joints to cut", matches.front()->title()));
         } else if (cut.from) {

@@ -80,13 +80,6 @@ TEST(SceneErrors, HandsOutOfTheirOrderAreReported) {
          "s.toml:2:37: error: \"pegg\" has grabbed nothing before 1 s, and no joint has that name\n"
          "  at = [{ t = 1, do = \"release\", id = \"pegg\" }]\n"
          "                                      ^ did you mean \"peg\"?"},
-        {"a cut of what is rigid",
-         "at = [{ t = 1, do = \"cut\", target = \"solid.s\" }]\n"
-         "[solid.s]\n"
-         "shape = \"sphere\"\n",
-         "s.toml:2:37: error: solid.s has neither springs nor joints to cut\n"
-         "  at = [{ t = 1, do = \"cut\", target = \"solid.s\" }]\n"
-         "                                      ^"},
         {"a claim about a joint that is not there",
          "check = [{ that = \"joints_left(pig) == 1\" }]\n"
          "[rope.r]\n"

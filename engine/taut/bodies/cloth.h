@@ -50,9 +50,16 @@ struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     using BodySpec::meshSource;
     const MeshSource* meshSource() const override { return this; }
     bool isPanel() const { return !corners.empty(); }
-    // Sets meshData to that of a panel, in the coordinates of its outline. Its groups are the sides of the outline
-    // (side0, from corner 0 to corner 1, …), the holes (hole0, …) and the edges with names, each in the order of its
-    // corners. The loader calls it; building does it where it was not called. Throws mechanics::PanelFault.
+    // The edges of a panel that selectors know: the sides of the outline (side0, from corner 0 to corner 1, …), the
+    // holes (hole0, …) and the edges with names.
+    struct PanelEdge {
+        std::string name;
+        std::size_t ring;  // 0: the outline
+        int from, to;      // corners of the ring; from one to itself: around
+    };
+    std::vector<PanelEdge> panelEdges() const;
+    // Sets meshData to that of a panel, in the coordinates of its outline. Its groups are its edges, each in the order
+    // of its corners. The loader calls it; building does it where it was not called. Throws mechanics::PanelFault.
     void meshPanel();
 
   private:

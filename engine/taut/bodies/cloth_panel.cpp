@@ -100,6 +100,17 @@ void checkPanel(const fields::CheckInput& input, ClothSpec& cloth) {
     checkEdges(input, cloth);
 }
 
+std::vector<ClothSpec::PanelEdge> ClothSpec::panelEdges() const {
+    std::vector<PanelEdge> all;
+    const int count = static_cast<int>(corners.size());
+    for (int i = 0; i < count; ++i) all.push_back({fmt::format("side{}", i), 0, i, (i + 1) % count});
+    for (std::size_t i = 0; i < holes.size(); ++i) all.push_back({fmt::format("hole{}", i), i + 1, 0, 0});
+    for (const ClothEdgeSpec& edge : edges)
+        if (std::max(edge.corners.x, edge.corners.y) < count)
+            all.push_back({edge.name, 0, edge.corners.x, edge.corners.y});
+    return all;
+}
+
 void ClothSpec::meshPanel() {
     mechanics::PanelShape shape;
     shape.rings.push_back(corners);
@@ -119,12 +130,7 @@ void ClothSpec::meshPanel() {
     data->triangles = made.triangles;
     const auto uvOf = [&](int i) { return data->uv[static_cast<std::size_t>(i)]; };
     for (const auto& [i, j, k] : made.triangles) data->cornerUv.push_back({uvOf(i), uvOf(j), uvOf(k)});
-    const int count = static_cast<int>(corners.size());
-    for (int i = 0; i < count; ++i) data->groups[fmt::format("side{}", i)] = wayAlong(made, 0, i, (i + 1) % count);
-    for (std::size_t i = 0; i < holes.size(); ++i) data->groups[fmt::format("hole{}", i)] = wayAlong(made, i + 1, 0, 0);
-    for (const ClothEdgeSpec& edge : edges)
-        if (std::max(edge.corners.x, edge.corners.y) < count)
-            data->groups[edge.name] = wayAlong(made, 0, edge.corners.x, edge.corners.y);
+    for (const PanelEdge& edge : panelEdges()) data->groups[edge.name] = wayAlong(made, edge.ring, edge.from, edge.to);
     meshData = std::move(data);
 }
 

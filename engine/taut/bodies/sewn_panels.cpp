@@ -32,8 +32,8 @@ class SeamEvener {
   public:
     explicit SeamEvener(SceneSpec& spec) : spec_(spec) {}
 
-    // The side with fewer edges gets as many as the other; if one is no panel, the panel gets its number.
-    // Returns whether it has changed a panel.
+    // The side with fewer edges gets as many as the other; if one is no panel, the panel gets its number. Returns
+    // whether it has changed a panel.
     bool even(const JointSpec& seam) {
         const SewnSide a = sideOf(seam.a), b = sideOf(seam.b);
         if (a.edges == b.edges || a.edges == 0 || b.edges == 0) return false;
@@ -71,25 +71,18 @@ class SeamEvener {
     static std::vector<Side> sidesOf(BodySpec& body, const std::string& selector) {
         auto* panel = dynamic_cast<ClothSpec*>(&body);
         if (panel == nullptr || !panel->isPanel()) return {};
-        const auto along = [&](std::size_t ring, std::size_t first, std::size_t count) {
-            const std::vector<dvec2>& corners = ring == 0 ? panel->corners : panel->holes[ring - 1].corners;
-            std::vector<Side> chain;
-            for (std::size_t k = 0; k < count; ++k) {
-                const std::size_t from = (first + k) % corners.size(), to = (from + 1) % corners.size();
-                chain.push_back({panel, ring, from, glm::distance(corners[from], corners[to])});
-            }
-            return chain;
-        };
-        const std::size_t corners = panel->corners.size();
-        for (std::size_t i = 0; i < corners; ++i)
-            if (selector == "side" + std::to_string(i)) return along(0, i, 1);
-        for (std::size_t i = 0; i < panel->holes.size(); ++i)
-            if (selector == "hole" + std::to_string(i)) return along(i + 1, 0, panel->holes[i].corners.size());
-        for (const ClothEdgeSpec& edge : panel->edges) {
-            const auto from = static_cast<std::size_t>(edge.corners.x), to = static_cast<std::size_t>(edge.corners.y);
-            if (selector == edge.name) return along(0, from, (to + corners - from) % corners);
+        std::vector<Side> chain;
+        for (const ClothSpec::PanelEdge& edge : panel->panelEdges()) {
+            if (edge.name != selector) continue;
+            const auto& corners = edge.ring == 0 ? panel->corners : panel->holes[edge.ring - 1].corners;
+            auto corner = static_cast<std::size_t>(edge.from);
+            do {
+                const std::size_t next = (corner + 1) % corners.size();
+                chain.push_back({panel, edge.ring, corner, glm::distance(corners[corner], corners[next])});
+                corner = next;
+            } while (corner != static_cast<std::size_t>(edge.to));
         }
-        return {};
+        return chain;
     }
 
     // By length, unless cells would differ from what the panel asks for by half.

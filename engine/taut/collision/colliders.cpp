@@ -18,10 +18,6 @@ struct Met {
     dvec3 place;  // [m]
 };
 
-Met metAtEnd(const Path& path, const Nearest& near) {
-    return {near, path.to - near.distance * near.normal};
-}
-
 // Where a path first comes as near as its thickness to a convex form. It starts farther off; none: it ends so too, and
 // never comes near. Each step leads to the plane through the nearest place, so never too far.
 std::optional<Met> meeting(const Form& form, const Path& path, Nearest near) {
@@ -42,7 +38,8 @@ std::optional<Met> meeting(const Form& form, const Path& path, Nearest near) {
 // What a path meets whose end is nearest to `near`: a convex form with its thickness, if it begins farther off; else,
 // with none, what it leads through. Of all others what is nearest to its end; none if that is no nearer than `reach`.
 std::optional<Met> metBy(const Solid& solid, Path path, const Nearest& near, double reach) {
-    const std::optional<Met> atEnd = near.distance < reach ? std::optional(metAtEnd(path, near)) : std::nullopt;
+    std::optional<Met> atEnd;
+    if (near.distance < reach) atEnd = Met{near, path.to - near.distance * near.normal};
     const dvec3 way = path.to - path.from;
     const double length = std::sqrt(glm::dot(way, way));
     const bool endsNear = near.distance < path.thickness;
@@ -159,7 +156,8 @@ Colliders::Near Colliders::nearest(const glm::dvec3& position, double reach) con
     return near;
 }
 
-void Colliders::findNear(std::span<const Way> ways, double h, std::vector<Surface>& found) const {
+void Colliders::findNear(std::span<const Way> ways, double thickness, double seconds, double h,
+                         std::vector<Surface>& found) const {
     const auto boxOf = [](const Way& way, const dvec3& from) {
         core::Aabb box{way.to, way.to};
         box.add(from);
@@ -169,9 +167,8 @@ void Colliders::findNear(std::span<const Way> ways, double h, std::vector<Surfac
     core::Aabb all;
     for (const Way& way : ways) all.add(boxOf(way, way.from));
     for (const Solid& solid : impl_->solids) {
-        const bool isStill = solid.still || solid.travel > fastestSurface * h;  // it jumps
+        const bool isStill = solid.still || hasJumped(solid, h);
         if (solid.bounded && isStill && !solid.bounds.overlaps(all, 0.0)) continue;
-        const double seconds = ways.empty() ? 0.0 : ways.front().seconds;
         const Frame moved = isStill ? Frame{} : motionOf(solid, static_cast<int>(std::lround(seconds / h)));
         for (std::size_t k = 0; k < ways.size(); ++k) {
             const Way& way = ways[k];
@@ -179,11 +176,10 @@ void Colliders::findNear(std::span<const Way> ways, double h, std::vector<Surfac
             if (solid.bounded && !solid.bounds.overlaps(boxOf(way, from), 0.0)) continue;
             const dvec3 local = solid.to.toLocal(way.to);
             const Nearest near = solid.form->nearest(local);
-            if (!(near.distance < way.reach) && !(near.distance < way.thickness + glm::distance(from, way.to)))
-                continue;
-            const double skin = skinPerMetre<double> * (glm::dot(glm::abs(way.to), dvec3(1.0)) + way.thickness);
+            if (!(near.distance < way.reach) && !(near.distance < thickness + glm::distance(from, way.to))) continue;
+            const double skin = skinPerMetre<double> * (glm::dot(glm::abs(way.to), dvec3(1.0)) + thickness);
             const std::optional<Met> met =
-                metBy(solid, {solid.to.toLocal(from), local, way.thickness, skin}, near, way.reach);
+                metBy(solid, {solid.to.toLocal(from), local, thickness, skin}, near, way.reach);
             if (!met) continue;
             const dvec3 velocity =
                 isStill ? dvec3(0.0) : (solid.to.toWorld(met->place) - solid.from.toWorld(met->place)) / h;

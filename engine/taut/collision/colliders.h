@@ -151,22 +151,22 @@ class Colliders {
 
     // Appends what ways lead through, and colliders whose surface is less than `reach` from their ends, at their
     // end-of-step poses, in their order; for each, the ways in theirs. Of a mesh the nearest place alone. What a way
-    // has met, the surface is a plane where it did.
+    // has met, the surface is a plane where it did. thickness [m]: what goes there meets a surface that is so near.
+    // seconds: that the ways took, in which colliders move as in their steps of h [s].
     struct Way {
         glm::dvec3 from, to;  // [m]
-        double seconds;       // that it took, in which colliders move as in their step
-        double thickness;     // [m] what goes there meets a surface that is so near
         double reach;         // [m]
     };
     struct Surface {
         std::size_t way;
         double distance;      // [m]
         glm::dvec3 away;      // unit, in which it grows fastest
-        glm::dvec3 velocity;  // [m/s] of the surface there, over a step of h [s]
+        glm::dvec3 velocity;  // [m/s] of the surface there, over a step
         int collider;
         Material material;
     };
-    void findNear(std::span<const Way> ways, double h, std::vector<Surface>& found) const;
+    void findNear(std::span<const Way> ways, double thickness, double seconds, double h,
+                  std::vector<Surface>& found) const;
 
     // The collider whose end-of-step pose contains the position deepest, and how deep [m]; -1 and 0 outside all.
     struct Inside {

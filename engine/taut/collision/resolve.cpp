@@ -126,11 +126,9 @@ class Resolver {
         resolveBatch(first, rows.count, near, mask.data());
     }
 
-    bool hasJumped(const Solid& solid) const { return solid.travel > fastestSurface * h_; }
-
     bool isForKernel(const Solid& solid) const {
         return (solid.closed.kind != ClosedKind::none || solid.feet != nullptr) &&
-               (!solid.bounded || hasJumped(solid) || solid.turn.empty());
+               (!solid.bounded || hasJumped(solid, h_) || solid.turn.empty());
     }
 
     // The kernel resolves points that may touch only one solid, if it knows the solid's shape. All other points are
@@ -201,7 +199,7 @@ class Resolver {
     }
 
     Contact recordOf(int point, const Solid& solid, int lane) const {
-        const bool still = solid.still || hasJumped(solid);
+        const bool still = solid.still || hasJumped(solid, h_);
         return {point,
                 solid.collider,
                 {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]},
@@ -247,7 +245,7 @@ class Resolver {
                          .find = findFeet};
         args.offset = solid.above.offset;
         args.to = frameFor(solid.to);
-        args.still = solid.still || hasJumped(solid);
+        args.still = solid.still || hasJumped(solid, h_);
         args.from = args.still ? args.to : frameFor(solid.from);
         args.thickness = points_.thickness;
         args.skinPerMetre = skinPerMetre<Real>;
@@ -299,7 +297,7 @@ class Resolver {
     }
 
     bool resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point, Impact& impact) const {
-        const bool jumped = hasJumped(solid), still = jumped || solid.still;
+        const bool jumped = hasJumped(solid, h_), still = jumped || solid.still;
         Path world{point.before, point.x, points_.thickness, skin};
         HalfSpace touch{};
         bool crossed = false;

@@ -29,13 +29,13 @@ void addTo(mechanics::WindTargets& targets, const Body& body) {
     if (rounding > 0) rounded = mechanics::withFacesOutward(model.positions, model.triangles, rounding);
     for (std::size_t t = 0; t < model.triangles.size(); ++t) {
         if (body.damage.isTriangleGone(t)) continue;
-        const auto& [a, b, c] = model.triangles[t];
-        const auto areaOf = [&, corners = model.triangles[t]](std::span<const dvec3> x) {
+        const std::array<int, 3>& corners = model.triangles[t];
+        const auto areaOf = [&](std::span<const dvec3> x) {
             const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(corners[k])]; };
             return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
         };
         const double area = areaOf(model.positions);
-        targets.triangles.push_back({pointOf(a), pointOf(b), pointOf(c)});
+        targets.triangles.push_back({pointOf(corners[0]), pointOf(corners[1]), pointOf(corners[2])});
         targets.sides.push_back((hasInside ? 0.5 : 1.0) * (rounding > 0 ? areaOf(rounded) / area : 1.0));
         targets.plateAir.push_back(model.plateAir * area);
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "taut/bodies/private/ties.h"
@@ -90,23 +89,18 @@ class Timeline {
                 error(event, "target",
                       fmt::format("{} is spawned already at {} s", name, events_[before->second].action->t));
         }
-        const std::set<const BodyEntry*> joined = joinedBy([](const JointSpec& joint) { return !isTie(joint); });
-        for (const BodyEntry* body : bodies_.matches(target))
-            if (joined.contains(body))
-                return error(event, "target", fmt::format("a joint ties {}: it cannot be spawned", body->title()));
-    }
-
-    // The bodies on the sides of wanted joints.
-    template <class Wanted>
-    std::set<const BodyEntry*> joinedBy(const Wanted& isWanted) const {
-        std::set<const BodyEntry*> joined;
         for (const JointSpec& joint : scene_.spec.joints) {
-            if (!isWanted(joint)) continue;
-            for (const JointSide& side : {joint.a, joint.b})
-                for (const std::string& end : side.targets)
-                    for (const BodyEntry* body : bodies_.matches(end)) joined.insert(body);
+            if (isTie(joint)) continue;
+            std::vector<std::string> ends = joint.a.targets;
+            ends.insert(ends.end(), joint.b.targets.begin(), joint.b.targets.end());
+            for (const std::string& end : ends) {
+                for (const BodyEntry* body : bodies_.matches(end)) {
+                    const auto tied = bodies_.matches(target);
+                    if (std::find(tied.begin(), tied.end(), body) == tied.end()) continue;
+                    return error(event, "target", fmt::format("a joint ties {}: it cannot be spawned", body->title()));
+                }
+            }
         }
-        return joined;
     }
 
     void checkEvent(const Event& event) {
@@ -263,17 +257,10 @@ class Timeline {
     void checkCut(const Event& event, const CutAction& cut) {
         const std::string& target = cut.target;
         if (!checkTarget(event, target)) return;
-        const auto matches = bodies_.matches(target);
         if (target.find('@') != std::string::npos) {
             report(event, "target", bodies_.bodyFault(target));
-        } else if (const auto joined = joinedBy([](const JointSpec&) { return true; });
-                   std::all_of(matches.begin(), matches.end(), [&](const BodyEntry* body) {
-                       return !body->isFaulty && body->outline.springs + body->outline.volumes == 0 &&
-                              !joined.contains(body);
-                   })) {
-            error(event, "target", fmt::format("{} has neither springs nor joints to cut", matches.front()->title()));
         } else if (cut.from) {
-            for (const BodyEntry* body : matches) {
+            for (const BodyEntry* body : bodies_.matches(target)) {
                 if (body->outline.isGrid) continue;
                 return error(event, "target", fmt::format("{} is no cloth grid: it has no segment", body->title()),
                              "cut it with a plane");

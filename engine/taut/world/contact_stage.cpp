@@ -382,10 +382,10 @@ void ContactStage::forEachNearCollider(double past, double ahead, const Each& ea
         for (int i : surface.points) {
             const auto k = static_cast<std::size_t>(i);
             const double reach = (1.0 + nearShare) * surface.thickness + ahead * std::sqrt(glm::dot(v_[k], v_[k]));
-            ways.push_back({past > 0 ? x0_[k] : x1_[k], x1_[k], past, surface.thickness, reach});
+            ways.push_back({past > 0 ? x0_[k] : x1_[k], x1_[k], reach});
         }
         found.clear();
-        island.colliders().findNear(ways, island.step(), found);
+        island.colliders().findNear(ways, surface.thickness, past, island.step(), found);
         for (const auto& near : found) each(surface.points[near.way], spec, near);
     }
 }

@@ -31,6 +31,11 @@ struct Solid {
     core::Aabb bounds;                 // [m] in the world, of the whole step
 };
 
+// During a step of h [s].
+inline bool hasJumped(const Solid& solid, double h) {
+    return solid.travel > fastestSurface * h;
+}
+
 // Throws core::Error(badContent) for a compound without parts or with a part whose pose is not finite.
 void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid>& solids);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/cull.h"
 #include "taut/collision/private/impl.h"
 #include "taut/core/error.h"
@@ -18,49 +19,32 @@ struct Met {
     dvec3 place;  // [m]
 };
 
-// Where a path first comes as near as its thickness to a convex form. It starts farther off; none: it ends so too, and
-// never comes near. Each step leads to the plane through the nearest place, so never too far.
-std::optional<Met> meeting(const Form& form, const Path& path, Nearest near) {
-    constexpr int mostSteps = 32;
-    const dvec3 way = path.to - path.from;
-    double share = 0;
-    for (int i = 0; i < mostSteps && near.distance - path.thickness > nearEnough(path); ++i) {
-        const double closing = -glm::dot(near.normal, way);
-        if (!(closing > 0)) return std::nullopt;
-        share += (near.distance - path.thickness) / closing;
-        if (!(share < 1)) return std::nullopt;
-        near = form.nearest(path.from + share * way);
-    }
-    const dvec3 place = path.from + share * way - near.distance * near.normal;
-    return Met{{near.distance + (1 - share) * glm::dot(near.normal, way), near.normal}, place};
-}
-
 // What a path meets whose end is nearest to `near`: a convex form with its thickness, if it begins farther off; else,
 // with none, what it leads through. Of all others what is nearest to its end; none if that is no nearer than `reach`.
 std::optional<Met> metBy(const Solid& solid, Path path, const Nearest& near, double reach) {
-    std::optional<Met> atEnd;
-    if (near.distance < reach) atEnd = Met{near, path.to - near.distance * near.normal};
     const dvec3 way = path.to - path.from;
     const double length = std::sqrt(glm::dot(way, way));
     const bool endsNear = near.distance < path.thickness;
     // A convex form lies behind the plane through the place nearest to the end.
     const bool mayMeet = endsNear ? near.distance + length > path.thickness
                                   : near.distance - glm::dot(near.normal, way) < path.thickness;
-    if (solid.convex && mayMeet) {
-        if (const Nearest start = solid.form->nearest(path.from); start.distance > path.thickness) {
-            const std::optional<Met> met = meeting(*solid.form, path, start);
-            return met && met->plane.normal != near.normal ? met : atEnd;
-        }
-    }
-    if (!(near.distance < length)) return atEnd;
-    path.thickness = solid.convex ? 0.0 : 8.0 * path.skin;
+    Nearest start{};
+    if (solid.convex && mayMeet) start = solid.form->nearest(path.from);
     HalfSpace touch{};
-    bool hasCrossed = false;
-    if (!solid.form->sweep(path, touch, hasCrossed) || touch.normal == near.normal) return atEnd;
-    const double distance = glm::dot(touch.normal, path.to) - touch.offset + path.thickness;
-    const double closing = -glm::dot(touch.normal, way);
-    const double past = closing > 0 ? std::clamp(-distance / closing, 0.0, 1.0) : 0.0;  // share of the way
-    return Met{{distance, touch.normal}, path.to - past * way};
+    bool hasMet = false, hasCrossed = false;
+    if (start.distance > path.thickness) {
+        hasMet = reachConvex(*solid.form, path, start, path.thickness, touch);
+    } else if (near.distance < length) {
+        path.thickness = solid.convex ? 0.0 : 8.0 * path.skin;
+        hasMet = solid.form->sweep(path, touch, hasCrossed);
+    }
+    if (hasMet && touch.normal != near.normal) {
+        const double distance = glm::dot(touch.normal, path.to) - touch.offset, closing = -glm::dot(touch.normal, way);
+        const double past = closing > 0 ? std::clamp(-distance / closing, 0.0, 1.0) : 0.0;  // share of the way
+        return Met{{distance + path.thickness, touch.normal}, path.to - past * way - path.thickness * touch.normal};
+    }
+    if (!(near.distance < reach)) return std::nullopt;
+    return Met{near, path.to - near.distance * near.normal};
 }
 
 // What a solid's motion of a step makes of a place, so many times.

@@ -11,7 +11,7 @@ namespace taut::collision {
 
 // A convex shape, given by its signed distance (exact outside and inside) and its box.
 template <class T>
-concept ClosedForm = requires(const T shape, const dvec3& p) {
+concept ClosedForm = requires(const T& shape, const dvec3& p) {
     { shape.nearest(p) } -> std::same_as<Nearest>;
     { shape.bounds() } -> std::convertible_to<std::optional<core::Aabb>>;
 };

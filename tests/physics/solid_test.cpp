@@ -264,9 +264,9 @@ TEST(SolidHull, OfABoxIsTheBox) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(other.inverseInertia[k][k] / one.inverseInertia[k][k], 1.0, 1e-9);
 }
 
-// A weld of all points makes one rigid body: two halves fly, fall and lie as the whole does, apart from rounding, and
-// do not touch each other.
-TEST(SolidBox, WeldedOfHalvesMovesAsTheWhole) {
+// A weld of all points makes one rigid body, and so does a compound: two halves fly, fall and lie as the whole does,
+// apart from rounding, and do not touch each other.
+TEST(SolidBox, MadeOfHalvesMovesAsTheWhole) {
     const dvec3 velocity(0.4, 1.0, 0.0), spin(2.0, 0.7, 4.0), place(0.0, 0.4, 0.0);
     const auto thrown = [&](const std::string& name, double side, double length) {
         SolidSpec part = box(name, place + dvec3(0.5 * side * length, 0.0, 0.0), {length, 0.1, 0.06});
@@ -274,22 +274,28 @@ TEST(SolidBox, WeldedOfHalvesMovesAsTheWhole) {
         part.velocity = velocity + glm::cross(spin, part.position - place);
         return part;
     };
-    world::SceneSpec whole = scene(), halves = scene();
-    whole.colliders = halves.colliders = {ground(0.0, 0.5)};
+    world::SceneSpec whole = scene(), halves = scene(), compound = scene();
+    whole.colliders = halves.colliders = compound.colliders = {ground(0.0, 0.5)};
     whole.bodies.add(thrown("whole", 0.0, 0.3));
+    SolidSpec parts = thrown("parts", 0.0, 0.3);
+    parts.shape = "compound";
+    for (const double side : {-1.0, 1.0})
+        parts.parts.push_back(box("", {0.5 * side * 0.15, 0.0, 0.0}, {0.15, 0.1, 0.06}));
+    compound.bodies.add(parts);
     halves.bodies.add(thrown("left", -1.0, 0.15));
     halves.bodies.add(thrown("right", 1.0, 0.15));
     world::WeldJoint weld;
     weld.a = "solid.left@all";
     weld.b = "solid.right@all";
     halves.joints.add(weld);
-    World one(whole), two(halves);
+    World one(whole), two(halves), three(compound);
     double furthest = 0;
     for (int tick = 0; tick < 150; ++tick) {
-        ASSERT_FALSE(one.advance());
-        ASSERT_FALSE(two.advance());
+        for (World* world : {&one, &two, &three}) ASSERT_FALSE(world->advance());
+        const dvec3 wanted = motionOf(one, "solid.whole").centre;
         const dvec3 middle = 0.5 * (motionOf(two, "solid.left").centre + motionOf(two, "solid.right").centre);
-        furthest = std::max(furthest, glm::distance(middle, motionOf(one, "solid.whole").centre));
+        for (const dvec3& centre : {middle, motionOf(three, "solid.parts").centre})
+            furthest = std::max(furthest, glm::distance(centre, wanted));
         if (tick == 20) EXPECT_LT(furthest, 1e-12);  // still in the air
         if (tick == 75) EXPECT_LT(furthest, 1e-8);   // before a whole face lands: on four corners, or on eight
     }
@@ -297,6 +303,26 @@ TEST(SolidBox, WeldedOfHalvesMovesAsTheWhole) {
     EXPECT_LT(glm::length(motionOf(one, "solid.whole").velocity), 1e-3);
     EXPECT_LT(furthest, fallOfAnInstant);
     EXPECT_NEAR(glm::distance(motionOf(two, "solid.left").centre, motionOf(two, "solid.right").centre), 0.15, 1e-12);
+}
+
+// Two balls on a rod: on a box and on the ground each is as high as its radius.
+TEST(SolidCompound, RestsOnEachOfItsParts) {
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0, 0.5)};
+    spec.bodies.add(box("box", {0.0, 0.1, 0.0}, {0.1, 0.2, 0.4}));
+    SolidSpec dumbbell = box("dumbbell", {0.25, 0.3, 0.0}, dvec3(1.0));
+    dumbbell.shape = "compound";
+    dumbbell.parts = {ball("", {-0.25, 0.0, 0.0}, 0.05), ball("", {0.25, 0.0, 0.0}, 0.08),
+                      round("capsule", "", dvec3(0.0), 0.01, 0.5)};
+    dumbbell.parts.back().thickness = 0.01;
+    dumbbell.parts.back().rotation = {0.0, 0.0, 0.5 * core::pi};
+    spec.bodies.add(dumbbell);
+    World world(spec);
+    advanceBy(world, 2.0);
+    const world::PointsNow points = world.points("solid.dumbbell");
+    const double fallOfAnInstant = 9.81 / (240.0 * 240.0);
+    EXPECT_NEAR(points.x[mechanics::innerPoints].y, 0.25, 2.0 * fallOfAnInstant);
+    EXPECT_NEAR(points.x[mechanics::innerPoints + 1].y, 0.08, 2.0 * fallOfAnInstant);
 }
 
 // Two boxes with a corner each in one place, where their faces are nearer than their thickness: they turn about it as

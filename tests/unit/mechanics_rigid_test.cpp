@@ -31,6 +31,24 @@ TEST(Rigid, PropertiesOfAPolyhedronAreExact) {
         const double edge = k == 0 ? 0.3 : k == 1 ? 0.2 : 0.1;
         EXPECT_NEAR(box.properties.spread[k][k], 0.006 * edge * edge / 12, 1e-18);
     }
+    // Of its two halves, one of them turned to stand as the other does; and where one half weighs three times as much.
+    for (const double factor : {1.0, 3.0}) {
+        RigidShape half = boxOf({0.15, 0.2, 0.1}), turned = boxOf({0.2, 0.15, 0.1}), both;
+        half.mass = factor;
+        half.place = {-0.075, 0.0, 0.0};
+        turned.place = {0.075, 0.0, 0.0};
+        turned.axes = dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1);
+        both.mass = 0;
+        join(both, half);
+        join(both, turned);
+        const double middle = (1.0 - factor) / (1.0 + factor) * 0.075;
+        EXPECT_NEAR(both.mass, 1.0 + factor, 1e-15);
+        EXPECT_LT(glm::distance(both.properties.centre, dvec3(middle, 0.0, 0.0)), 1e-16);
+        for (int k = 0; k < 3; ++k) {
+            const double away = k == 0 ? middle : 0.0;
+            EXPECT_NEAR(both.properties.spread[k][k], box.properties.spread[k][k] - 0.006 * away * away, 1e-18);
+        }
+    }
     // A tetrahedron far from the origin: its centre is the mean of its corners.
     const std::vector<dvec3> corners{{10, 5, 2}, {11, 5, 2}, {10, 7, 2}, {10, 5, 5}};
     const std::vector<std::array<int, 3>> faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};

@@ -49,8 +49,8 @@ void collectPaths(const Node& node, const std::string& path, bool isNamed, std::
 
 // What every body has is tried out on a cloth there, and on the others by SceneFields.
 std::string standIn(const std::string& path) {
-    constexpr std::string_view part = "collider.parts.finish";
-    if (path.starts_with(part)) return "cloth.finish" + path.substr(part.size());
+    for (const std::string_view part : {"collider.parts.finish", "solid.parts.finish"})
+        if (path.starts_with(part)) return "cloth.finish" + path.substr(part.size());
     const std::string rest = path.substr(path.find('.') + 1);
     const std::string key = rest.substr(0, rest.find('.'));
     for (const char* common : {"hold", "clamp", "hold_on", "velocity", "spin_rad_per_s", "jitter_m", "seed", "friction",

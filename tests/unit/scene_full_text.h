@@ -175,6 +175,13 @@ mass_kg = 0.8
 shape = "mesh"
 mesh = "corner.obj"
 scale = 0.5
+[solid.hammer]
+shape = "compound"
+parts = [
+    { shape = "cylinder", radius = 0.02, height = 0.3, density_kg_per_m3 = 600 },
+    { shape = "box", size = [0.12, 0.05, 0.05], edge = 0.001, position = [0, 0.15, 0], mass_kg = 1.5, finish = { colour = [0, 0, 1] } },
+    { shape = "mesh", mesh = "corner.obj", scale = 0.1, rotation_deg = [0, 0, 90] },
+]
 [[joint]]
 a = "rope.rail@end"
 b = "net.cradle@b"

@@ -195,6 +195,14 @@ std::vector<Body> buildBodies(const SceneSpec& spec) {
     return bodies;
 }
 
+std::vector<mechanics::RigidPart> surfacesOf(const Body& body) {
+    if (!body.model.parts.empty()) return body.model.parts;
+    mechanics::RigidPart whole;
+    whole.last = body.model.pointCount();
+    whole.thickness = body.spec->thickness;
+    return {whole};
+}
+
 double shortestEdge(const Body& body) {
     const mechanics::Model& model = body.model;
     double least = HUGE_VAL;

@@ -63,6 +63,9 @@ std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string&
 
 std::vector<Body*> pointersTo(std::vector<Body>& bodies);
 
+// What touches others each on its own: the parts of a rigid body; of others the whole, with the thickness of the spec.
+std::vector<mechanics::RigidPart> surfacesOf(const Body& body);
+
 // [m] Shortest edge at the start of what other bodies touch: triangles, or structural springs if there are none.
 // Infinite if there are no edges.
 double shortestEdge(const Body& body);

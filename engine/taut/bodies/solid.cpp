@@ -29,7 +29,13 @@ namespace {
 
 constexpr float creaseAngle = 0.6F;  // [rad] drawn edges of a mesh that are sharper stay sharp
 
-const std::vector<std::string> solidShapes{"box", "sphere", "capsule", "cylinder", "cone", "mesh", "hull"};
+enum class In { solid, compound };
+
+std::vector<std::string> shapeNames(In where) {
+    std::vector<std::string> names{"box", "sphere", "capsule", "cylinder", "cone", "mesh", "hull"};
+    if (where == In::solid) names.emplace_back("compound");
+    return names;
+}
 
 // Corner i is on the positive side of axis k if bit k of i is set.
 void addBox(const dvec3& half, mechanics::RigidShape& shape) {
@@ -70,7 +76,7 @@ void addPrism(double radius, double radiusAbove, double low, double high, mechan
         shape.triangles.push_back({b, top + a, top + b});
         shape.triangles.push_back({top, top + b, top + a});
     }
-    shape.revolution = {{0, top}, {radius, radiusAbove}, radius * (1.0 - core::cosine(core::pi / sides))};
+    shape.parts.back().revolution = {{0, top}, {radius, radiusAbove}, radius * (1.0 - core::cosine(core::pi / sides))};
 }
 
 // The least convex body around the points.
@@ -90,12 +96,47 @@ void addHull(std::span<const dvec3> points, mechanics::RigidShape& shape) {
     }
 }
 
-// Draws a rigid mesh where the inner points say.
+// A shape of a solid, as it is drawn.
+struct Piece {
+    view::Mesh mesh;
+    std::shared_ptr<const view::Finish> finish;
+    glm::mat4 place{1.0F};  // in the body's axes
+};
+
+view::Mesh meshOf(const SolidSpec& solid) {
+    const auto r = static_cast<float>(solid.radius), height = static_cast<float>(solid.height);
+    if (solid.shape == "sphere") return view::sphereMesh(r);
+    if (solid.shape == "capsule") return view::capsuleMesh(r, height);
+    if (solid.shape == "cylinder") return view::cylinderMesh(r, height);
+    if (solid.shape == "cone") return view::coneMesh(r, height);
+    if (solid.shape == "box") return view::boxMesh(0.5 * solid.size, static_cast<float>(solid.edge));
+    std::vector<glm::vec3> positions;
+    for (const dvec3& x : solid.meshData->positions) positions.emplace_back(solid.scale * x);
+    std::vector<std::uint32_t> triangles;
+    for (const auto& t : solid.meshData->triangles)
+        for (const int i : t) triangles.push_back(static_cast<std::uint32_t>(i));
+    return view::creasedMesh(positions, triangles, creaseAngle);
+}
+
+glm::mat4 placement(const glm::dmat3& axes, const dvec3& place) {
+    glm::mat4 matrix{glm::mat3(axes)};
+    matrix[3] = glm::vec4(glm::vec3(place), 1.0F);
+    return matrix;
+}
+
+glm::dmat3 axesOf(const SolidSpec& solid) {
+    const glm::dquat turn = rotationOf(solid.rotation);
+    return {rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1})};
+}
+
+// Draws rigid meshes where the inner points say.
 class SolidDrawing final : public BodyDrawing {
   public:
-    SolidDrawing(const Body& body, view::Mesh mesh)
-        : name_(body.fullName()), mesh_(std::move(mesh)), finish_(finishOf(body.spec->finish)) {
+    explicit SolidDrawing(const Body& body) : name_(body.fullName()) {
         const auto& spec = dynamic_cast<const SolidSpec&>(*body.spec);
+        if (spec.shape != "compound") pieces_.push_back({meshOf(spec), finishOf(spec.finish)});
+        for (const SolidSpec& part : spec.parts)
+            pieces_.push_back({meshOf(part), finishOf(part.finish), placement(axesOf(part), part.position)});
         const dvec3 origin = body.model.positions[0] - jitterOf(body, 0) -
                              (spec.build({}).positions[0] - spec.position);  // an array's copies each have their own
         const glm::dquat back = glm::conjugate(rotationOf(spec.rotation));
@@ -105,80 +146,131 @@ class SolidDrawing final : public BodyDrawing {
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
         const std::array<dvec3, 3> now{dvec3(positions[0]), dvec3(positions[2]), dvec3(positions[4])};
         const glm::dmat3 turn = mechanics::rotationBetween(rest_, now);
-        view::Surface surface;
-        surface.name = name_;
-        surface.topology = mesh_.topology;
-        surface.geometry = mesh_.geometry;
-        surface.finish = finish_;
-        surface.transform = glm::mat4(glm::mat3(turn));
-        surface.transform[3] = glm::vec4(glm::vec3(now[0] - turn * rest_[0]), 1.0F);
-        surfaces.push_back(std::move(surface));
+        const glm::mat4 transform = placement(turn, now[0] - turn * rest_[0]);
+        for (const Piece& piece : pieces_) {
+            view::Surface& surface = surfaces.emplace_back();
+            surface.name = name_;
+            surface.topology = piece.mesh.topology;
+            surface.geometry = piece.mesh.geometry;
+            surface.finish = piece.finish;
+            surface.transform = transform * piece.place;
+        }
     }
 
   private:
     std::string name_;
-    view::Mesh mesh_;
-    std::shared_ptr<const view::Finish> finish_;
-    std::array<dvec3, 3> rest_;  // [m] of three inner points, in the axes of the mesh
+    std::vector<Piece> pieces_;
+    std::array<dvec3, 3> rest_;  // [m] of three inner points, in the axes of the body
 };
+
+// The fields that a solid and a shape of a compound share.
+FieldList<SolidSpec> shapeFields(In where) {
+    FieldList<SolidSpec> list;
+    list.choice("shape", &SolidSpec::shape, shapeNames(where), "Its shape.")
+        .required()
+        .vector("size", &SolidSpec::size, "m", lengthRange, "Its three edges.")
+        .only({"box"})
+        .number("edge", &SolidSpec::edge, "m", notNegative, "Rounding of its edges as they are drawn.")
+        .only({"box"})
+        .number("radius", &SolidSpec::radius, "m", lengthRange, "Its radius.")
+        .only({"sphere", "capsule", "cylinder", "cone"})
+        .number("height", &SolidSpec::height, "m", lengthRange,
+                "Along y; of a capsule, between the centres of its half spheres.")
+        .only({"capsule", "cylinder", "cone"})
+        .text("mesh", &SolidSpec::mesh, Role::mesh, "OBJ or glTF file; its surfaces are closed, but for a hull.")
+        .required()
+        .only({"mesh", "hull"})
+        .number("scale", &SolidSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+        .only({"mesh", "hull"})
+        .vector("position", &SolidSpec::position, "m", placeRange, "Its centre; of a mesh the origin of its file.")
+        .rotation("rotation_deg", &SolidSpec::rotation, "About x, then y, then z.")
+        .number("density_kg_per_m3", &SolidSpec::density, "kg/m³", positive,
+                "Mass of a cubic metre; of a part, that of the compound if not given.")
+        .number("mass_kg", &SolidSpec::mass, "kg", positive, "Its mass, in place of the density.");
+    return list;
+}
+
+std::string shapeOf(const fields::Node& table) {
+    const fields::Member* named = table.find("shape");
+    return named != nullptr && named->value.kind == fields::NodeKind::text ? named->value.text : "";
+}
+
+// What has sharp edges and no thickness in the file gets one that fits.
+void checkThickness(const fields::CheckInput& input, SolidSpec& solid) {
+    if (solid.isRound()) {
+        solid.thickness = solid.radius;
+        return;
+    }
+    const double most = solid.mostThickness();
+    if (solid.thickness < most) return;
+    if (input.table.find("thickness") != nullptr)
+        input.problems.addError(input.at("thickness"),
+                                fmt::format("the thickness goes into the {} from all sides: it must be less than the "
+                                            "radius of the largest ball in it, {:.3g} m",
+                                            solid.shape, most));
+    else
+        solid.thickness = 0.2 * most;
+}
+
+void checkMass(const fields::CheckInput& input) {
+    if (input.table.find("mass_kg") != nullptr && input.table.find("density_kg_per_m3") != nullptr)
+        input.problems.addError(input.at("mass_kg"), "a solid has either mass_kg or density_kg_per_m3",
+                                "leave one out");
+}
+
+Section partSection() {
+    Section section;
+    section.variant = shapeOf;
+    section.variantKey = "shape";
+    section.fields =
+        shapeFields(In::compound)
+            .table("finish", &SolidSpec::finish, finishSection(), "How it looks; as the compound if not given.")
+            .take();
+    section.check = [](const fields::CheckInput& input, void*) { checkMass(input); };
+    return section;
+}
+
+// The parts take from the compound what they do not have of their own.
+void checkParts(const fields::CheckInput& input, SolidSpec& compound) {
+    const fields::Member* rows = input.table.find("parts");
+    if (compound.parts.empty() || rows == nullptr)
+        return input.problems.addError(input.at("parts"), "a compound needs parts");
+    for (std::size_t k = 0; k < compound.parts.size() && k < rows->value.items.size(); ++k) {
+        SolidSpec& part = compound.parts[k];
+        const fields::Node& row = rows->value.items[k];
+        if (row.find("density_kg_per_m3") == nullptr) part.density = compound.density;
+        if (row.find("finish") == nullptr) part.finish = compound.finish;
+        part.thickness = compound.thickness;
+        checkThickness(input, part);
+    }
+    compound.thickness = 0;
+    for (const SolidSpec& part : compound.parts) compound.thickness = std::max(compound.thickness, part.thickness);
+}
 
 }  // namespace
 
 Section SolidSpec::section() {
     Section section;
     section.help = "A rigid body.";
-    section.variant = [](const fields::Node& table) -> std::string {
-        const fields::Member* named = table.find("shape");
-        return named != nullptr && named->value.kind == fields::NodeKind::text ? named->value.text : "";
-    };
+    section.variant = shapeOf;
     section.variantKey = "shape";
-    section.fields =
-        FieldList<SolidSpec>()
-            .choice("shape", &SolidSpec::shape, solidShapes, "Its shape.")
-            .required()
-            .vector("size", &SolidSpec::size, "m", lengthRange, "Its three edges.")
-            .only({"box"})
-            .number("edge", &SolidSpec::edge, "m", notNegative, "Rounding of its edges as they are drawn.")
-            .only({"box"})
-            .number("radius", &SolidSpec::radius, "m", lengthRange, "Its radius.")
-            .only({"sphere", "capsule", "cylinder", "cone"})
-            .number("height", &SolidSpec::height, "m", lengthRange,
-                    "Along y; of a capsule, between the centres of its half spheres.")
-            .only({"capsule", "cylinder", "cone"})
-            .text("mesh", &SolidSpec::mesh, Role::mesh, "OBJ or glTF file; its surfaces are closed, but for a hull.")
-            .required()
-            .only({"mesh", "hull"})
-            .number("scale", &SolidSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-            .only({"mesh", "hull"})
-            .vector("position", &SolidSpec::position, "m", placeRange, "Its centre; of a mesh the origin of its file.")
-            .rotation("rotation_deg", &SolidSpec::rotation, "About x, then y, then z.")
-            .number("density_kg_per_m3", &SolidSpec::density, "kg/m³", positive, "Mass of a cubic metre.")
-            .number("mass_kg", &SolidSpec::mass, "kg", positive, "Its mass, in place of the density.")
-            .number("drag_per_s", &SolidSpec::drag, "1/s", dragRange, "Rate at which still air slows it.")
-            .take();
+    section.fields = shapeFields(In::solid)
+                         .tables("parts", &SolidSpec::parts, partSection(), "Shapes joined into one.")
+                         .required()
+                         .only({"compound"})
+                         .number("drag_per_s", &SolidSpec::drag, "1/s", dragRange, "Rate at which still air slows it.")
+                         .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& solid = *static_cast<SolidSpec*>(target);
-        if (input.table.find("mass_kg") != nullptr && input.table.find("density_kg_per_m3") != nullptr)
-            input.problems.addError(input.at("mass_kg"), "a solid has either mass_kg or density_kg_per_m3",
-                                    "leave one out");
-        if (solid.isRound()) {
-            solid.thickness = solid.radius;
-            if (input.table.find("thickness") != nullptr)
-                input.problems.addError(input.at("thickness"),
-                                        fmt::format("the thickness of a {} is its radius", solid.shape),
-                                        "leave thickness out");
-            return;
-        }
-        const double most = solid.mostThickness();
-        if (!(solid.thickness < most)) {
-            if (input.table.find("thickness") != nullptr)
-                input.problems.addError(input.at("thickness"),
-                                        fmt::format("the thickness goes into the {} from all sides: it must be less "
-                                                    "than the radius of the largest ball in it, {:.3g} m",
-                                                    solid.shape, most));
-            else
-                solid.thickness = 0.2 * most;
-        }
+        checkMass(input);
+        if (solid.isRound() && input.table.find("thickness") != nullptr)
+            input.problems.addError(input.at("thickness"),
+                                    fmt::format("the thickness of a {} is its radius", solid.shape),
+                                    "leave thickness out");
+        if (solid.shape != "compound")
+            checkThickness(input, solid);
+        else if (input.isClean)
+            checkParts(input, solid);
     };
     return section;
 }
@@ -190,9 +282,25 @@ double SolidSpec::mostThickness() const {
     return HUGE_VAL;
 }
 
-mechanics::Model SolidSpec::build(const SceneSpec&) const {
+std::vector<const BodySpec*> SolidSpec::shapes() const {
+    std::vector<const BodySpec*> all{this};
+    for (const SolidSpec& part : parts) all.push_back(&part);
+    return all;
+}
+
+// Its shape at its place.
+mechanics::RigidShape SolidSpec::made() const {
     mechanics::RigidShape made;
-    if (shape == "sphere") {
+    mechanics::RigidPart& part = made.parts.emplace_back();
+    part.thickness = thickness;
+    const bool isRounded = shape != "mesh" && shape != "hull";
+    part.rounding = isRounded ? thickness : 0.0;
+    if (shape == "compound") {
+        if (parts.empty()) throw core::Error(core::ErrorKind::badContent, at(source) + "a compound needs parts");
+        made.parts.clear();
+        made.mass = 0;
+        for (const SolidSpec& own : parts) join(made, own.made());
+    } else if (shape == "sphere") {
         made.positions = {dvec3(0.0)};
         made.properties = mechanics::massPropertiesOfBall(radius);
     } else if (shape == "capsule") {
@@ -207,7 +315,7 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
         addPrism(radius - thickness * (side + radius) / height, 0.0, thickness - 0.5 * height,
                  0.5 * height - thickness * side / radius, made);
         made.properties = mechanics::massPropertiesOfCone(radius, height);
-    } else if (shape != "box" && meshData != nullptr) {
+    } else if (!isRounded && meshData != nullptr) {
         std::vector<dvec3> points;
         for (const dvec3& x : meshData->positions) points.push_back(scale * x);
         try {
@@ -227,38 +335,41 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
         made.properties = mechanics::massPropertiesOf(made.positions, made.triangles);
         for (dvec3& corner : made.positions) corner -= thickness * glm::sign(corner);
     }
-    made.mass = mass.value_or(density * made.properties.volume);
-    const glm::dquat turn = rotationOf(rotation);
-    made.axes = glm::dmat3(rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1}));
+    if (shape != "compound") {
+        made.parts.back().last = static_cast<int>(made.positions.size());
+        made.mass = density * made.properties.volume;
+    }
+    made.mass = mass.value_or(made.mass);
+    made.axes = axesOf(*this);
     made.place = position;
-    made.dragRate = drag;
-    mechanics::Model model = mechanics::buildRigid(made);
-    if (const int top = model.revolution.ends[1]; top >= 0)
-        for (int i = mechanics::innerPoints; i < model.pointCount(); ++i)
-            model.groups[i < top ? "bottom" : "top"].push_back(i);
-    if (shape != "box") return model;
-    static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
-    for (int i = 0; i < 8; ++i)
-        for (int k = 0; k < 3; ++k) model.groups[sides[k][(i >> k) & 1]].push_back(mechanics::innerPoints + i);
+    return made;
+}
+
+mechanics::Model SolidSpec::build(const SceneSpec&) const {
+    mechanics::RigidShape whole = made();
+    whole.dragRate = drag;
+    mechanics::Model model = mechanics::buildRigid(whole);
+    // Points of a shape by the side that they are on.
+    const auto addSides = [&](const SolidSpec& of, const mechanics::RigidPart& part, const std::string& prefix) {
+        static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
+        const int top = part.revolution.ends[1];
+        for (int i = part.first; i < part.last; ++i) {
+            if (top >= 0) model.groups[prefix + (i < top ? "bottom" : "top")].push_back(i);
+            for (int k = 0; k < 3 && of.shape == "box"; ++k)
+                model.groups[prefix + sides[k][((i - part.first) >> k) & 1]].push_back(i);
+        }
+    };
+    if (parts.empty()) addSides(*this, model.parts.front(), "");
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const std::string group = fmt::format("part{}", k);
+        for (int i = model.parts[k].first; i < model.parts[k].last; ++i) model.groups[group].push_back(i);
+        addSides(parts[k], model.parts[k], group + "-");
+    }
     return model;
 }
 
 std::unique_ptr<BodyDrawing> SolidSpec::drawing(const Body& body) const {
-    const auto r = static_cast<float>(radius);
-    if (shape == "sphere") return std::make_unique<SolidDrawing>(body, view::sphereMesh(r));
-    if (shape == "capsule")
-        return std::make_unique<SolidDrawing>(body, view::capsuleMesh(r, static_cast<float>(height)));
-    if (shape == "cylinder")
-        return std::make_unique<SolidDrawing>(body, view::cylinderMesh(r, static_cast<float>(height)));
-    if (shape == "cone") return std::make_unique<SolidDrawing>(body, view::coneMesh(r, static_cast<float>(height)));
-    if (shape == "box")
-        return std::make_unique<SolidDrawing>(body, view::boxMesh(0.5 * size, static_cast<float>(edge)));
-    std::vector<glm::vec3> positions;
-    for (const dvec3& x : meshData->positions) positions.emplace_back(scale * x);
-    std::vector<std::uint32_t> triangles;
-    for (const auto& t : meshData->triangles)
-        for (const int i : t) triangles.push_back(static_cast<std::uint32_t>(i));
-    return std::make_unique<SolidDrawing>(body, view::creasedMesh(positions, triangles, creaseAngle));
+    return std::make_unique<SolidDrawing>(body);
 }
 
 Kind<BodySpec> solidKind() {

@@ -1,6 +1,7 @@
 // A rigid body.
 #pragma once
 
+#include "taut/mechanics/rigid.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
 
@@ -10,7 +11,7 @@ namespace taut::world {
 // thickness.
 struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     static constexpr const char* kindName = "solid";
-    std::string shape = "box";   // box, sphere, capsule, cylinder, cone, mesh, hull
+    std::string shape = "box";   // box, sphere, capsule, cylinder, cone, mesh, hull, compound
     dvec3 size{0.5, 0.5, 0.5};   // [m] of a box
     double radius = 0.25;        // [m]
     double height = 0.5;         // [m] of a cylinder or cone; of a capsule between the centres of its half spheres
@@ -21,6 +22,9 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     std::optional<double> mass;  // [kg]; none: by its density
     double drag = 0.0;           // [1/s]
     double edge = 0.0;           // [m] rounding of a drawn box's edges
+    // Of a compound: the shapes that it is made of, with places in it and own sizes, thicknesses, masses and looks. Its
+    // density says nothing, and its mass is theirs if it has none.
+    std::vector<SolidSpec> parts;
 
     SolidSpec() { touch = Touch::others, thickness = 0.002; }
     bool isRound() const { return shape == "sphere" || shape == "capsule"; }
@@ -29,9 +33,12 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     bool isRigid() const override { return true; }
-    double rounding() const override { return shape == "mesh" || shape == "hull" ? 0.0 : thickness; }
     std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
     const MeshSource* meshSource() const override { return this; }
+    std::vector<const BodySpec*> shapes() const override;
+
+  private:
+    mechanics::RigidShape made() const;
 };
 
 }  // namespace taut::world

@@ -467,7 +467,6 @@ class RigidStep {
 
 void stepRigidly(std::span<Row> rows, std::span<const RigidSlots> solids, const Levers& levers, double tolerance,
                  std::span<Four> velocities) {
-    if (getenv("NOSTEP")) return;
     RigidStep(rows, solids, levers, tolerance, velocities).run();
 }
 

@@ -19,17 +19,21 @@ using fields::Section;
 
 namespace {
 
-// The triangles of a body, or, where it has none, its springs as rods and the ends of a round solid as balls.
-void addTo(mechanics::WindTargets& targets, const Body& body) {
+// The triangles of a surface, or, where it has none, its springs as rods and the ends of a round solid as balls.
+void addTo(mechanics::WindTargets& targets, const Body& body, const mechanics::RigidPart& surface) {
     const mechanics::Model& model = body.model;
     const bool hasInside = body.spec->isRigid() || !model.cells.empty();
     const auto pointOf = [&](int i) { return body.pointOf[static_cast<std::size_t>(i)]; };
-    const double rounding = body.spec->rounding();
+    const auto isOfSurface = [&](int i) { return i >= surface.first && i < surface.last; };
+    const double rounding = surface.rounding;
     std::vector<dvec3> rounded;  // corners of faces that lie farther out than the triangles
     if (rounding > 0) rounded = mechanics::withFacesOutward(model.positions, model.triangles, rounding);
+    bool hasTriangles = false;
     for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-        if (body.damage.isTriangleGone(t)) continue;
         const std::array<int, 3>& corners = model.triangles[t];
+        if (!isOfSurface(corners[0])) continue;
+        hasTriangles = true;
+        if (body.damage.isTriangleGone(t)) continue;
         const auto areaOf = [&](std::span<const dvec3> x) {
             const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(corners[k])]; };
             return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
@@ -39,14 +43,15 @@ void addTo(mechanics::WindTargets& targets, const Body& body) {
         targets.sides.push_back((hasInside ? 0.5 : 1.0) * (rounding > 0 ? areaOf(rounded) / area : 1.0));
         targets.plateAir.push_back(model.plateAir * area);
     }
-    if (!model.triangles.empty()) return;
-    const double radius = body.spec->thickness;
+    if (hasTriangles) return;
+    const double radius = surface.thickness;
     for (const mechanics::Spring& spring : model.springs)
-        if (spring.kind == mechanics::SpringKind::structural && !body.damage.isSevered(spring.a, spring.b))
+        if (isOfSurface(spring.a) && spring.kind == mechanics::SpringKind::structural &&
+            !body.damage.isSevered(spring.a, spring.b))
             targets.rounds.push_back({.a = pointOf(spring.a), .b = pointOf(spring.b), .width = 2 * radius});
     if (!body.spec->isRigid()) return;
-    const int ends = model.pointCount() - model.innerPoints;
-    for (int i = model.innerPoints; i < model.pointCount(); ++i)
+    const int ends = surface.last - surface.first;
+    for (int i = surface.first; i < surface.last; ++i)
         targets.rounds.push_back({.a = pointOf(i), .b = pointOf(i), .area = core::pi * radius * radius / ends});
 }
 
@@ -67,7 +72,7 @@ class WindForce final : public ForceOf<WindForce> {
         for (const Body* body : plan.bodies) {
             if (!actsOn(*body)) continue;
             doesFlutter = doesFlutter || body->model.plateAir > 0;
-            addTo(targets, *body);
+            for (const mechanics::RigidPart& surface : surfacesOf(*body)) addTo(targets, *body, surface);
         }
         if (targets.triangles.empty() && targets.rounds.empty()) return nullptr;
         if (!doesFlutter) targets.plateAir.clear();

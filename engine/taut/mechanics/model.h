@@ -119,6 +119,14 @@ struct Revolution {
     double sag = 0;                     // [m] how far it is outside of its triangles at most
 };
 
+// What of a rigid body touches others as one surface: all of it, or one of the shapes that it is made of.
+struct RigidPart {
+    int first = 0, last = 0;  // points
+    double thickness = 0;     // [m] that it keeps from others beyond its points and triangles
+    double rounding = 0;      // [m] how far beyond them it ends as it is drawn
+    Revolution revolution;
+};
+
 struct Model {
     // (points)
     std::vector<glm::dvec3> positions;   // [m]
@@ -130,7 +138,7 @@ struct Model {
     std::vector<bool> held;              // inverse mass 0
     std::vector<glm::dvec2> uv;          // [m] along the material; (0, 0) where it has none
     int innerPoints = 0;                 // the first points touch nothing: a rigid body's (rigid.h)
-    Revolution revolution;
+    std::vector<RigidPart> parts;        // of a rigid body, in the order of points and triangles
 
     std::vector<Spring> springs;
     std::vector<std::array<int, 3>> triangles;  // the surface, counter-clockwise seen from its front; empty for ropes

@@ -31,6 +31,14 @@ bool factor(const dmat3& s, dmat3& l) {
     return true;
 }
 
+RigidPart shifted(RigidPart part, int points) {
+    part.first += points;
+    part.last += points;
+    if (part.revolution.ends[0] >= 0)
+        for (int& end : part.revolution.ends) end += points;
+    return part;
+}
+
 dmat3 turnedBy(const dvec3& angle) {
     const double w = 1.0 / std::sqrt(1.0 + 0.25 * glm::dot(angle, angle));
     const dvec3 q = (0.5 * w) * angle;
@@ -98,6 +106,24 @@ MassProperties massPropertiesOfCone(double radius, double height) {
     return {volume, {0.0, -0.25 * height, 0.0}, dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
 }
 
+void join(RigidShape& compound, const RigidShape& shape) {
+    const int first = static_cast<int>(compound.positions.size());
+    for (const dvec3& x : shape.positions) compound.positions.push_back(shape.place + shape.axes * x);
+    for (const auto& [a, b, c] : shape.triangles) compound.triangles.push_back({first + a, first + b, first + c});
+    for (const auto& [a, b] : shape.lines) compound.lines.push_back({first + a, first + b});
+    for (const RigidPart& part : shape.parts) compound.parts.push_back(shifted(part, first));
+    MassProperties& all = compound.properties;
+    const MassProperties& own = shape.properties;
+    const double mass = compound.mass + shape.mass, volume = all.volume + own.volume;
+    const dvec3 centre = shape.place + shape.axes * own.centre;
+    const dvec3 between = centre - all.centre;
+    dmat3 spread = (shape.mass / own.volume) * (shape.axes * own.spread * glm::transpose(shape.axes));  // [kg m²]
+    if (compound.mass > 0) spread += (compound.mass / all.volume) * all.spread;
+    spread += (compound.mass * shape.mass / mass) * outer(between, between);
+    all = {volume, all.centre + (shape.mass / mass) * between, (volume / mass) * spread};
+    compound.mass = mass;
+}
+
 Model buildRigid(const RigidShape& shape) {
     const std::size_t count = shape.positions.size();
     const double density = shape.mass / shape.properties.volume;
@@ -148,9 +174,7 @@ Model buildRigid(const RigidShape& shape) {
     for (int i = 0; i < model.pointCount(); ++i) model.groups["all"].push_back(i);
     for (int i = 0; i < innerPoints; ++i) model.groups["inner"].push_back(i);
     model.innerPoints = innerPoints;
-    model.revolution = shape.revolution;
-    if (shape.revolution.ends[0] >= 0)
-        for (int& end : model.revolution.ends) end += innerPoints;
+    for (const RigidPart& part : shape.parts) model.parts.push_back(shifted(part, innerPoints));
     return model;
 }
 

@@ -33,13 +33,15 @@ struct RigidShape {
     std::vector<dvec3> positions;  // [m] of what touches, in the body's own axes
     std::vector<std::array<int, 3>> triangles;
     std::vector<std::array<int, 2>> lines;  // a capsule's
-    Revolution revolution;
-    MassProperties properties;
-    double mass = 1;      // [kg]
-    dmat3 axes{1.0};      // columns: the body's axes in the scene
-    dvec3 place{0.0};     // [m] of its origin
-    double dragRate = 0;  // [1/s]
+    std::vector<RigidPart> parts;           // of these positions
+    MassProperties properties;              // mass / volume times its spread is the spread of its mass
+    double mass = 1;                        // [kg]
+    dmat3 axes{1.0};                        // columns: the body's axes in the scene
+    dvec3 place{0.0};                       // [m] of its origin
+    double dragRate = 0;                    // [1/s]
 };
+// Makes a shape a part of a compound, which has no mass before its first. Shapes that overlap weigh twice there.
+void join(RigidShape& compound, const RigidShape& shape);
 // The points of a rigid model come after six inner ones that touch nothing: they have nearly all of the mass, stand in
 // pairs on both sides of the centre, and make mass, centre and inertia those of the body.
 inline constexpr int innerPoints = 6;

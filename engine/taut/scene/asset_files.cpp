@@ -177,8 +177,11 @@ void useState(const Asset& asset, Place place, world::RunSpec& run, Problems& pr
 // Replaces names by what was found.
 void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
     for (world::BodySpec& body : scene.spec.bodies) {
-        if (world::MeshSource* source = body.meshSource()) {
-            setMesh(*source, meshes);
+        for (world::BodySpec* shape : body.shapes()) {
+            if (world::MeshSource* own = shape->meshSource()) setMesh(*own, meshes);
+            setTexture(shape->finish.texture, textures);
+        }
+        if (const world::MeshSource* source = body.meshSource()) {
             if (body.finish.weave > 0 && source->meshData != nullptr && source->meshData->uv.empty()) {
                 body.finish.weave = 0;
                 problems.addWarning(
@@ -188,7 +191,6 @@ void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, P
             }
         }
         if (auto* block = dynamic_cast<world::BlockSpec*>(&body)) fillMesh(scene, *block, problems);
-        setTexture(body.finish.texture, textures);
         setSkin(scene.owners.at(body.fullName()), body, meshes, problems);
     }
     warnOfLostDirections(scene, problems);

@@ -104,7 +104,8 @@ StateKeys::StateKeys(const Node& root, const world::SceneSpec& spec) {
                                    spec.run.startState->bytes.size()));
     }
     for (const world::BodySpec& body : spec.bodies)
-        if (const world::MeshSource* source = body.meshSource()) add(source->meshData.get(), state);
+        for (const world::BodySpec* shape : body.shapes())
+            if (const world::MeshSource* source = shape->meshSource()) add(source->meshData.get(), state);
     for (const world::ColliderSpec& collider : spec.colliders) {
         add(collider.meshData.get(), state);
         for (const world::ColliderSpec& part : collider.parts) add(part.meshData.get(), state);

@@ -45,11 +45,12 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
     for (const std::string& fabric : scene.fabrics) files.add(fabric);
     files.add(scene.run.start);
     files.add(scene.environment.image);
-    for (const world::BodySpec& body : scene.bodies) {
-        if (const world::MeshSource* mesh = body.meshSource()) files.add(mesh->mesh);
-        files.add(body.finish.skin);
-        files.add(body.finish.texture);
-    }
+    for (const world::BodySpec& body : scene.bodies)
+        for (const world::BodySpec* shape : body.shapes()) {
+            if (const world::MeshSource* mesh = shape->meshSource()) files.add(mesh->mesh);
+            files.add(shape->finish.skin);
+            files.add(shape->finish.texture);
+        }
     for (const world::ColliderSpec& collider : scene.colliders) {
         files.add(collider.mesh);
         if (collider.meshData != nullptr)
@@ -66,10 +67,11 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
 std::vector<UsedFile> pictureFiles(const world::SceneSpec& scene) {
     Files files;
     files.add(scene.environment.image);
-    for (const world::BodySpec& body : scene.bodies) {
-        files.add(body.finish.skin);
-        files.add(body.finish.texture);
-    }
+    for (const world::BodySpec& body : scene.bodies)
+        for (const world::BodySpec* shape : body.shapes()) {
+            files.add(shape->finish.skin);
+            files.add(shape->finish.texture);
+        }
     for (const world::ColliderSpec& collider : scene.colliders) {
         files.add(collider.finish.texture);
         for (const world::ColliderSpec& part : collider.parts)

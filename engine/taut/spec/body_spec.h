@@ -114,8 +114,6 @@ struct BodySpec {
     virtual mechanics::Model build(const SceneSpec& scene) const = 0;
     // Whether its points keep their distances, so that what presses one presses all.
     virtual bool isRigid() const { return false; }
-    // [m] How far from the points and triangles of its model it ends.
-    virtual double rounding() const { return 0.0; }
     // Whether a surface that goes with its points meets others in their place.
     virtual bool hasCarriedSurface() const { return false; }
     // Whether it meets colliders in contact with bodies, not point by point as its island moves.
@@ -137,6 +135,13 @@ struct BodySpec {
     // The mesh file from which it is made, or null.
     virtual const MeshSource* meshSource() const { return nullptr; }
     MeshSource* meshSource() { return const_cast<MeshSource*>(std::as_const(*this).meshSource()); }
+    // Itself, and what it is made of: each has a mesh file and a look.
+    virtual std::vector<const BodySpec*> shapes() const { return {this}; }
+    std::vector<BodySpec*> shapes() {
+        std::vector<BodySpec*> all;
+        for (const BodySpec* shape : std::as_const(*this).shapes()) all.push_back(const_cast<BodySpec*>(shape));
+        return all;
+    }
 };
 
 }  // namespace taut::world

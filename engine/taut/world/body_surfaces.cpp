@@ -16,8 +16,8 @@ namespace taut::world {
 namespace {
 
 // The surface with the body's model numbers plus `offset`, whatever the island numbers.
-contact::ContactSurface loneSurface(const Body& body, int offset, int bond) {
-    contact::ContactSurface surface = surfaceOf(body, 0, bond);
+contact::ContactSurface loneSurface(const Body& body, const mechanics::RigidPart& part, int offset, int bond) {
+    contact::ContactSurface surface = surfaceOf(body, part, 0, bond);
     std::vector<int> own;
     for (std::size_t i = 0; i < body.pointOf.size(); ++i) {
         own.resize(std::max(own.size(), static_cast<std::size_t>(body.pointOf[i]) + 1));
@@ -51,13 +51,15 @@ BodySurfaces::BodySurfaces(const Selection& first, const Selection& second) : ge
     TAUT_EXPECTS(first.generation == second.generation);
     const auto add = [&](const Selection& selection, std::vector<bool>& isOf) {
         for (const Selection::Part& part : selection.parts) {
-            auto at = std::find(bodies_.begin(), bodies_.end(), part.body);
-            if (at == bodies_.end()) {
-                at = bodies_.insert(bodies_.end(), part.body);
-                isFirst_.push_back(false);
-                isSecond_.push_back(false);
-            }
-            isOf[static_cast<std::size_t>(at - bodies_.begin())] = true;
+            if (std::find(bodies_.begin(), bodies_.end(), part.body) == bodies_.end())
+                for (const mechanics::RigidPart& surface : surfacesOf(*part.body)) {
+                    bodies_.push_back(part.body);
+                    parts_.push_back(surface);
+                    isFirst_.push_back(false);
+                    isSecond_.push_back(false);
+                }
+            for (std::size_t s = 0; s < bodies_.size(); ++s)
+                if (bodies_[s] == part.body) isOf[s] = true;
         }
     };
     add(first, isFirst_);
@@ -68,19 +70,19 @@ BodySurfaces::BodySurfaces(const Selection& first, const Selection& second) : ge
 void BodySurfaces::build() {
     std::vector<contact::ContactSurface> surfaces;
     std::vector<glm::dvec3> rest;
-    for (const Body* body : bodies_) {
-        const int number = static_cast<int>(surfaces.size());
-        surfaces.push_back(loneSurface(*body, static_cast<int>(rest.size()), number));
-        const std::vector<glm::dvec3>& start = body->model.positions;
-        rest.insert(rest.end(), start.begin(), start.end());
+    first_.clear();
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+        const bool isNext = s > 0 && bodies_[s] == bodies_[s - 1];
+        first_.push_back(isNext ? first_.back() : static_cast<int>(rest.size()));
+        surfaces.push_back(loneSurface(*bodies_[s], parts_[s], first_[s], static_cast<int>(s)));
+        const std::vector<glm::dvec3>& start = bodies_[s]->model.positions;
+        if (!isNext) rest.insert(rest.end(), start.begin(), start.end());
     }
     const int firstCarried = static_cast<int>(rest.size());
     std::vector<contact::CarriedPoint> carried;
-    int first = 0;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
-        const auto numberOf = [&](int i) { return first + i; };
+        const auto numberOf = [&](int i) { return first_[s] + i; };
         carry(carriedSurface(*bodies_[s]), numberOf, surfaces[s], rest, carried);
-        first += bodies_[s]->model.pointCount();
     }
     carried_ = {firstCarried, std::move(carried)};
     damage_.assign(bodies_.size(), 0);
@@ -92,12 +94,12 @@ void BodySurfaces::build() {
 
 void BodySurfaces::look() {
     if (goneAroundIn(bodies_) != goneAround_) build();
-    std::size_t offset = 0;
     bool isOther = false;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         const Body& body = *bodies_[s];
-        const int first = static_cast<int>(offset);
-        for (int i : body.pointOf) x_[offset++] = body.island->position(i);
+        const int first = first_[s];
+        for (std::size_t i = 0; i < body.pointOf.size(); ++i)
+            x_[static_cast<std::size_t>(first) + i] = body.island->position(body.pointOf[i]);
         const std::vector<int>& points = elements_->surface(static_cast<int>(s)).points;
         const bool isCarried = !points.empty() && carried_.has(points.front());  // until torn, and built anew
         if (isCarried || damage_[s] == body.damage.edges().size()) continue;
@@ -139,10 +141,12 @@ double BodySurfaces::least(std::vector<bool> first, const std::vector<bool>& sec
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         if (!first[s] || !second[s]) continue;
-        first[s] = false;
         std::vector<bool> alone(bodies_.size(), false), others = second;
-        alone[s] = true;
-        others[s] = false;
+        for (std::size_t own = 0; own < bodies_.size(); ++own)
+            if (bodies_[own] == bodies_[s]) {
+                alone[own] = first[own];
+                first[own] = others[own] = false;
+            }
         least = std::min(least, distance(alone, others));
     }
     return std::min(least, distance(first, second));
@@ -167,7 +171,7 @@ void BodySurfaces::forRadii(const Radius& radius, const Each& each) {
 double BodySurfaces::gap() {
     look();
     double gap = std::numeric_limits<double>::infinity();
-    forRadii([&](std::size_t s) { return bodies_[s]->spec->rounding(); },
+    forRadii([&](std::size_t s) { return parts_[s].rounding; },
              [&](double a, double b, double least) { gap = std::min(gap, std::max(0.0, least - a - b)); });
     return gap;
 }
@@ -184,15 +188,14 @@ bool BodySurfaces::areNear() {
 BodySurfaces::Place BodySurfaces::furthest(double up) {
     look();
     Place furthest{nullptr, {}};
-    std::size_t first = 0;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         const Body& body = *bodies_[s];
         const auto compare = [&](const glm::dvec3& x) {
-            const glm::dvec3 place = x + glm::dvec3(0.0, up * body.spec->rounding(), 0.0);
+            const glm::dvec3 place = x + glm::dvec3(0.0, up * parts_[s].rounding, 0.0);
             if (furthest.body == nullptr || !(up * place.y <= up * furthest.x.y)) furthest = {&body, place};
         };
-        if (const mechanics::Revolution& round = body.model.revolution; round.ends[0] >= 0) {
-            const auto end = [&](std::size_t k) { return x_[first + static_cast<std::size_t>(round.ends[k])]; };
+        if (const mechanics::Revolution& round = parts_[s].revolution; round.ends[0] >= 0) {
+            const auto end = [&](std::size_t k) { return x_[static_cast<std::size_t>(first_[s] + round.ends[k])]; };
             const glm::dvec3 axis = glm::normalize(end(1) - end(0));
             const glm::dvec3 across = glm::dvec3(0.0, 1.0, 0.0) - axis.y * axis;  // upwards, in the plane of an end
             const double length = glm::length(across);
@@ -201,7 +204,6 @@ BodySurfaces::Place BodySurfaces::furthest(double up) {
         } else {
             for (const int i : elements_->surface(static_cast<int>(s)).points) compare(x_[static_cast<std::size_t>(i)]);
         }
-        first += body.pointOf.size();
     }
     return furthest;
 }

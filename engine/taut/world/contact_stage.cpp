@@ -50,10 +50,11 @@ bool touches(const IslandPlan& plan) {
         plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return body->spec->facesMeet(); });
 }
 
-contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
+contact::ContactSurface surfaceOf(const Body& body, const mechanics::RigidPart& part, int offset, int bond) {
     const mechanics::Model& model = body.model;
+    const auto isOfPart = [&](int i) { return i >= part.first && i < part.last; };
     contact::ContactSurface surface;
-    surface.thickness = body.spec->thickness;
+    surface.thickness = part.thickness;
     surface.friction = body.spec->friction;
     surface.restitution = body.spec->restitution;
     surface.meetsItself = body.spec->touch == Touch::all;
@@ -64,16 +65,18 @@ contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     std::vector<std::array<int, 3>> triangles = model.triangles;
     const std::vector<std::array<int, 3>> bare = bareFaces(body);
     triangles.insert(triangles.end(), bare.begin(), bare.end());
+    std::erase_if(triangles, [&](const auto& t) { return !isOfPart(t[0]); });
     for (const std::array<int, 3>& t : triangles) surface.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
-    std::vector<bool> isOutside(model.positions.size(), model.triangles.empty());
+    std::vector<bool> isOutside(model.positions.size(), triangles.empty());
     for (const std::array<int, 3>& t : triangles)
         for (int i : t) isOutside[static_cast<std::size_t>(i)] = true;
-    if (model.triangles.empty())
+    if (triangles.empty())
         for (const mechanics::Spring& s : model.springs)
-            if (s.kind == mechanics::SpringKind::structural) surface.lines.push_back({at(s.a), at(s.b)});
-    for (int i = model.innerPoints; i < model.pointCount(); ++i)
+            if (isOfPart(s.a) && s.kind == mechanics::SpringKind::structural)
+                surface.lines.push_back({at(s.a), at(s.b)});
+    for (int i = part.first; i < part.last; ++i)
         if (isOutside[static_cast<std::size_t>(i)]) surface.points.push_back(at(i));
-    if (const mechanics::Revolution& own = model.revolution; own.ends[0] >= 0) {
+    if (const mechanics::Revolution& own = part.revolution; own.ends[0] >= 0) {
         surface.revolution = {{at(own.ends[0]), at(own.ends[1])}, own.radii, own.sag};
         surface.thickness += own.sag;
     }
@@ -110,11 +113,14 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         rest.insert(rest.end(), start.begin(), start.end());
         for (const Body* body : island->plan().bodies) {
             if (!body->spec->facesMeet()) continue;
-            surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
-            surfaces.back().solid = solidOf(island->plan(), *body, static_cast<int>(solids_.size()));
-            if (body->spec->meetsCollidersAsWhole()) wholes_.push_back(static_cast<int>(bodies_.size()));
-            offsets.push_back(offset);
-            bodies_.push_back(body);
+            for (const mechanics::RigidPart& part : surfacesOf(*body)) {
+                surfaces.push_back(surfaceOf(*body, part, offset, static_cast<int>(islands_.size())));
+                surfaces.back().solid = solidOf(island->plan(), *body, static_cast<int>(solids_.size()));
+                if (body->spec->meetsCollidersAsWhole())
+                    wholes_.push_back({static_cast<int>(bodies_.size()), part.thickness});
+                offsets.push_back(offset);
+                bodies_.push_back(body);
+            }
             for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
                 const int point = offset + body->pointOf[i];
                 rest[static_cast<std::size_t>(point)] = body->model.positions[i] - jitterOf(*body, static_cast<int>(i));
@@ -195,7 +201,7 @@ ContactStage::Penetration ContactStage::penetration(const std::function<bool(con
     if (isEmpty()) return all;
     const auto isWanted = [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); };
     const std::vector<contact::Crossing>& now = crossings();  // places x1_
-    for (int whole : wholes_) {
+    for (const auto& [whole, thickness] : wholes_) {
         const Island& island = *bodyOf(whole).island;
         if (!isWanted(whole) || !bodyOf(whole).spec->collide || island.colliders().size() == 0) continue;
         for (int i : elements().surface(whole).points)
@@ -366,14 +372,14 @@ void ContactStage::takeSolids() {
     group_->setSolids(std::move(solids));
 }
 
-// Calls each(point, spec, surface) for the points of bodies that meet colliders as a whole which are now, came through
-// one in the last `past` [s], from x0_, or might be `ahead` [s] later, in contact with a collider.
+// Calls each(point, spec, thickness, surface) for the points of bodies that meet colliders as a whole which are now,
+// came through one in the last `past` [s], from x0_, or might be `ahead` [s] later, in contact with a collider.
 template <class Each>
 void ContactStage::forEachNearCollider(double past, double ahead, const Each& each) const {
     constexpr double nearShare = 0.05;  // of the thickness
     std::vector<collision::Colliders::Way> ways;
     std::vector<collision::Colliders::Surface> found;
-    for (int whole : wholes_) {
+    for (const auto& [whole, thickness] : wholes_) {
         const Island& island = *bodyOf(whole).island;
         const BodySpec& spec = *bodyOf(whole).spec;
         if (!spec.collide || island.isStill()) continue;
@@ -386,7 +392,7 @@ void ContactStage::forEachNearCollider(double past, double ahead, const Each& ea
         }
         found.clear();
         island.colliders().findNear(ways, surface.thickness, past, island.step(), found);
-        for (const auto& near : found) each(surface.points[near.way], spec, near);
+        for (const auto& near : found) each(surface.points[near.way], spec, thickness, near);
     }
 }
 
@@ -394,7 +400,7 @@ void ContactStage::forEachNearCollider(double past, double ahead, const Each& ea
 void ContactStage::addWholeContacts(double h) {
     forEachNearCollider(
         h, 0.0,
-        [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
+        [&](int i, const BodySpec& spec, double thickness, const collision::Colliders::Surface& surface) {
             const auto k = static_cast<std::size_t>(i);
             contact::KinematicContact& contact = kinematic_.emplace_back();
             contact.point = i;
@@ -403,12 +409,12 @@ void ContactStage::addWholeContacts(double h) {
             contact.speed = glm::dot(surface.away, surface.velocity);
             contact.friction = surface.material.friction * spec.friction;
             contact.isWhole = true;
-            contact.thickness = spec.thickness;
+            contact.thickness = thickness;
             contact.restitution = surface.material.restitution * spec.restitution;
             // Where it came from, so that what it goes in this instant is no overlap.
             const dvec3 from = contact::ridgeAt(elements(), i, surface.away, x0_);
             contact.aside = from - x0_[k];
-            contact.gap = surface.distance - spec.thickness + glm::dot(surface.away, from - x1_[k]) + h * contact.speed;
+            contact.gap = surface.distance - thickness + glm::dot(surface.away, from - x1_[k]) + h * contact.speed;
         });
     std::stable_sort(kinematic_.begin(), kinematic_.end(),
                      [](const auto& a, const auto& b) { return a.point < b.point; });
@@ -416,15 +422,15 @@ void ContactStage::addWholeContacts(double h) {
 
 // Whole bodies meet colliders, and solids turn and roll, in no fewer instants than bodies that press each other.
 void ContactStage::foreseeWholes(contact::Forecast& forecast) const {
-    for (int whole : wholes_)
+    for (const auto& [whole, thickness] : wholes_)
         if (bodyOf(whole).spec->isRigid() && !bodyOf(whole).island->isStill()) forecast.isInContact = true;
     forEachNearCollider(0.0, tickSeconds_,
-                        [&](int i, const BodySpec& spec, const collision::Colliders::Surface& surface) {
+                        [&](int i, const BodySpec&, double thickness, const collision::Colliders::Surface& surface) {
                             forecast.isInContact = true;
                             forecast.surfaces.push_back(elements().surfaceOf(i));
                             const dvec3 velocity = v_[static_cast<std::size_t>(i)] - surface.velocity;
                             forecast.closing = std::max(forecast.closing, -glm::dot(surface.away, velocity));
-                            forecast.leastThickness = std::min(forecast.leastThickness, spec.thickness);
+                            forecast.leastThickness = std::min(forecast.leastThickness, thickness);
                         });
     std::sort(forecast.surfaces.begin(), forecast.surfaces.end());
     forecast.surfaces.erase(std::unique(forecast.surfaces.begin(), forecast.surfaces.end()), forecast.surfaces.end());

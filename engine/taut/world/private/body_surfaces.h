@@ -1,7 +1,7 @@
 // The surfaces of whole bodies as they are now; made once, for many questions. Bodies need not touch.
 //
 // A cloth, a rope or a net ends at its points, without its thickness. A solid ends where it is drawn, with edges
-// rounded by its thickness (BodySpec::rounding()). A block that is made of a mesh ends at that, until it is torn.
+// rounded by its thickness (mechanics::RigidPart). A block that is made of a mesh ends at that, until it is torn.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "taut/contact/bvh.h"
 #include "taut/contact/carried_points.h"
 #include "taut/contact/elements.h"
+#include "taut/mechanics/model.h"
 #include "taut/world/world_info.h"
 
 namespace taut::world {
@@ -49,7 +50,10 @@ class BodySurfaces {
     Place furthest(double up);
 
     std::int64_t generation_;
-    std::vector<const Body*> bodies_;       // (surfaces)
+    // (surfaces) those of one body one after the other
+    std::vector<const Body*> bodies_;
+    std::vector<mechanics::RigidPart> parts_;
+    std::vector<int> first_;                // first point of the body
     std::vector<std::size_t> damage_;       // (surfaces) number of severed edges taken into account
     std::size_t goneAround_ = 0;            // of all bodies
     std::vector<bool> isFirst_, isSecond_;  // (surfaces)

@@ -46,8 +46,8 @@ int fewestInstants(double tickSeconds);
 // Whether any body of the plan may touch other bodies, itself, or edges of colliders.
 bool touches(const IslandPlan& plan);
 
-// The surface of a body. Its points have their island numbers plus `offset`.
-contact::ContactSurface surfaceOf(const Body& body, int offset, int bond);
+// One of surfacesOf(body). Its points have their island numbers plus `offset`.
+contact::ContactSurface surfaceOf(const Body& body, const mechanics::RigidPart& part, int offset, int bond);
 
 // Puts what a body carries in place of its surface, if it carries any: its points follow those that are there in
 // `rest`. numberOf(point of the model): in `rest`.
@@ -176,8 +176,12 @@ class ContactStage {
     std::vector<Part> parts_;               // (islands)
     std::vector<const Body*> bodies_;       // (surfaces)
     std::vector<std::vector<int>> solids_;  // their points in the group, ascending
-    std::vector<int> wholes_;               // surfaces of bodies that meet colliders as a whole
-    std::vector<std::size_t> damage_;       // (surfaces) number of severed edges taken into the elements
+    struct Whole {
+        int surface;
+        double thickness;  // [m] without its sag
+    };
+    std::vector<Whole> wholes_;        // of bodies that meet colliders as a whole
+    std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements
     ColliderSurfaces colliders_;
     std::unique_ptr<contact::ContactGroup> group_;
     bool hasJumped_ = true;

@@ -58,6 +58,7 @@ Section BlockSpec::section() {
         .number("bulk_Pa", &BlockSpec::bulk, "Pa", notNegative,
                 "In place of poisson: a pressure that resists a change of volume, added to springs of young_Pa, whose "
                 "ratio is 1/4. 0: springs alone.")
+        .inPlaceOf("poisson")
         .ramps(Affects::springs)
         .number("working_stretch", &BlockSpec::workingStretch, "", Range{1.0, 100.0},
                 "Stretch up to which the step must hold.");

@@ -186,7 +186,8 @@ FieldList<SolidSpec> shapeFields(In where) {
         .rotation("rotation_deg", &SolidSpec::rotation, "About x, then y, then z.")
         .number("density_kg_per_m3", &SolidSpec::density, "kg/m³", positive,
                 "Mass of a cubic metre; of a part, that of the compound if not given.")
-        .number("mass_kg", &SolidSpec::mass, "kg", positive, "Its mass, in place of the density.");
+        .number("mass_kg", &SolidSpec::mass, "kg", positive, "Its mass, in place of the density.")
+        .inPlaceOf("density_kg_per_m3");
     return list;
 }
 
@@ -196,7 +197,7 @@ std::string shapeOf(const fields::Node& table) {
 }
 
 // What has sharp edges and no thickness in the file gets one that fits.
-void checkThickness(const fields::CheckInput& input, SolidSpec& solid) {
+void checkThickness(const fields::CheckInput& input, SolidSpec& solid, const std::string& name) {
     if (solid.isRound()) {
         solid.thickness = solid.radius;
         return;
@@ -207,7 +208,7 @@ void checkThickness(const fields::CheckInput& input, SolidSpec& solid) {
         input.problems.addError(input.at("thickness"),
                                 fmt::format("the thickness goes into the {} from all sides: it must be less than the "
                                             "radius of the largest ball in it, {:.3g} m",
-                                            solid.shape, most));
+                                            name, most));
     else
         solid.thickness = 0.2 * most;
 }
@@ -234,15 +235,20 @@ Section partSection() {
 void checkParts(const fields::CheckInput& input, SolidSpec& compound) {
     const fields::Member* rows = input.table.find("parts");
     if (compound.parts.empty() || rows == nullptr)
-        return input.problems.addError(input.at("parts"), "a compound needs parts");
+        return input.problems.addError(input.at("parts"), "a compound needs parts",
+                                       "e.g. parts = [{ shape = \"box\", size = [1, 1, 1] }]");
     for (std::size_t k = 0; k < compound.parts.size() && k < rows->value.items.size(); ++k) {
         SolidSpec& part = compound.parts[k];
         const fields::Node& row = rows->value.items[k];
         if (row.find("density_kg_per_m3") == nullptr) part.density = compound.density;
         if (row.find("finish") == nullptr) part.finish = compound.finish;
         part.thickness = compound.thickness;
-        checkThickness(input, part);
+        checkThickness(input, part, fmt::format("{} of part {}", part.shape, k));
     }
+    const auto isRound = [](const SolidSpec& part) { return part.isRound(); };
+    if (input.table.find("thickness") != nullptr && std::all_of(compound.parts.begin(), compound.parts.end(), isRound))
+        input.problems.addWarning(input.at("thickness"), "that of spheres and capsules is their radius",
+                                  "leave it out");
     compound.thickness = 0;
     for (const SolidSpec& part : compound.parts) compound.thickness = std::max(compound.thickness, part.thickness);
 }
@@ -263,12 +269,8 @@ Section SolidSpec::section() {
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& solid = *static_cast<SolidSpec*>(target);
         checkMass(input);
-        if (solid.isRound() && input.table.find("thickness") != nullptr)
-            input.problems.addError(input.at("thickness"),
-                                    fmt::format("the thickness of a {} is its radius", solid.shape),
-                                    "leave thickness out");
         if (solid.shape != "compound")
-            checkThickness(input, solid);
+            checkThickness(input, solid, solid.shape);
         else if (input.isClean)
             checkParts(input, solid);
     };
@@ -348,7 +350,12 @@ mechanics::RigidShape SolidSpec::made() const {
 mechanics::Model SolidSpec::build(const SceneSpec&) const {
     mechanics::RigidShape whole = made();
     whole.dragRate = drag;
-    mechanics::Model model = mechanics::buildRigid(whole);
+    mechanics::Model model;
+    try {
+        model = mechanics::buildRigid(whole);
+    } catch (const core::Error& error) {
+        throw core::Error(error.kind(), at(source) + error.what());
+    }
     // Points of a shape by the side that they are on.
     const auto addSides = [&](const SolidSpec& of, const mechanics::RigidPart& part, const std::string& prefix) {
         static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
@@ -372,8 +379,12 @@ std::unique_ptr<BodyDrawing> SolidSpec::drawing(const Body& body) const {
     return std::make_unique<SolidDrawing>(body);
 }
 
+// The thickness of a sphere or a capsule is its radius.
 Kind<BodySpec> solidKind() {
-    return bodyKind<SolidSpec>();
+    Kind<BodySpec> kind = bodyKind<SolidSpec>();
+    for (fields::Field& row : kind.section.fields)
+        if (row.key == "thickness") row.only = {"box", "cylinder", "cone", "mesh", "hull", "compound"};
+    return kind;
 }
 
 }  // namespace taut::world

@@ -11,6 +11,8 @@ namespace taut::contact {
 
 using glm::dvec3;
 
+inline constexpr double noDistance = 1e-9;  // [m] sides that are closer touch: they have no direction from one another
+
 struct ContactConstraint {
     std::array<int, 4> points;  // a point and the corners of a triangle, or the ends of two edges
     std::array<double, 4>

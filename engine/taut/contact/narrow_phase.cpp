@@ -13,6 +13,7 @@
 #include "taut/contact/closest_points.h"
 #include "taut/contact/contact_group.h"
 #include "taut/contact/rigid_side.h"
+#include "taut/contact/row_arithmetic.h"
 #include "taut/core/private/parallel.h"
 
 namespace taut::contact {
@@ -20,7 +21,6 @@ namespace {
 
 constexpr int listsAtOnce = 16;
 constexpr double activeShare = 0.05;     // of the thickness: a gap below it is a contact
-constexpr double noDistance = 1e-9;      // [m] two places closer than this have no direction
 constexpr double drivenSoftness = 0.01;  // of pairs with a driven surface: see solver.h
 constexpr double rounding = 1e-9;        // relative error of the list's sums of motion
 
@@ -168,12 +168,16 @@ ContactConstraint ContactGroup::constraintOf(const Measured& measured, const Nar
     if (pair.distance > noDistance) {
         pair.normal = batch.separation(measured.slot) / pair.distance;
     } else {
-        // The two touch or cross, so the distance has no direction. Take the normal of the triangle, or of both edges.
+        // The two touch or cross, so the distance has no direction. Take the normal of the triangle, or of both edges;
+        // of an edge and a ball, a normal of that edge.
         const auto at = [&](std::size_t k) -> const dvec3& { return x0[static_cast<std::size_t>(pair.points[k])]; };
         const dvec3 p = at(1) - at(pair.isPoint ? 3 : 0), q = at(pair.isPoint ? 2 : 3) - at(pair.isPoint ? 3 : 2);
         const dvec3 across = glm::cross(p, q);
         const double size = length(across);
-        pair.normal = size > 0 ? across / size : dvec3(0.0, 1.0, 0.0);
+        const dvec3 edge = p != dvec3(0.0) ? p : q;
+        pair.normal = size > 0             ? across / size
+                      : edge != dvec3(0.0) ? acrossOf(edge / length(edge))
+                                           : dvec3(0.0, 1.0, 0.0);
     }
     return pair;
 }

@@ -225,6 +225,10 @@ class FieldList {
         last().only = std::move(variants);
         return *this;
     }
+    FieldList& inPlaceOf(const char* key) {
+        last().inPlaceOf = key;
+        return *this;
+    }
     // The only values of a whole number; they also give its range.
     FieldList& oneOf(std::vector<int> values) {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());

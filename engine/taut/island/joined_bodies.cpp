@@ -28,6 +28,11 @@ void JoinedBodies::addBody(const core::RigidMotion& body, std::span<const std::s
     bodies_.push_back(body);
 }
 
+// The part of a difference that a pair rules.
+dvec3 JoinedBodies::held(std::size_t pair, const dvec3& difference) const {
+    return pairs_[pair].length > 0 ? glm::dot(difference, along_[pair]) * along_[pair] : difference;
+}
+
 bool JoinedBodies::isEmpty() const {
     return std::none_of(
         pairs_.begin(), pairs_.end(), [&](const Pair& pair) { return bodyOf_[pair.a] >= 0 || bodyOf_[pair.b] >= 0; });
@@ -57,11 +62,11 @@ void JoinedBodies::respond(std::span<const dvec3> at, std::span<const double> in
         const auto k = static_cast<std::size_t>(bodyOf_[point]);
         return sum_[k] / bodies_[k].mass + glm::cross(turn_[k], at[point] - bodies_[k].centre);
     };
-    for (std::size_t k = 0; k < pairs_.size(); ++k) moved_[k] = moved(pairs_[k].a) - moved(pairs_[k].b);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) moved_[k] = held(k, moved(pairs_[k].a) - moved(pairs_[k].b));
 }
 
 bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inverseMass, std::span<const dvec3> values,
-                         double settled) {
+                         bool arePlaces, double settled) {
     // What is redundant, as the third pin of a hinge, agrees only to the second order: a solve goes no further.
     constexpr double exactly = 1e-4;
     const std::size_t count = pairs_.size();
@@ -78,10 +83,18 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
         const glm::dmat3& i = body.inverseInertia;
         return 1.0 / body.mass + glm::dot(arm, arm) * (i[0][0] + i[1][1] + i[2][2]) / 3.0;
     };
+    along_.assign(count, dvec3(0.0));
     double furthest = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const Pair& pair = pairs_[k];
         left_[k] = values[pair.b] - values[pair.a];
+        if (pair.length > 0) {
+            const dvec3 between = at[pair.a] - at[pair.b];
+            const double size = std::sqrt(glm::dot(between, between));
+            along_[k] = size > 0 ? between / size : dvec3(1.0, 0.0, 0.0);
+            const double square = glm::dot(left_[k], left_[k]), length = pair.length;
+            left_[k] = arePlaces ? (length * length - square) / (2.0 * length) * along_[k] : held(k, left_[k]);
+        }
         ease_[k] = easeOf(pair.a) + easeOf(pair.b);
         const double size = 1.0 + std::sqrt(glm::dot(values[pair.a], values[pair.a]));
         furthest = std::max(furthest, std::sqrt(glm::dot(left_[k], left_[k])) / size);

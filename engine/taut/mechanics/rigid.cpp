@@ -13,6 +13,7 @@ namespace {
 
 // Share of the mass at points that touch: the more, the less spread is left for the inner ones, which needs to be some.
 constexpr double touchingShare = 0.05;
+constexpr double leastTouching = 1e-9;  // likewise: with less, rounding would decide where they are
 
 dmat3 outer(const dvec3& a, const dvec3& b) {
     return glm::outerProduct(a, b);
@@ -133,7 +134,10 @@ Model buildRigid(const RigidShape& shape) {
     dvec3 innerCentre(0.0);
     double share = touchingShare;
     for (;; share *= 0.5) {
-        TAUT_EXPECTS(share > 1e-9);
+        if (!(share > leastTouching))
+            throw core::Error(core::ErrorKind::badContent,
+                              "nearly all of the mass is in one place, and parts without much of it lie far away; put "
+                              "them nearer, or give them more");
         const double each = share * shape.mass / static_cast<double>(count);
         dvec3 moment(0.0);
         dmat3 spread = density * shape.properties.spread;

@@ -45,7 +45,8 @@ void join(RigidShape& compound, const RigidShape& shape);
 // The points of a rigid model come after six inner ones that touch nothing: they have nearly all of the mass, stand in
 // pairs on both sides of the centre, and make mass, centre and inertia those of the body.
 inline constexpr int innerPoints = 6;
-// Expects positions that are not all far outside of the body.
+// Throws core::Error(badContent) if most positions are so far from the mass that inner points cannot make up for
+// theirs.
 Model buildRigid(const RigidShape& shape);
 
 // The corners of the polyhedron whose faces lie `outward` [m] farther out than these triangles, which have areas.

@@ -21,7 +21,7 @@ std::size_t valuesIn(const Node& node) {
     return count;
 }
 
-// Removes keys that only `below` gives and that do not fit the form of the table.
+// Removes keys that only `below` gives and that do not fit the form of the table, or stand in place of one of its own.
 void eraseUnfit(const Section& section, const Node& own, Node& table) {
     const std::string variant = section.variant ? section.variant(table) : "";
     std::erase_if(table.members, [&](Member& member) {
@@ -30,8 +30,13 @@ void eraseUnfit(const Section& section, const Node& own, Node& table) {
         const Member* said = own.find(member.key);
         if (field->kind == FieldKind::table && member.value.kind == NodeKind::table)
             eraseUnfit(field->inside.front(), said != nullptr ? said->value : Node{}, member.value);
-        return said == nullptr && !variant.empty() && !field->only.empty() &&
-               std::find(field->only.begin(), field->only.end(), variant) == field->only.end();
+        if (said != nullptr) return false;
+        const auto isOther = [&](const Field& other) {
+            return own.find(other.key) != nullptr && (other.inPlaceOf == field->key || field->inPlaceOf == other.key);
+        };
+        return std::any_of(section.fields.begin(), section.fields.end(), isOther) ||
+               (!variant.empty() && !field->only.empty() &&
+                std::find(field->only.begin(), field->only.end(), variant) == field->only.end());
     });
 }
 

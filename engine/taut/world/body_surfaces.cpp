@@ -35,6 +35,8 @@ contact::ContactSurface loneSurface(const Body& body, const mechanics::RigidPart
     return surface;
 }
 
+constexpr double upright = 1e-7;  // [rad] an axis that leans less has ends that are level
+
 bool any(const std::vector<bool>& flags) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
@@ -200,7 +202,7 @@ BodySurfaces::Place BodySurfaces::furthest(double up) {
             const glm::dvec3 across = glm::dvec3(0.0, 1.0, 0.0) - axis.y * axis;  // upwards, in the plane of an end
             const double length = glm::length(across);
             for (std::size_t k = 0; k < 2; ++k)
-                compare(length > 0 ? end(k) + up * round.radii[k] / length * across : end(k));
+                compare(length > upright ? end(k) + up * round.radii[k] / length * across : end(k));
         } else {
             for (const int i : elements_->surface(static_cast<int>(s)).points) compare(x_[static_cast<std::size_t>(i)]);
         }

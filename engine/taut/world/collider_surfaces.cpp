@@ -114,6 +114,13 @@ const std::string& ColliderSurfaces::nameOf(int surface) const {
     return owner->name;
 }
 
+std::vector<int> ColliderSurfaces::surfacesOf(const std::string& collider) const {
+    std::vector<int> all;
+    for (const Collider& own : colliders_)
+        for (int s = own.firstSurface; s < own.lastSurface && own.name == collider; ++s) all.push_back(s);
+    return all;
+}
+
 // What was the end of a figure's tick becomes the start of the next.
 void ColliderSurfaces::setEnds(Collider& own, double end) {
     own.xFrom.swap(own.xTo);

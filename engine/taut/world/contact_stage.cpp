@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "taut/bodies/private/bare_faces.h"
 #include "taut/bodies/private/carried_surface.h"
@@ -142,8 +143,12 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         const auto numberOf = [&](int i) { return offsets[k] + bodies_[k]->pointOf[static_cast<std::size_t>(i)]; };
         carry(carriedSurface(*bodies_[k]), numberOf, surfaces[k], rest, carriedPoints);
     }
-    if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return body->spec->facesMeetColliders(); }))
-        colliders_ = ColliderSurfaces(colliders(), now.start(), surfaces, rest);
+    if (std::any_of(bodies_.begin(), bodies_.end(),
+                    [](const Body* body) { return body->spec->facesMeetColliders(); })) {
+        const std::vector<TouchedCollider> touched = colliders();
+        for (const TouchedCollider& own : touched) colliderNames_.push_back(own.name);
+        colliders_ = ColliderSurfaces(touched, now.start(), surfaces, rest);
+    }
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
     inverseMass_.resize(rest.size());
     damage_.assign(bodies_.size(), 0);
@@ -160,23 +165,52 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     x0_ = x1_;
 }
 
-// Faces of rigid bodies would keep apart the points that joints hold together. offsets: (bodies) of their island's
-// points.
+// Faces of rigid bodies would keep apart the points that joints hold together, and colliders those that they carry.
+// offsets: (surfaces) of their island's points.
 void ContactStage::keepJoinedApart(std::span<const int> offsets) {
-    std::vector<std::vector<int>> rigidAt(x1_.size());  // (points) surfaces
+    std::vector<std::vector<int>> rigidAt(x1_.size());  // (points) bodies, by their first surface
+    const auto surfacesFrom = [&](int first) {
+        std::vector<int> all;
+        for (int k = first; isOfBody(k) && &bodyOf(k) == &bodyOf(first); ++k) all.push_back(k);
+        return all;
+    };
     for (std::size_t k = 0; k < bodies_.size(); ++k)
-        if (bodies_[k]->spec->isRigid())
+        if (bodies_[k]->spec->isRigid() && (k == 0 || bodies_[k] != bodies_[k - 1]))
             for (const int i : bodies_[k]->pointOf)
                 rigidAt[static_cast<std::size_t>(offsets[k] + i)].push_back(static_cast<int>(k));
-    const auto keepApart = [&](int a, int b) {
+    std::set<std::pair<int, int>> joined;
+    std::set<std::pair<int, std::string>> mounted;
+    const auto join = [&](int a, int b) {
         for (const int own : rigidAt[static_cast<std::size_t>(a)])
-            for (const int other : rigidAt[static_cast<std::size_t>(b)]) group_->elements().keepApart(own, other);
+            for (const int other : rigidAt[static_cast<std::size_t>(b)])
+                if (own != other) joined.emplace(own, other);
+    };
+    const auto mount = [&](int point, const std::string& holder) {
+        // Of a figure, a joint or a face holds.
+        const std::string collider = holder.substr(0, std::min(holder.find('#'), holder.find(".\"")));
+        for (const int own : rigidAt[static_cast<std::size_t>(point)]) mounted.emplace(own, collider);
     };
     for (const Part& part : parts_) {
-        for (int i = part.first; i < part.last; ++i) keepApart(i, i);  // a merged point
-        for (const JointTie& tie : part.island->plan().ties)
-            if (tie.b >= 0 && holds(part.island->plan(), tie)) keepApart(part.first + tie.a, part.first + tie.b);
+        const IslandPlan& plan = part.island->plan();
+        for (int i = part.first; i < part.last; ++i) join(i, i);  // a merged point
+        for (const JointTie& tie : plan.ties) {
+            if (!holds(plan, tie)) continue;
+            if (tie.b >= 0) join(part.first + tie.a, part.first + tie.b);
+            if (!tie.collider.empty() && isPinned(plan, tie.a)) mount(part.first + tie.a, tie.collider);
+        }
+        for (const Grip& grip : plan.grips)
+            for (const int i : grip.points)
+                if (grip.ofCollider && grip.rigid) mount(part.first + i, grip.holder);
     }
+    for (const auto& [first, second] : joined)
+        for (const int own : surfacesFrom(first))
+            for (const int other : surfacesFrom(second)) group_->elements().keepApart(own, other);
+    mountedOn_.assign(bodies_.size(), {});
+    for (const auto& [first, collider] : mounted)
+        for (const int own : surfacesFrom(first)) {
+            mountedOn_[static_cast<std::size_t>(own)].insert(collider);
+            for (const int other : colliders_.surfacesOf(collider)) group_->elements().keepApart(own, other);
+        }
 }
 
 std::optional<std::pair<int, int>> ContactStage::sidesOf(const contact::Crossing& crossing) const {
@@ -392,7 +426,10 @@ void ContactStage::forEachNearCollider(double past, double ahead, const Each& ea
         }
         found.clear();
         island.colliders().findNear(ways, surface.thickness, past, island.step(), found);
-        for (const auto& near : found) each(surface.points[near.way], spec, thickness, near);
+        const std::set<std::string>& own = mountedOn_[static_cast<std::size_t>(whole)];
+        for (const auto& near : found)
+            if (own.empty() || !own.contains(colliderNames_[static_cast<std::size_t>(near.collider)]))
+                each(surface.points[near.way], spec, thickness, near);
     }
 }
 

@@ -56,10 +56,11 @@ class Constraint {
                                                     std::span<const double> /*inverseMass*/) const {
         return std::nullopt;
     }
-    // Pairs that it holds in one place at t [s]: their numbers in Moment, and the tie that bears them. None follows
-    // from the others.
+    // Pairs that it holds at t [s], in one place or at a distance: their numbers in Moment, and the tie that bears
+    // them. None in one place follows from the others.
     struct Pair {
         int a, b, tie;
+        double length = 0;  // [m]
     };
     virtual std::vector<Pair> pairs(double /*t*/) { return {}; }
 

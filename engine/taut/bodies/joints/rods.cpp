@@ -51,6 +51,15 @@ double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) c
     return most;
 }
 
+std::vector<Constraint::Pair> Rods::pairs(double /*t*/) {
+    std::vector<Pair> all;
+    for (int r = 0; r < size(); ++r) {
+        const Rod& rod = rods_[static_cast<std::size_t>(r)];
+        if (holds(r)) all.push_back({end(rod.a), end(rod.b), r, rod.length});
+    }
+    return all;
+}
+
 // A rod under a tension T draws its ends back across, like a spring of T/L. Bounded by Gershgorin's theorem.
 double Rods::turning(std::span<const dvec3> x, std::span<const double> inverseMass,
                      std::span<const dvec3> forces) const {

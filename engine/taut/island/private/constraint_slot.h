@@ -262,10 +262,12 @@ class ConstraintSlot {
                 joined_.addBody(*body, tie.numbers);
                 bodies.push_back(&tie);
             }
-            for (const auto& [a, b, number] : tie.constraint->pairs(time_))
-                joined_.addPair({tie.numbers[static_cast<std::size_t>(a)], tie.numbers[static_cast<std::size_t>(b)],
-                                 static_cast<std::size_t>(tie.first + number)});
         }
+        if (bodies.empty()) return bodies;
+        for (Tie& tie : ties_)
+            for (const auto& [a, b, number, length] : tie.constraint->pairs(time_))
+                joined_.addPair({tie.numbers[static_cast<std::size_t>(a)], tie.numbers[static_cast<std::size_t>(b)],
+                                 static_cast<std::size_t>(tie.first + number), length});
         return bodies;
     }
     // What pairs of ties hold of rigid bodies (joined_bodies.h).
@@ -277,13 +279,14 @@ class ConstraintSlot {
         if (joined_.isEmpty()) return;
         std::vector<dvec3>& values = isOfPlaces ? x_ : v_;
         for (int solves = 0; solves < mostSolves; ++solves) {
-            if (!joined_.solve(isOfPlaces ? from_ : x_, inverseMass_, values, settled)) return;
+            const std::vector<dvec3>& at = isOfPlaces ? from_ : x_;
+            if (!joined_.solve(at, inverseMass_, values, isOfPlaces, settled)) return;
             for (std::size_t k = 0; k < joined_.pairs().size(); ++k) {
-                const auto& [a, b, pull] = joined_.pairs()[k];
+                const auto& [a, b, pull, length] = joined_.pairs()[k];
                 const dvec3& impulse = joined_.impulses()[k];
                 values[a] += inverseMass_[a] * impulse;
                 values[b] -= inverseMass_[b] * impulse;
-                pull_[pull] += impulse;
+                pull_[pull] += length > 0 ? dvec3(joined_.tension(k), 0.0, 0.0) : impulse;  // of a rod as Rods gives it
             }
             for (Tie* tie : bodies) {
                 gather(*tie);

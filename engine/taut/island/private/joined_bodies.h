@@ -1,7 +1,8 @@
-// What holds points of rigid bodies together, in pairs, solved for all bodies at once.
+// What holds points of rigid bodies together or at a distance, in pairs, solved for all bodies at once.
 //
 //     a body k moves by      δ(r) = F/m + (I⁻¹ Σ r × f) × r        f  impulses at its points, F their sum
 //     a pair (a, b) holds    δ(a) - δ(b) = x_b - x_a               f  +p at a, -p at b
+//     a rod of length L      n·(δ(a) - δ(b)) = (L² - d²) / 2L      p  along n, d = |x_a - x_b|
 //
 // In turns a pin would move one point of little mass, and its body by that share alone: chains and heavy loads do not
 // settle so. Here the impulses p of all pairs solve one symmetric system, A p = x_b - x_a, by conjugate gradients. It
@@ -9,6 +10,7 @@
 // their bodies find theirs. No body gains momentum by it.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <span>
 #include <vector>
 
@@ -21,6 +23,7 @@ class JoinedBodies {
     struct Pair {
         std::size_t a, b;  // numbers of points
         std::size_t pull;  // for the owner
+        double length;     // [m] of a rod; 0: both are in one place
     };
 
     // points: how many there are.
@@ -31,9 +34,9 @@ class JoinedBodies {
     bool isEmpty() const;  // no pair holds a body
 
     // at (points) [m] where impulses act; inverseMass (points) [1/kg]. Returns false if all pairs hold to `settled` of
-    // values (points); else finds impulses.
+    // values (points), which are places or velocities; else finds impulses.
     bool solve(std::span<const glm::dvec3> at, std::span<const double> inverseMass, std::span<const glm::dvec3> values,
-               double settled);
+               bool arePlaces, double settled);
     // ω² [1/s²] for the step, at most, under these forces of the pairs [N]. A force F on an arm r draws its body back
     // like a spring of F r against the inertia across r. A step that turns a body by θ has the momentum of sin θ
     // (mechanics/rigid.h), so none has more than that of a quarter turn, and θ is off by θ²/6: to the step a spin is a
@@ -42,13 +45,17 @@ class JoinedBodies {
     std::span<const Pair> pairs() const { return pairs_; }
     std::span<const glm::dvec3> impulses() const { return p_; }  // (pairs) on a; the other way on b
 
+    double tension(std::size_t pair) const { return -glm::dot(p_[pair], along_[pair]); }  // of a rod
+
   private:
+    glm::dvec3 held(std::size_t pair, const glm::dvec3& difference) const;
     void respond(std::span<const glm::dvec3> at, std::span<const double> inverseMass);
 
     std::vector<core::RigidMotion> bodies_;
     std::vector<int> bodyOf_;  // (points) -1: none
     std::vector<Pair> pairs_;
     std::vector<glm::dvec3> p_, left_, way_, moved_;  // (pairs) impulse, what is left, direction, A times it
+    std::vector<glm::dvec3> along_;                   // (pairs) unit, of a rod; 0
     std::vector<double> ease_;                        // (pairs) [1/kg] about what an impulse of 1 does
     std::vector<glm::dvec3> sum_, turn_;              // (bodies) of impulses, and of their moments
     std::vector<glm::dvec3> force_;                   // (points) of impulses

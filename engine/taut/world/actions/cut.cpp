@@ -1,4 +1,6 @@
 // Cuts bodies along a plane or a line.
+#include <algorithm>
+
 #include "taut/fields/private/problems.h"
 #include "taut/island/private/cutting.h"
 #include "taut/world/private/actions/rows.h"
@@ -40,9 +42,13 @@ void CutAction::perform(World& world) const {
         any = true;
         if (island->frozen() == nullptr) sever(crossing, island->change(w.now(), Change::shape));
     }
+    const bool areRigid =
+        std::all_of(bodies.begin(), bodies.end(), [](const Body* body) { return body->spec->isRigid(); });
     if (!any)
-        w.actionWarnings.push_back(asWarning(at(source)) + "there is nothing of \"" + target +
-                                   "\" where this cuts; put it where the body is");
+        w.actionWarnings.push_back(
+            asWarning(at(source)) +
+            (areRigid ? "\"" + target + "\" is rigid: a cut takes its joints alone"
+                      : "there is nothing of \"" + target + "\" where this cuts; put it where the body is"));
     redrawDamage(w);
 }
 

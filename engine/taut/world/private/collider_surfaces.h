@@ -34,6 +34,7 @@ class ColliderSurfaces {
     bool isEmpty() const { return colliders_.empty(); }
     bool hasFigures() const;
     const std::string& nameOf(int surface) const;  // of a collider
+    std::vector<int> surfacesOf(const std::string& collider) const;
     // Starts a tick that ends at `end` [s], in which these colliders move, and figures besides. Sets the velocities of
     // their points (points) [m/s]. Returns whether a collider jumps; as in Colliders::move, it is then at the end of
     // its motion at once.

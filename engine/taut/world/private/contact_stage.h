@@ -28,6 +28,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -180,7 +181,10 @@ class ContactStage {
         int surface;
         double thickness;  // [m] without its sag
     };
-    std::vector<Whole> wholes_;        // of bodies that meet colliders as a whole
+    std::vector<Whole> wholes_;  // of bodies that meet colliders as a whole
+    std::vector<std::string> colliderNames_;
+    // (surfaces) Colliders that carry points of it, which it does not touch.
+    std::vector<std::set<std::string>> mountedOn_;
     std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements
     ColliderSurfaces colliders_;
     std::unique_ptr<contact::ContactGroup> group_;

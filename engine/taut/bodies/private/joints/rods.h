@@ -30,6 +30,7 @@ class Rods final : public ConstraintOf<Rods> {
     double strain(std::span<const dvec3> x, const std::vector<bool>& counts) const override;
     double turning(std::span<const dvec3> x, std::span<const double> inverseMass,
                    std::span<const dvec3> forces) const override;
+    std::vector<Pair> pairs(double t) override;
     void check() const override;
 
   private:

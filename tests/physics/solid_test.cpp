@@ -399,6 +399,92 @@ TEST(SolidCapsule, HangsInAChainUnderAHeavyLoad) {
     EXPECT_GT(most, 100.0);  // 10 kg have fallen by more than a metre
 }
 
+// On a rod it hangs still where it starts, and a rod bears its weight and no more.
+TEST(Solid, HangsOnARodByItsWeight) {
+    for (const double share : {0.999, 1.001}) {
+        world::SceneSpec spec = scene();
+        world::ColliderSpec& beam = spec.colliders.emplace_back();
+        beam.name = "beam";
+        beam.position = {0.0, 1.0, 0.0};
+        beam.radius = 0.1;
+        SolidSpec can = round("cylinder", "can", dvec3(0.0), 0.1, 0.3);
+        can.mass = 2.0;
+        can.drag = 0.0;
+        spec.bodies.add(can);
+        world::RodJoint rod;
+        rod.a = "solid.can@#31";  // the middle of its top
+        rod.b = "collider.beam";
+        rod.breakForce = share * 2.0 * 9.81;
+        spec.joints.add(rod);
+        World world(spec);
+        advanceBy(world, 0.5);
+        const double speed = glm::length(motionOf(world, "solid.can").velocity);
+        if (share > 1)
+            EXPECT_LT(speed, 1e-6);
+        else
+            EXPECT_GT(speed, 1.0);
+    }
+}
+
+// A bar whose end is in the middle of a thin pin of a collider swings about it as if the pin were not there, whether it
+// is held there or carried by the pin.
+TEST(SolidCapsule, SwingsAboutThePinThatCarriesIt) {
+    for (const char* how : {"held", "carried", "welded"}) {
+        world::SceneSpec spec = scene();
+        world::ColliderSpec& pin = spec.colliders.emplace_back();
+        pin.name = "pin";
+        pin.radius = 0.01;
+        SolidSpec bar = round("capsule", "bar", {0.25, 0.0, 0.0}, 0.02, 0.5);
+        bar.thickness = 0.02;
+        bar.rotation.z = 0.5 * core::pi;
+        bar.drag = 0.0;
+        if (how != std::string("welded")) bar.hold = {"#7"};
+        if (how == std::string("carried")) bar.holdOn = "collider.pin";
+        spec.bodies.add(bar);
+        if (how == std::string("welded")) {
+            world::WeldJoint weld;
+            weld.a = "solid.bar@#7";
+            weld.b = "collider.pin";
+            spec.joints.add(weld);
+        }
+        World world(spec);
+        const double start = world.metrics().energy();
+        double most = 0;
+        for (int tick = 0; tick < 120; ++tick) {
+            ASSERT_FALSE(world.advance());
+            most = std::max(most, world.metrics().kinetic);
+            EXPECT_NEAR(world.metrics().energy(), start, 0.01 * std::max(most, 0.01)) << how << tick;
+        }
+        const double mass = motionOf(world, "solid.bar").mass;
+        EXPECT_NEAR(most / (mass * 9.81 * 0.25), 1.0, 0.02) << how;
+    }
+}
+
+// It comes off one wall and meets the other within an instant, again and again.
+TEST(SolidBall, BouncesBetweenWallsThatAreNear) {
+    world::SceneSpec spec = scene(0.0);
+    spec.world.gravity = dvec3(0.0);
+    spec.contact.restitution = 1.0;
+    for (const double side : {-1.0, 1.0}) {
+        world::ColliderSpec& wall = spec.colliders.emplace_back();
+        wall.name = side < 0 ? "left" : "right";
+        wall.shape = "box";
+        wall.size = {0.2, 3.0, 3.0};
+        wall.position = {0.175 * side, 0.0, 0.0};
+        wall.restitution = 1.0;
+    }
+    SolidSpec thrown = ball("ball", dvec3(0.0), 0.06);
+    thrown.velocity = {32.0, 0.0, 0.0};
+    thrown.drag = 0.0;
+    spec.bodies.add(thrown);
+    World world(spec);
+    for (int tick = 0; tick < 60; ++tick) {
+        ASSERT_FALSE(world.advance());
+        EXPECT_LT(std::abs(motionOf(world, "solid.ball").centre.x), 0.015 + 0.1 * 0.06) << tick;
+    }
+    EXPECT_NEAR(std::abs(motionOf(world, "solid.ball").velocity.x), 32.0, 1e-3);
+}
+
 // At the longest step that a tick may have, 600 rad/s would be two and a half radians.
 TEST(SolidCylinder, KeepsASpinThatIsFastForTheTick) {
     world::SceneSpec spec = scene();

@@ -48,13 +48,16 @@ TEST(CheckFunctions, SolidsEndWhereTheyAreDrawn) {
         "[solid.box]\nshape = \"box\"\nsize = [4, 3, 1]\nthickness = 0\nposition = [9, 5, 0]\n" +
         aslant + "[solid.can]\nshape = \"cylinder\"\nradius = 1\nheight = 4\nthickness = 0.01\nposition = [0, 9, 0]\n" +
         aslant + "[solid.hat]\nshape = \"cone\"\nradius = 1\nheight = 4\nthickness = 0\nposition = [0, 20, 0]\n" +
-        aslant + "[rope.r]\nends = [[3, 1, -1], [3, 1, 1]]\nsegments = 1\n"));
+        aslant + "[solid.tin]\nshape = \"cylinder\"\nradius = 0.2\nheight = 2\nposition = [30, 9, 0]\n" +
+        "[rope.r]\nends = [[3, 1, -1], [3, 1, 1]]\nsegments = 1\n"));
     EXPECT_NEAR(valueIn(world, "lowest(solid.ball)"), 0.5, rounding);
     EXPECT_NEAR(valueIn(world, "height(solid.ball)"), 1.5, rounding);
     EXPECT_EQ(placeIn(world, "height(solid.ball)"), "solid.ball at [0, 1.5, 0]");
     EXPECT_NEAR(valueIn(world, "lowest(solid.box)"), 5 - 2 * 0.6 - 1.5 * 0.8, rounding);
     // Of the rim of a disc, the radius of what is left within the thickness, which is rounded.
     EXPECT_NEAR(valueIn(world, "height(solid.can)"), 9 + 1.99 * 0.8 + 0.99 * 0.6 + 0.01, rounding);
+    EXPECT_NEAR(valueIn(world, "lowest(solid.tin)"), 8.0, rounding);
+    EXPECT_NEAR(valueIn(world, "height(solid.tin)"), 10.0, rounding);
     EXPECT_NEAR(valueIn(world, "lowest(solid.hat)"), 20 - 2 * 0.8 - 0.6, rounding);
     EXPECT_NEAR(valueIn(world, "height(solid.hat)"), 20 + 2 * 0.8, rounding);
     EXPECT_NEAR(valueIn(world, "lowest(solid.*)"), 0.5, rounding);
@@ -220,7 +223,10 @@ TEST(CheckFunctions, ShadowsAreThoseOfProjections) {
     const world::World world(sceneOf("[material.m]\n" + square("flat", "down = [0, 0, 1]") +
                                      square("flatter", "origin = [0.5, 1, 0.5]\ndown = [0, 0, 1]") +
                                      square("slant", "down = [0, 0.8660254037844386, 0.5]") + square("hung", "") +
-                                     lineOf("r", "[[0, 0, 0], [1, 0, 1]]")));
+                                     lineOf("r", "[[0, 0, 0], [1, 0, 1]]") +
+                                     "[solid.ball]\nshape = \"sphere\"\nradius = 0.1\nposition = [9, 0, 0]\n"));
+    // A ball as it is drawn, with 32 sides.
+    EXPECT_NEAR(valueIn(world, "shadow(solid.ball, y)"), 16 * std::sin(3.14159265358979 / 16) * 0.01, 1e-6);
     EXPECT_NEAR(valueIn(world, "shadow(cloth.flat, y)"), 1.0, rounding);
     EXPECT_NEAR(valueIn(world, "shadow(cloth.flat*, y)"), 1.75, rounding);
     EXPECT_NEAR(valueIn(world, "shadow(cloth.slant, y)"), 0.5, rounding);

@@ -67,6 +67,10 @@ TEST(SceneInheritance, WhatDoesNotGoWithAFormIsLeftOut) {
     EXPECT_EQ(scene.spec.colliders[0].radius, 0.2);
     EXPECT_EQ(scene.spec.colliders[1].size, glm::dvec3(1, 2, 3));
     EXPECT_EQ(scene.spec.colliders[1].friction, 0.9);
+    // Nor goes a density with a mass of its own, or a thickness with a ball.
+    EXPECT_TRUE(loaded("[defaults.solid]\ndensity_kg_per_m3 = 900\nthickness = 0.004\n"
+                       "[solid.ball]\nshape = \"sphere\"\nmass_kg = 2\n")
+                    .warnings.empty());
 }
 
 TEST(SceneInheritance, EverySectionWithNamesHasIt) {

@@ -9,6 +9,7 @@
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
 #include "taut/bodies/rope.h"
+#include "taut/bodies/solid.h"
 #include "taut/forces/wind.h"
 #include "taut/world/world.h"
 
@@ -167,6 +168,25 @@ TEST(Cutting, ABlockLosesTheCellsThatAreCrossedAndGetsASurfaceThere) {
 }
 
 // A rope of EA = 100 N pulled by a hand: it tears once (l - L)/L is over the break strain, and nowhere else before.
+// A cut through what is rigid takes nothing of it, and says so.
+TEST(Cutting, WhatIsRigidStaysWhole) {
+    SceneSpec scene;
+    SolidSpec crate;
+    crate.name = "crate";
+    crate.position = {0.0, 0.3, 0.0};
+    scene.bodies.add(crate);
+    ColliderSpec& post = scene.colliders.emplace_back();
+    post.name = "post";
+    post.shape = "box";
+    post.size = {0.05, 0.2, 0.05};
+    post.position = {0.0, -0.06, 0.0};
+    scene.actions = {support::cutPlane(0.0, "solid.crate", {0, 0, 0}, {1, 0, 0})};
+    World world(scene);
+    run(world, 30);
+    EXPECT_FALSE(world.warnings().empty());
+    EXPECT_GT(world.points("solid.crate").x[0].y, 0.2);
+}
+
 TEST(Tearing, ComesAtTheStatedStrain) {
     SceneSpec scene;
     scene.world.gravity = dvec3(0.0);

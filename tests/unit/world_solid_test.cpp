@@ -132,6 +132,10 @@ TEST_F(Solids, WhatCannotBeOneIsRefused) {
     EXPECT_EQ(complaint("[solid.ball]\nshape = \"sphere\"\nmass_kg = 2\ndensity_kg_per_m3 = 900\n"),
               "s.toml:4:11: error: a solid has either mass_kg or density_kg_per_m3\n  mass_kg = 2\n            ^ leave "
               "one out");
+    EXPECT_NE(complaint("[solid.far]\nshape = \"compound\"\nparts = [{ shape = \"sphere\", radius = 0.1 }, { shape = "
+                        "\"sphere\", radius = 0.1, position = [3000, 0, 0], mass_kg = 1e-9 }]\n")
+                  .find("s.toml:2:8: error: nearly all of the mass is in one place"),
+              std::string::npos);
     folder_.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
     EXPECT_NE(complaint("[solid.stone]\nshape = \"mesh\"\nmesh = \"open.obj\"\n")
                   .find("open.obj:5: error: the mesh is not closed, so that it has no inside: 3 edges"),

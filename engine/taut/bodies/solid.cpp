@@ -243,6 +243,7 @@ void checkParts(const fields::CheckInput& input, SolidSpec& compound) {
         if (row.find("density_kg_per_m3") == nullptr) part.density = compound.density;
         if (row.find("finish") == nullptr) part.finish = compound.finish;
         part.thickness = compound.thickness;
+        part.name = compound.name;
         checkThickness(input, part, fmt::format("{} of part {}", part.shape, k));
     }
     const auto isRound = [](const SolidSpec& part) { return part.isRound(); };

@@ -177,21 +177,22 @@ void useState(const Asset& asset, Place place, world::RunSpec& run, Problems& pr
 // Replaces names by what was found.
 void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
     for (world::BodySpec& body : scene.spec.bodies) {
+        const Place place = scene.owners.at(body.fullName());
         for (world::BodySpec* shape : body.shapes()) {
-            if (world::MeshSource* own = shape->meshSource()) setMesh(*own, meshes);
-            setTexture(shape->finish.texture, textures);
-        }
-        if (const world::MeshSource* source = body.meshSource()) {
-            if (body.finish.weave > 0 && source->meshData != nullptr && source->meshData->uv.empty()) {
-                body.finish.weave = 0;
+            world::MeshSource* source = shape->meshSource();
+            if (source != nullptr) setMesh(*source, meshes);
+            if (shape->finish.weave > 0 && source != nullptr && source->meshData != nullptr &&
+                source->meshData->uv.empty()) {
+                shape->finish.weave = 0;
                 problems.addWarning(
-                    scene.owners.at(body.fullName()),
+                    place,
                     fmt::format("{} has no texture coordinates for threads to run along: no weave", source->mesh),
                     "unwrap the mesh, or leave weave out");
             }
+            setTexture(shape->finish.texture, textures);
+            setSkin(place, *shape, meshes, problems);
         }
         if (auto* block = dynamic_cast<world::BlockSpec*>(&body)) fillMesh(scene, *block, problems);
-        setSkin(scene.owners.at(body.fullName()), body, meshes, problems);
     }
     warnOfLostDirections(scene, problems);
     warnOfLostFriction(scene, problems);

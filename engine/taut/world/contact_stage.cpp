@@ -23,6 +23,7 @@ constexpr int fewerForSolids = 4;          // times
 constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tick without contact
 constexpr double mostClosing = 0.35;     // closing of a pair
 constexpr double mostClosingOfSolids = 4.0;
+constexpr double mostFurther = 0.1;    // into a collider, off another
 constexpr double stickingShare = 0.9;  // of Coulomb's limit: up to there friction may hold what sleeps
 
 using Clock = std::chrono::steady_clock;  // for reports only
@@ -406,17 +407,19 @@ void ContactStage::takeSolids() {
     group_->setSolids(std::move(solids));
 }
 
-// Calls each(point, spec, thickness, surface) for the points of bodies that meet colliders as a whole which are now,
-// came through one in the last `past` [s], from x0_, or might be `ahead` [s] later, in contact with a collider.
+// Calls each(point, spec, thickness, surface) for the points of bodies that meet
+// colliders as a whole which are now, came through one in the last `past` [s], from x0_, or might be `ahead` [s] later,
+// in contact with a collider.
 template <class Each>
-void ContactStage::forEachNearCollider(double past, double ahead, const Each& each) const {
+void ContactStage::forEachNearCollider(double past, double ahead, const Each& each,
+                                       const std::function<bool(int)>& isWanted) const {
     constexpr double nearShare = 0.05;  // of the thickness
     std::vector<collision::Colliders::Way> ways;
     std::vector<collision::Colliders::Surface> found;
     for (const auto& [whole, thickness] : wholes_) {
         const Island& island = *bodyOf(whole).island;
         const BodySpec& spec = *bodyOf(whole).spec;
-        if (!spec.collide || island.isStill()) continue;
+        if (!spec.collide || island.isStill() || (isWanted && !isWanted(whole))) continue;
         const contact::ContactSurface& surface = elements().surface(whole);
         ways.clear();
         for (int i : surface.points) {
@@ -455,6 +458,32 @@ void ContactStage::addWholeContacts(double h) {
         });
     std::stable_sort(kinematic_.begin(), kinematic_.end(),
                      [](const auto& a, const auto& b) { return a.point < b.point; });
+}
+
+// How much deeper whole bodies that met a collider in this instant have come into another, or another side of it, over
+// the thickness: what they bounced or slid off may have sent them there.
+double ContactStage::furtherIntoColliders(double h) const {
+    constexpr double alike = 0.5;
+    std::map<int, std::vector<dvec3>> met;  // (surfaces) normals
+    group_->forEachOnCollider([&](std::size_t k, double, const dvec3&) {
+        const contact::KinematicContact& contact = kinematic_[k];
+        if (contact.isWhole) met[elements().surfaceOf(contact.point)].push_back(contact.normal);
+    });
+    if (met.empty()) return 0;
+    double most = 0;
+    forEachNearCollider(
+        h, 0.0,
+        [&](int i, const BodySpec&, double thickness, const collision::Colliders::Surface& surface) {
+            const auto k = static_cast<std::size_t>(i);
+            const double gap = surface.distance - thickness;
+            const double before = gap + glm::dot(surface.away, x0_[k] - x1_[k] + h * surface.velocity);
+            const double further = (std::min(before, 0.0) - gap) / thickness;
+            const auto isKnown = [&](const dvec3& normal) { return glm::dot(normal, surface.away) > alike; };
+            const std::vector<dvec3>& own = met.at(elements().surfaceOf(i));
+            if (further > most && std::none_of(own.begin(), own.end(), isKnown)) most = further;
+        },
+        [&](int whole) { return met.contains(whole); });
+    return most;
 }
 
 // Whole bodies meet colliders, and solids turn and roll, in no fewer instants than bodies that press each other.
@@ -707,7 +736,7 @@ bool ContactStage::isTooCoarse(bool isTrial) const {
     if (result_.impulses > 0 && (isTrial || instants_ < fewestFor(result_.surfaces))) return true;
     if (instants_ < instantsToFollow()) return true;
     return instants_ < mostInstantsForSpeed &&
-           (result_.deepest > mostClosingOf(result_.surfaces) || result_.slides > 0);
+           (result_.deepest > mostClosingOf(result_.surfaces) || result_.slides > 0 || further_ > mostFurther);
 }
 
 // One try of the tick. Returns true, early, if it needs more instants. Also ends early on a fault.
@@ -732,6 +761,7 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
         colliders_.place(static_cast<double>(c + 1) / instants, x1_);
         resolveInstant(h);
         settle();
+        further_ = wholes_.empty() ? 0.0 : furtherIntoColliders(h);
         if (findFaults(time.at(c + 1, instants), faults)) return false;
         if (!presses_.empty()) addPresses();
         if (!presses_.empty() && !wholes_.empty()) addFootholds();

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "taut/bodies/drawing.h"
 #include "taut/bodies/private/bare_faces.h"
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island_report.h"
@@ -16,6 +17,24 @@
 
 namespace taut::world {
 namespace {
+
+using Corners = std::array<glm::dvec3, 3>;
+
+// A rigid body is what is drawn of it: what touches may be points.
+void addDrawn(const Body& body, const Island& island, std::vector<Corners>& triangles) {
+    std::vector<glm::vec3> positions;
+    for (int i : body.pointOf) positions.emplace_back(island.position(i));
+    std::vector<view::Surface> surfaces;
+    body.spec->drawing(body)->addSurfaces(positions, surfaces);
+    for (const view::Surface& surface : surfaces) {
+        const std::vector<std::uint32_t>& corners = surface.topology->triangles;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            if (k % 3 == 0) triangles.emplace_back();
+            const glm::vec4 corner(surface.geometry->positions[corners[k]], 1.0F);
+            triangles.back()[k % 3] = glm::dvec3(surface.transform * corner);
+        }
+    }
+}
 
 Metrics metricsOf(WorldImpl& w, const std::function<bool(const Body&)>& wanted, Measures what) {
     Metrics metrics;
@@ -105,10 +124,14 @@ std::vector<glm::dvec3> World::positions(const Selection& selection) const {
 
 std::vector<std::array<glm::dvec3, 3>> World::triangles(const Selection& bodies) const {
     TAUT_EXPECTS(isCurrent(bodies));
-    std::vector<std::array<glm::dvec3, 3>> triangles;
+    std::vector<Corners> triangles;
     for (const Selection::Part& part : bodies.parts) {
         const Body& body = *part.body;
         const Island& island = islandOf(body);
+        if (body.spec->isRigid()) {
+            addDrawn(body, island, triangles);
+            continue;
+        }
         const auto add = [&](const std::array<int, 3>& corners) {
             auto& triangle = triangles.emplace_back();
             for (std::size_t i = 0; i < 3; ++i)

@@ -94,7 +94,7 @@ class World {
     PointsNow points(const Selection& selection) const;
     std::vector<glm::dvec3> positions(const Selection& selection) const;  // those of points() [m], at less cost
     // (triangles) corners [m] of all the bodies' surfaces, without what cuts and tears took away and with what they
-    // bared.
+    // bared; of rigid bodies as they are drawn.
     std::vector<std::array<glm::dvec3, 3>> triangles(const Selection& bodies) const;
 
     // save() returns everything that the ticks so far have changed, as bytes. restore() reads them into a world that

@@ -9,8 +9,8 @@
 // - No touch is forecast: a trial with few, often one. It stands only if no pair got an impulse.
 // - A touch is forecast: at least one per 1.1 ms, and so many that two sides close by no more than 0.35 of their
 //   thickness in one.
-// - An instant was too coarse: a trial found contact, a pair went too deep, or pairs had to be slid apart. The whole
-//   tick is then undone and repeated with at least twice as many, up to 64.
+// - An instant was too coarse: a trial found contact, a pair went too deep, pairs had to be slid apart, or what met one
+//   collider came into another. The whole tick is then undone and repeated with at least twice as many, up to 64.
 // - Contact moved points against springs that are too stiff for the instant (turnOf). Cloth that lies on cloth is moved
 //   across its stiff threads, and needs few instants; blocks need as many as their fastest motion (instantsToPress).
 // A tick is also repeated if an island asks for it (its step was too long), and if one diverged and is frozen. The
@@ -141,7 +141,9 @@ class ContactStage {
     void addWholeContacts(double h);
     void foreseeWholes(contact::Forecast& forecast) const;
     template <class Each>
-    void forEachNearCollider(double past, double ahead, const Each& each) const;
+    void forEachNearCollider(double past, double ahead, const Each& each,
+                             const std::function<bool(int surface)>& isWanted = nullptr) const;
+    double furtherIntoColliders(double h) const;
     void wake(const TickTime& time, std::span<const std::int64_t> companies);
     void wakeCrossed(const TickTime& time);
     void addReached(int surfaceA, int surfaceB);
@@ -195,6 +197,7 @@ class ContactStage {
     std::vector<dvec3> x0_, x1_, v_;        // (points)
     std::vector<dvec3> xBefore_, vBefore_;  // (points) before the last instant of contact
     std::vector<dvec3> accelerations_;      // (result_.moved) [m/s²] by it alone, before constraints share them
+    double further_ = 0;                    // furtherIntoColliders() in the last instant
     double turn_ = 0;                       // [rad] largest turnOf() in the last instant
     std::vector<double> inverseMass_;       // (points)
     std::vector<contact::KinematicContact> kinematic_;

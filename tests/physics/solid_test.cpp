@@ -460,6 +460,38 @@ TEST(SolidCapsule, SwingsAboutThePinThatCarriesIt) {
     }
 }
 
+// A crate at a wall is carried by it and let go again: a world restored in between has the same bits.
+TEST(SolidBox, IsCarriedByAWallAsInARestoredWorld) {
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0, 0.5)};
+    world::ColliderSpec& wall = spec.colliders.emplace_back();
+    wall.name = "wall";
+    wall.shape = "box";
+    wall.position = {0.59, 0.0, 0.0};
+    spec.bodies.add(box("crate", {0.0, 0.1, 0.0}, dvec3(0.2)));
+    World whole(spec);
+    advanceBy(whole, 0.1);
+    world::HoldAction hold;
+    hold.target = "solid.crate@right";
+    hold.holdOn = "collider.wall";
+    hold.perform(whole);
+    const auto isSameFrom = [&](std::span<const std::byte> saved) {
+        World restored(spec);
+        restored.restore(saved);
+        advanceBy(restored, 0.1);
+        advanceBy(whole, 0.1);
+        return restored.stateHash() == whole.stateHash();
+    };
+    advanceBy(whole, 0.1);
+    EXPECT_TRUE(isSameFrom(whole.save()));
+    world::FreeAction free;
+    free.target = hold.target;
+    free.perform(whole);
+    advanceBy(whole, 0.1);
+    EXPECT_TRUE(isSameFrom(whole.save()));
+    EXPECT_LT(motionOf(whole, "solid.crate").centre.x, 1e-3);  // it touches the wall again
+}
+
 // It comes off one wall and meets the other within an instant, again and again.
 TEST(SolidBall, BouncesBetweenWallsThatAreNear) {
     world::SceneSpec spec = scene(0.0);

@@ -198,6 +198,7 @@ std::vector<Body> buildBodies(const SceneSpec& spec) {
 std::vector<mechanics::RigidPart> surfacesOf(const Body& body) {
     if (!body.model.parts.empty()) return body.model.parts;
     mechanics::RigidPart whole;
+    whole.first = body.model.innerPoints;
     whole.last = body.model.pointCount();
     whole.thickness = body.spec->thickness;
     return {whole};

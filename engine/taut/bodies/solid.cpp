@@ -135,7 +135,7 @@ class SolidDrawing final : public BodyDrawing {
     explicit SolidDrawing(const Body& body) : name_(body.fullName()) {
         const auto& spec = dynamic_cast<const SolidSpec&>(*body.spec);
         if (spec.shape != "compound") pieces_.push_back({meshOf(spec), finishOf(spec.finish)});
-        for (const SolidSpec& part : spec.parts)
+        for (const SolidSpec& part : spec.shape == "compound" ? spec.parts : std::vector<SolidSpec>{})
             pieces_.push_back({meshOf(part), finishOf(part.finish), placement(axesOf(part), part.position)});
         const dvec3 origin = body.model.positions[0] - jitterOf(body, 0) -
                              (spec.build({}).positions[0] - spec.position);  // an array's copies each have their own
@@ -299,7 +299,9 @@ mechanics::RigidShape SolidSpec::made() const {
     const bool isRounded = shape != "mesh" && shape != "hull";
     part.rounding = isRounded ? thickness : 0.0;
     if (shape == "compound") {
-        if (parts.empty()) throw core::Error(core::ErrorKind::badContent, at(source) + "a compound needs parts");
+        const auto isCompound = [](const SolidSpec& own) { return own.shape == "compound"; };
+        if (parts.empty() || std::any_of(parts.begin(), parts.end(), isCompound))
+            throw core::Error(core::ErrorKind::badContent, at(source) + "a compound needs parts that are none");
         made.parts.clear();
         made.mass = 0;
         for (const SolidSpec& own : parts) join(made, own.made());
@@ -367,8 +369,8 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
                 model.groups[prefix + sides[k][((i - part.first) >> k) & 1]].push_back(i);
         }
     };
-    if (parts.empty()) addSides(*this, model.parts.front(), "");
-    for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (shape != "compound") addSides(*this, model.parts.front(), "");
+    for (std::size_t k = 0; k < parts.size() && shape == "compound"; ++k) {
         const std::string group = fmt::format("part{}", k);
         for (int i = model.parts[k].first; i < model.parts[k].last; ++i) model.groups[group].push_back(i);
         addSides(parts[k], model.parts[k], group + "-");

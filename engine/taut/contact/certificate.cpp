@@ -77,7 +77,6 @@ bool separatesOnTheWay(const ContactConstraint& pair, const Corners& before, con
 }  // namespace
 
 bool isCertified(const ContactConstraint& pair, std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    if (!(pair.distance > noDistance)) return true;  // they touch, so there is no side to keep
     const Corners before = cornersOf(pair, x0), after = cornersOf(pair, x1);
     const int side = pair.firstSide();
 

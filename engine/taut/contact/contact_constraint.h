@@ -30,8 +30,9 @@ struct ContactConstraint {
     double restitution = 0.0;  // speed of parting over that of closing [-]
     std::optional<dvec3> place{};  // [m] where an impulse acts on solids; none: between the closest places
     double softness = 0.0;         // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
-    int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
-    double gap() const { return distance - thickness; }  // [m]
+    int firstSide() const { return isPoint ? 1 : 2; }        // points of the first side
+    double gap() const { return distance - thickness; }      // [m]
+    bool hasSides() const { return distance > noDistance; }  // else they touch, and there is no side to keep
     // By leaves, then as in a list of candidates: points and triangles by the triangle, then edges.
     bool comesBefore(const ContactConstraint& other) const {
         const auto rank = [](const ContactConstraint& c) {

@@ -159,7 +159,8 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
     makeAscending(moved_);
     broadPhase_.finish(pending_, instant.x0, instant.x1);
     result_.moved = moved_;
-    isCertified_ = isCertified_ && options_.certifies && result_.uncertified == 0 && squeezed_.empty();
+    isCertified_ = isCertified_ && options_.certifies && result_.uncertified == 0 && squeezed_.empty() &&
+                   std::all_of(tested_.begin(), tested_.end(), [](const auto& pair) { return pair.hasSides(); });
     if (isCertified_) xCertified_.assign(instant.x1.begin(), instant.x1.end());
     return result_;
 }
@@ -497,7 +498,7 @@ void ContactGroup::untangle(const Instant& instant) {
 std::vector<const ContactConstraint*> ContactGroup::uncertified(const Instant& instant) const {
     std::vector<const ContactConstraint*> bad;
     for (const ContactConstraint& pair : tested_)
-        if (!isCertified(pair, instant.x0, instant.x1) && !isLetThrough(pair)) bad.push_back(&pair);
+        if (pair.hasSides() && !isCertified(pair, instant.x0, instant.x1) && !isLetThrough(pair)) bad.push_back(&pair);
     return bad;
 }
 

@@ -165,7 +165,7 @@ ContactConstraint ContactGroup::constraintOf(const Measured& measured, const Nar
                    &second = elements_.edges()[static_cast<std::size_t>(pair.b)];
         pair.points = {first.a, first.b, second.a, second.b};
     }
-    if (pair.distance > noDistance) {
+    if (pair.hasSides()) {
         pair.normal = batch.separation(measured.slot) / pair.distance;
     } else {
         // The two touch or cross, so the distance has no direction. Take the normal of the triangle, or of both edges;

@@ -79,8 +79,8 @@ CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Bod
         if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) continue;
         if (!isPlane && !isAll && (body->model.grid[0] == 0 || !action.from || !action.upTo)) continue;
         const Knife knife = isPlane ? planeThrough(action, island, *body) : isAll ? Knife{} : segmentOn(action, *body);
-        for (const auto& [a, b] : edgesOf(body->model)) {
-            if (body->spec->isRigid()) break;
+        const bool isRigid = body->spec->isRigid();
+        for (const auto& [a, b] : isRigid ? std::set<Damage::Edge>{} : edgesOf(body->model)) {
             if (body->damage.isSevered(a, b)) continue;
             const std::optional<double> share = isAll ? 0.5 : knife.crossing(a, b);
             if (share) crossing.edges.push_back({body, a, b, *share});

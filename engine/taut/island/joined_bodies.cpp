@@ -69,6 +69,7 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
                          bool arePlaces, double settled) {
     // What is redundant, as the third pin of a hinge, agrees only to the second order: a solve goes no further.
     constexpr double exactly = 1e-4;
+    constexpr double leastResponse = 1e-10;
     const std::size_t count = pairs_.size();
     p_.assign(count, dvec3(0.0));
     left_.resize(count);
@@ -109,7 +110,9 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
         respond(at, inverseMass);
         double along = 0;
         for (std::size_t k = 0; k < count; ++k) along += glm::dot(way_[k], moved_[k]);
-        if (!(along > 0)) break;
+        double eased = 0;  // what `along` is about, where rods do not ask for what no motion gives
+        for (std::size_t k = 0; k < count; ++k) eased += ease_[k] * glm::dot(way_[k], way_[k]);
+        if (!(along > leastResponse * eased)) break;
         const double share = size / along;
         for (std::size_t k = 0; k < count; ++k) {
             p_[k] += share * way_[k];

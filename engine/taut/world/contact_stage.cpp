@@ -4,14 +4,15 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
-#include <set>
 
+#include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/private/bare_faces.h"
 #include "taut/bodies/private/carried_surface.h"
 #include "taut/contact/penetration.h"
 #include "taut/contact/round_solids.h"
 #include "taut/core/private/parallel.h"
 #include "taut/core/rigid_motion.h"
+#include "taut/spec/targets.h"
 
 namespace taut::world {
 namespace {
@@ -187,9 +188,8 @@ void ContactStage::keepJoinedApart(std::span<const int> offsets) {
                 if (own != other) joined.emplace(own, other);
     };
     const auto mount = [&](int point, const std::string& holder) {
-        // Of a figure, a joint or a face holds.
-        const std::string collider = holder.substr(0, std::min(holder.find('#'), holder.find(".\"")));
-        for (const int own : rigidAt[static_cast<std::size_t>(point)]) mounted.emplace(own, collider);
+        for (const int own : rigidAt[static_cast<std::size_t>(point)])
+            mounted.emplace(own, parseCollider(holder).collider);
     };
     for (const Part& part : parts_) {
         const IslandPlan& plan = part.island->plan();
@@ -197,7 +197,11 @@ void ContactStage::keepJoinedApart(std::span<const int> offsets) {
         for (const JointTie& tie : plan.ties) {
             if (!holds(plan, tie)) continue;
             if (tie.b >= 0) join(part.first + tie.a, part.first + tie.b);
-            if (!tie.collider.empty() && isPinned(plan, tie.a)) mount(part.first + tie.a, tie.collider);
+            const auto carries = [&](const JointTie::Part& own) {
+                return plan.constraints[static_cast<std::size_t>(own.constraint)]->carries(tie.a);
+            };
+            if (!tie.collider.empty() && std::any_of(tie.parts.begin(), tie.parts.end(), carries))
+                mount(part.first + tie.a, tie.collider);
         }
         for (const Grip& grip : plan.grips)
             for (const int i : grip.points)
@@ -407,9 +411,8 @@ void ContactStage::takeSolids() {
     group_->setSolids(std::move(solids));
 }
 
-// Calls each(point, spec, thickness, surface) for the points of bodies that meet
-// colliders as a whole which are now, came through one in the last `past` [s], from x0_, or might be `ahead` [s] later,
-// in contact with a collider.
+// Calls each(point, spec, thickness, surface) for the points of bodies that meet colliders as a whole which are now,
+// came through one in the last `past` [s], from x0_, or might be `ahead` [s] later, in contact with a collider.
 template <class Each>
 void ContactStage::forEachNearCollider(double past, double ahead, const Each& each,
                                        const std::function<bool(int)>& isWanted) const {
@@ -464,12 +467,12 @@ void ContactStage::addWholeContacts(double h) {
 // the thickness: what they bounced or slid off may have sent them there.
 double ContactStage::furtherIntoColliders(double h) const {
     constexpr double alike = 0.5;
-    std::map<int, std::vector<dvec3>> met;  // (surfaces) normals
+    std::map<const Island*, std::vector<dvec3>> met;  // normals
     group_->forEachOnCollider([&](std::size_t k, double, const dvec3&) {
         const contact::KinematicContact& contact = kinematic_[k];
-        if (contact.isWhole) met[elements().surfaceOf(contact.point)].push_back(contact.normal);
+        if (contact.isWhole) met[bodyOf(elements().surfaceOf(contact.point)).island].push_back(contact.normal);
     });
-    if (met.empty()) return 0;
+    if (met.empty() || spec_.instants || instants_ >= mostInstantsForSpeed) return 0;
     double most = 0;
     forEachNearCollider(
         h, 0.0,
@@ -479,10 +482,10 @@ double ContactStage::furtherIntoColliders(double h) const {
             const double before = gap + glm::dot(surface.away, x0_[k] - x1_[k] + h * surface.velocity);
             const double further = (std::min(before, 0.0) - gap) / thickness;
             const auto isKnown = [&](const dvec3& normal) { return glm::dot(normal, surface.away) > alike; };
-            const std::vector<dvec3>& own = met.at(elements().surfaceOf(i));
+            const std::vector<dvec3>& own = met.at(bodyOf(elements().surfaceOf(i)).island);
             if (further > most && std::none_of(own.begin(), own.end(), isKnown)) most = further;
         },
-        [&](int whole) { return met.contains(whole); });
+        [&](int whole) { return met.contains(bodyOf(whole).island); });
     return most;
 }
 

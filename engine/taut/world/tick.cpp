@@ -84,15 +84,21 @@ bool touchesAny(const WorldImpl& w) {
 }
 
 void makeContactStage(WorldImpl& w) {
-    // The faces that a cut bares are surface from now on, and what no joint holds together any more touches.
-    std::size_t gone = 0;
+    // The faces that a cut bares are surface from now on, and what no joint or collider holds any more touches.
+    core::Hash ties;
     for (const auto& island : w.islands) {
-        if (!touches(island->plan())) continue;
-        for (const Body* body : island->plan().bodies) gone += body->damage.goneAround();
-        for (const JointTie& tie : island->plan().ties) gone += holds(island->plan(), tie) ? 0 : 1;
+        const IslandPlan& plan = island->plan();
+        if (!touches(plan)) continue;
+        for (const Body* body : plan.bodies) ties.add(static_cast<std::uint64_t>(body->damage.goneAround()));
+        for (const JointTie& tie : plan.ties) ties.add(std::uint64_t{holds(plan, tie)});
+        for (const Grip& grip : plan.grips) {
+            if (plan.solids.empty() || !grip.ofCollider || !grip.rigid) continue;
+            ties.add(std::string_view(grip.holder));
+            for (const int i : grip.points) ties.add(static_cast<std::uint64_t>(i));
+        }
     }
-    if (w.contactStage && gone == w.gone) return;
-    w.gone = gone;
+    if (w.contactStage && ties.value() == w.contactTies) return;
+    w.contactTies = ties.value();
     w.contactStage = std::make_unique<ContactStage>(w.islands, w.spec.contact, w.now(), w.contactPace,
                                                     [&w] { return touchedColliders(w); });
 }

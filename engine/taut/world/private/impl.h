@@ -65,7 +65,7 @@ struct WorldImpl {
 
     // Contact between bodies.
     std::unique_ptr<ContactStage> contactStage;  // of bodies that touch; null: to be made anew
-    std::size_t gone = 0;                        // faces and ties of touching bodies, when the stage was made
+    std::uint64_t contactTies = 0;               // of bared faces and what holds, when the stage was made
     StepFollowing contactPace;                   // pace of the contact stage; saved
     ContactReport contactReport;
 

@@ -101,9 +101,9 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "[block.b]\n"
          "bulk_Pa = 1e5\n"
          "poisson = 0.3\n",
-         "s.toml:4:11: error: a block has either poisson or bulk_Pa\n"
-         "  poisson = 0.3\n"
-         "            ^ leave one out; with poisson, young_Pa is that of the block"},
+         "s.toml:3:11: error: [block.b] has either bulk_Pa or poisson\n"
+         "  bulk_Pa = 1e5\n"
+         "            ^ leave one out"},
         {"a curve that nothing keeps",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"

@@ -129,9 +129,10 @@ TEST_F(Solids, WhatCannotBeOneIsRefused) {
                         "a = \"solid.a@all\"\nb = \"solid.b@all\"\nbreak_N = 9\n")
                   .find("s.toml:7:1: error: a weld of whole solids makes one rigid body of them"),
               std::string::npos);
-    EXPECT_EQ(complaint("[solid.ball]\nshape = \"sphere\"\nmass_kg = 2\ndensity_kg_per_m3 = 900\n"),
-              "s.toml:4:11: error: a solid has either mass_kg or density_kg_per_m3\n  mass_kg = 2\n            ^ leave "
-              "one out");
+    EXPECT_EQ(
+        complaint("[solid.ball]\nshape = \"sphere\"\nmass_kg = 2\ndensity_kg_per_m3 = 900\n"),
+        "s.toml:4:11: error: [solid.ball] has either mass_kg or density_kg_per_m3\n  mass_kg = 2\n            ^ leave "
+        "one out");
     EXPECT_NE(complaint("[solid.far]\nshape = \"compound\"\nparts = [{ shape = \"sphere\", radius = 0.1 }, { shape = "
                         "\"sphere\", radius = 0.1, position = [3000, 0, 0], mass_kg = 1e-9 }]\n")
                   .find("s.toml:2:8: error: nearly all of the mass is in one place"),

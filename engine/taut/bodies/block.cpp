@@ -66,12 +66,6 @@ Section BlockSpec::section() {
                          .choice("lumping", &BlockSpec::lumping, lumpingNames(),
                                  "How mass is shared out: by volume, or the same for every point.")
                          .take();
-    section.check = [](const fields::CheckInput& input, void* target) {
-        const auto& block = *static_cast<const BlockSpec*>(target);
-        if (block.poisson && block.bulk)
-            input.problems.addError(input.at("poisson"), "a block has either poisson or bulk_Pa",
-                                    "leave one out; with poisson, young_Pa is that of the block");
-    };
     return section;
 }
 

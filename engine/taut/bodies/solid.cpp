@@ -118,25 +118,15 @@ view::Mesh meshOf(const SolidSpec& solid) {
     return view::creasedMesh(positions, triangles, creaseAngle);
 }
 
-glm::mat4 placement(const glm::dmat3& axes, const dvec3& place) {
-    glm::mat4 matrix{glm::mat3(axes)};
-    matrix[3] = glm::vec4(glm::vec3(place), 1.0F);
-    return matrix;
-}
-
-glm::dmat3 axesOf(const SolidSpec& solid) {
-    const glm::dquat turn = rotationOf(solid.rotation);
-    return {rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1})};
-}
-
 // Draws rigid meshes where the inner points say.
 class SolidDrawing final : public BodyDrawing {
   public:
     explicit SolidDrawing(const Body& body) : name_(body.fullName()) {
         const auto& spec = dynamic_cast<const SolidSpec&>(*body.spec);
-        if (spec.shape != "compound") pieces_.push_back({meshOf(spec), finishOf(spec.finish)});
-        for (const SolidSpec& part : spec.shape == "compound" ? spec.parts : std::vector<SolidSpec>{})
-            pieces_.push_back({meshOf(part), finishOf(part.finish), placement(axesOf(part), part.position)});
+        if (spec.parts.empty()) pieces_.push_back({meshOf(spec), finishOf(spec.finish)});
+        for (const SolidSpec& part : spec.parts)
+            pieces_.push_back(
+                {meshOf(part), finishOf(part.finish), matrixOf({part.position, rotationOf(part.rotation)})});
         const dvec3 origin = body.model.positions[0] - jitterOf(body, 0) -
                              (spec.build({}).positions[0] - spec.position);  // an array's copies each have their own
         const glm::dquat back = glm::conjugate(rotationOf(spec.rotation));
@@ -146,7 +136,8 @@ class SolidDrawing final : public BodyDrawing {
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
         const std::array<dvec3, 3> now{dvec3(positions[0]), dvec3(positions[2]), dvec3(positions[4])};
         const glm::dmat3 turn = mechanics::rotationBetween(rest_, now);
-        const glm::mat4 transform = placement(turn, now[0] - turn * rest_[0]);
+        glm::mat4 transform{glm::mat3(turn)};
+        transform[3] = glm::vec4(glm::vec3(now[0] - turn * rest_[0]), 1.0F);
         for (const Piece& piece : pieces_) {
             view::Surface& surface = surfaces.emplace_back();
             surface.name = name_;
@@ -192,8 +183,7 @@ FieldList<SolidSpec> shapeFields(In where) {
 }
 
 std::string shapeOf(const fields::Node& table) {
-    const fields::Member* named = table.find("shape");
-    return named != nullptr && named->value.kind == fields::NodeKind::text ? named->value.text : "";
+    return table.textAt("shape");
 }
 
 // What has sharp edges and no thickness in the file gets one that fits.
@@ -213,12 +203,6 @@ void checkThickness(const fields::CheckInput& input, SolidSpec& solid, const std
         solid.thickness = 0.2 * most;
 }
 
-void checkMass(const fields::CheckInput& input) {
-    if (input.table.find("mass_kg") != nullptr && input.table.find("density_kg_per_m3") != nullptr)
-        input.problems.addError(input.at("mass_kg"), "a solid has either mass_kg or density_kg_per_m3",
-                                "leave one out");
-}
-
 Section partSection() {
     Section section;
     section.variant = shapeOf;
@@ -227,7 +211,6 @@ Section partSection() {
         shapeFields(In::compound)
             .table("finish", &SolidSpec::finish, finishSection(), "How it looks; as the compound if not given.")
             .take();
-    section.check = [](const fields::CheckInput& input, void*) { checkMass(input); };
     return section;
 }
 
@@ -269,7 +252,6 @@ Section SolidSpec::section() {
                          .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& solid = *static_cast<SolidSpec*>(target);
-        checkMass(input);
         if (solid.shape != "compound")
             checkThickness(input, solid, solid.shape);
         else if (input.isClean)
@@ -294,18 +276,26 @@ std::vector<const BodySpec*> SolidSpec::shapes() const {
 // Its shape at its place.
 mechanics::RigidShape SolidSpec::made() const {
     mechanics::RigidShape made;
+    if (shape == "compound") {
+        made.mass = 0;
+        for (const SolidSpec& part : parts) join(made, part.made());
+    } else {
+        addShape(made);
+        made.mass = density * made.properties.volume;
+    }
+    if (mass) made.mass = *mass;
+    const glm::dquat turn = rotationOf(rotation);
+    made.axes = glm::dmat3(rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1}));
+    made.place = position;
+    return made;
+}
+
+void SolidSpec::addShape(mechanics::RigidShape& made) const {
     mechanics::RigidPart& part = made.parts.emplace_back();
     part.thickness = thickness;
     const bool isRounded = shape != "mesh" && shape != "hull";
     part.rounding = isRounded ? thickness : 0.0;
-    if (shape == "compound") {
-        const auto isCompound = [](const SolidSpec& own) { return own.shape == "compound"; };
-        if (parts.empty() || std::any_of(parts.begin(), parts.end(), isCompound))
-            throw core::Error(core::ErrorKind::badContent, at(source) + "a compound needs parts that are none");
-        made.parts.clear();
-        made.mass = 0;
-        for (const SolidSpec& own : parts) join(made, own.made());
-    } else if (shape == "sphere") {
+    if (shape == "sphere") {
         made.positions = {dvec3(0.0)};
         made.properties = mechanics::massPropertiesOfBall(radius);
     } else if (shape == "capsule") {
@@ -340,17 +330,14 @@ mechanics::RigidShape SolidSpec::made() const {
         made.properties = mechanics::massPropertiesOf(made.positions, made.triangles);
         for (dvec3& corner : made.positions) corner -= thickness * glm::sign(corner);
     }
-    if (shape != "compound") {
-        made.parts.back().last = static_cast<int>(made.positions.size());
-        made.mass = density * made.properties.volume;
-    }
-    made.mass = mass.value_or(made.mass);
-    made.axes = axesOf(*this);
-    made.place = position;
-    return made;
+    part.last = static_cast<int>(made.positions.size());
 }
 
 mechanics::Model SolidSpec::build(const SceneSpec&) const {
+    const auto isCompound = [](const SolidSpec& own) { return own.shape == "compound"; };
+    if (isCompound(*this) == parts.empty() || std::any_of(parts.begin(), parts.end(), isCompound))
+        throw core::Error(core::ErrorKind::badContent,
+                          at(source) + "a compound, and nothing else, has parts; none of them is a compound");
     mechanics::RigidShape whole = made();
     whole.dragRate = drag;
     mechanics::Model model;
@@ -369,8 +356,8 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
                 model.groups[prefix + sides[k][((i - part.first) >> k) & 1]].push_back(i);
         }
     };
-    if (shape != "compound") addSides(*this, model.parts.front(), "");
-    for (std::size_t k = 0; k < parts.size() && shape == "compound"; ++k) {
+    if (parts.empty()) addSides(*this, model.parts.front(), "");
+    for (std::size_t k = 0; k < parts.size(); ++k) {
         const std::string group = fmt::format("part{}", k);
         for (int i = model.parts[k].first; i < model.parts[k].last; ++i) model.groups[group].push_back(i);
         addSides(parts[k], model.parts[k], group + "-");

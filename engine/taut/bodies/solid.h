@@ -39,6 +39,7 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
 
   private:
     mechanics::RigidShape made() const;
+    void addShape(mechanics::RigidShape& made) const;
 };
 
 }  // namespace taut::world

@@ -13,6 +13,11 @@ const Member* Node::find(std::string_view key) const {
     return found == members.end() ? nullptr : &*found;
 }
 
+std::string Node::textAt(std::string_view key) const {
+    const Member* member = find(key);
+    return member != nullptr && member->value.kind == NodeKind::text ? member->value.text : "";
+}
+
 Member* Node::find(std::string_view key) {
     return const_cast<Member*>(std::as_const(*this).find(key));
 }

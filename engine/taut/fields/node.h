@@ -36,6 +36,7 @@ struct Node {
     std::vector<Member> members;  // table, in the order of the file
 
     const Member* find(std::string_view key) const;
+    std::string textAt(std::string_view key) const;  // empty if it has no such text
     Member* find(std::string_view key);
 
     // What is inside under that key; null: nothing.

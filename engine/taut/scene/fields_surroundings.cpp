@@ -65,8 +65,7 @@ FieldList<ColliderSpec> shapeFields(const collision::ShapeKinds& shapes, In wher
 }
 
 std::string shapeOf(const Node& table) {
-    const Member* shape = table.find("shape");
-    return shape != nullptr && shape->value.kind == NodeKind::text ? shape->value.text : "";
+    return table.textAt("shape");
 }
 
 Section poseKeySection() {

@@ -159,6 +159,11 @@ class SceneReader {
             if (!field.only.empty() && variant.empty()) continue;
             problems_.addError(place, fmt::format("{} needs {}", where, field.key), remedyFor(field));
         }
+        for (const Field& field : own.fields)
+            if (const Member* said = table.find(field.key); said != nullptr && table.find(field.inPlaceOf) != nullptr)
+                problems_.addError(said->value.place,
+                                   fmt::format("{} has either {} or {}", where, field.key, field.inPlaceOf),
+                                   "leave one out");
         if (!own.check) return;
         own.check({problems_, table, place, where, variant, problems_.errorCount() == before}, target);
     }

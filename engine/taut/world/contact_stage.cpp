@@ -145,12 +145,10 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         const auto numberOf = [&](int i) { return offsets[k] + bodies_[k]->pointOf[static_cast<std::size_t>(i)]; };
         carry(carriedSurface(*bodies_[k]), numberOf, surfaces[k], rest, carriedPoints);
     }
-    if (std::any_of(bodies_.begin(), bodies_.end(),
-                    [](const Body* body) { return body->spec->facesMeetColliders(); })) {
-        const std::vector<TouchedCollider> touched = colliders();
-        for (const TouchedCollider& own : touched) colliderNames_.push_back(own.name);
-        colliders_ = ColliderSurfaces(touched, now.start(), surfaces, rest);
-    }
+    std::vector<TouchedCollider> touched;
+    if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return body->spec->facesMeetColliders(); }))
+        touched = colliders();
+    colliders_ = ColliderSurfaces(touched, now.start(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
     inverseMass_.resize(rest.size());
     damage_.assign(bodies_.size(), 0);
@@ -162,14 +160,14 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     for (const Part& part : parts_)
         for (const JointTie& tie : part.island->plan().ties)
             if (tie.isSeam) group_->elements().sew(part.first + tie.a, part.first + tie.b);
-    keepJoinedApart(offsets);
+    keepJoinedApart(offsets, touched);
     colliders_.placeAll(x1_);
     x0_ = x1_;
 }
 
 // Faces of rigid bodies would keep apart the points that joints hold together, and colliders those that they carry.
 // offsets: (surfaces) of their island's points.
-void ContactStage::keepJoinedApart(std::span<const int> offsets) {
+void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched) {
     std::vector<std::vector<int>> rigidAt(x1_.size());  // (points) bodies, by their first surface
     const auto surfacesFrom = [&](int first) {
         std::vector<int> all;
@@ -210,10 +208,10 @@ void ContactStage::keepJoinedApart(std::span<const int> offsets) {
     for (const auto& [first, second] : joined)
         for (const int own : surfacesFrom(first))
             for (const int other : surfacesFrom(second)) group_->elements().keepApart(own, other);
-    mountedOn_.assign(bodies_.size(), {});
     for (const auto& [first, collider] : mounted)
         for (const int own : surfacesFrom(first)) {
-            mountedOn_[static_cast<std::size_t>(own)].insert(collider);
+            for (std::size_t c = 0; c < touched.size(); ++c)
+                if (touched[c].name == collider) mountedOn_.emplace(own, static_cast<int>(c));
             for (const int other : colliders_.surfacesOf(collider)) group_->elements().keepApart(own, other);
         }
 }
@@ -432,10 +430,8 @@ void ContactStage::forEachNearCollider(double past, double ahead, const Each& ea
         }
         found.clear();
         island.colliders().findNear(ways, surface.thickness, past, island.step(), found);
-        const std::set<std::string>& own = mountedOn_[static_cast<std::size_t>(whole)];
         for (const auto& near : found)
-            if (own.empty() || !own.contains(colliderNames_[static_cast<std::size_t>(near.collider)]))
-                each(surface.points[near.way], spec, thickness, near);
+            if (!mountedOn_.contains({whole, near.collider})) each(surface.points[near.way], spec, thickness, near);
     }
 }
 

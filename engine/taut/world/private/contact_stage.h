@@ -113,7 +113,7 @@ class ContactStage {
     std::string nameOf(int surface) const {
         return isOfBody(surface) ? bodyOf(surface).fullName() : colliders_.nameOf(surface);
     }
-    void keepJoinedApart(std::span<const int> offsets);
+    void keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched);
     // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
     // rigid collider sticks out of a face, which is no crossing.
     std::optional<std::pair<int, int>> sidesOf(const contact::Crossing& crossing) const;
@@ -184,9 +184,8 @@ class ContactStage {
         double thickness;  // [m] without its sag
     };
     std::vector<Whole> wholes_;  // of bodies that meet colliders as a whole
-    std::vector<std::string> colliderNames_;
-    // (surfaces) Colliders that carry points of it, which it does not touch.
-    std::vector<std::set<std::string>> mountedOn_;
+    // Surfaces and numbers of colliders that carry points of them: they do not touch.
+    std::set<std::pair<int, int>> mountedOn_;
     std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements
     ColliderSurfaces colliders_;
     std::unique_ptr<contact::ContactGroup> group_;

@@ -58,8 +58,8 @@ TEST(ContactNearest, KernelsGiveTheBitsOfOnePairOnEveryInstructionSet) {
         std::vector<std::array<dvec3, 4>> places;
         for (int n = 0; n < closestBatch * 4 / 3; ++n) {
             const auto& p = places.emplace_back(fourPoints(dice, n));
-            triangles.add(p[0], p[1], p[2], p[3]);
-            segments.add(p[0], p[1], p[2], p[3]);
+            triangles.add(p, {0, 1, 2, 3});
+            segments.add(p, {0, 1, 2, 3});
         }
         triangles.solve(closestKernels().onTriangles);
         segments.solve(closestKernels().onSegments);

@@ -38,8 +38,9 @@ namespace taut::contact {
 
 // A point and a triangle, or two edges, that may come into contact.
 struct CandidatePair {
-    int a, b;          // point and triangle; or edges, the lower first
-    double thickness;  // [m] distance that they keep
+    int a, b;                   // point and triangle; or edges, the lower first
+    std::array<int, 4> points;  // the point and the triangle's corners; or the ends of both edges
+    double thickness;           // [m] distance that they keep
 };
 
 // A pair needs a certificate if its distance is below the relative motion of its leaves plus this share of its

@@ -45,17 +45,12 @@ struct Query {
 };
 
 // Measures scratch.overlapping, and appends the pairs within the margin to the list, sorted by isBefore.
-// pointsOf(pair): the four points that the kernel gets.
-template <class PointsOf, class IsBefore>
-void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), PointsOf&& pointsOf, IsBefore&& isBefore,
-                   Scratch& scratch, BroadPhase::CandidateList& list) {
+template <class IsBefore>
+void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), IsBefore&& isBefore, Scratch& scratch,
+                   BroadPhase::CandidateList& list) {
     const auto measure = [&](std::span<const dvec3> x) {
         scratch.batch.clear();
-        for (const CandidatePair& pair : scratch.overlapping) {
-            const std::array<int, 4> i = pointsOf(pair);
-            scratch.batch.add(x[static_cast<std::size_t>(i[0])], x[static_cast<std::size_t>(i[1])],
-                              x[static_cast<std::size_t>(i[2])], x[static_cast<std::size_t>(i[3])]);
-        }
+        for (const CandidatePair& pair : scratch.overlapping) scratch.batch.add(x, pair.points);
         scratch.batch.solve(kernel);
     };
 
@@ -136,17 +131,16 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     const auto addPoints = [&](const LeafBoxes& points, const core::Aabb& boxOfPoints, const LeafBoxes& triangles,
                                const core::Aabb& boxOfTriangles) {
         boxes.forEach(triangles.triangles, boxOfTriangles, points.points, boxOfPoints, [&](int t, int i) {
-            if (!elements_.areNeighbours(i, query.triangle(t))) scratch.overlapping.push_back({i, t, thickness});
+            const Triangle& triangle = query.triangle(t);
+            const std::array<int, 3>& c = triangle.points;
+            if (!elements_.areNeighbours(i, triangle))
+                scratch.overlapping.push_back({i, t, {i, c[0], c[1], c[2]}, thickness});
         });
     };
     addPoints(ofA, boxA, ofB, boxB);
     if (!query.isOne) addPoints(ofB, boxB, ofA, boxA);
     appendInReach(
         query, kernels.onTriangles,
-        [&](const CandidatePair& pair) -> std::array<int, 4> {
-            const std::array<int, 3>& c = query.triangle(pair.b).points;
-            return {pair.a, c[0], c[1], c[2]};
-        },
         [](const CandidatePair& p, const CandidatePair& q) { return p.b < q.b || (p.b == q.b && p.a < q.a); }, scratch,
         list);
     list.pointPairs = list.pairs.size();
@@ -155,15 +149,13 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     boxes.forEach(
         ofA.edges, boxA, ofB.edges, boxB,
         [&](int e, int f) {
-            if (!elements_.areNeighbours(query.edge(e), query.edge(f)))
-                scratch.overlapping.push_back({std::min(e, f), std::max(e, f), thickness});
+            const int low = std::min(e, f), high = std::max(e, f);
+            const Edge &first = query.edge(low), &second = query.edge(high);
+            if (!elements_.areNeighbours(first, second))
+                scratch.overlapping.push_back({low, high, {first.a, first.b, second.a, second.b}, thickness});
         });
     appendInReach(
         query, kernels.onSegments,
-        [&](const CandidatePair& pair) -> std::array<int, 4> {
-            const Edge &first = query.edge(pair.a), &second = query.edge(pair.b);
-            return {first.a, first.b, second.a, second.b};
-        },
         [](const CandidatePair& p, const CandidatePair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); }, scratch,
         list);
     list.approachBudget = list.travelBudget;

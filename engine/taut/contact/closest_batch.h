@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "taut/contact/closest_kernel.h"
 
@@ -14,16 +15,14 @@ class ClosestBatch {
     void clear() { count_ = 0; }
     int count() const { return count_; }
 
-    // [m], as ClosestLanes::at. Returns the slot.
-    int add(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r, const glm::dvec3& s) {
+    // The places [m] of these points, as ClosestLanes::at. Returns the slot.
+    int add(std::span<const glm::dvec3> x, const std::array<int, 4>& points) {
         if (count_ == static_cast<int>(lanes_.size()) * closestBatch) lanes_.emplace_back();
         ClosestLanes& into = lanes_[static_cast<std::size_t>(count_ / closestBatch)];
         const int lane = count_ % closestBatch;
-        for (int k = 0; k < 3; ++k) {
-            into.at[0][k][lane] = p[k];
-            into.at[1][k][lane] = q[k];
-            into.at[2][k][lane] = r[k];
-            into.at[3][k][lane] = s[k];
+        for (std::size_t i = 0; i < 4; ++i) {
+            const glm::dvec3& place = x[static_cast<std::size_t>(points[i])];
+            for (int k = 0; k < 3; ++k) into.at[i][k][lane] = place[k];
         }
         return count_++;
     }

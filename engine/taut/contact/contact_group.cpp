@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "taut/contact/certificate.h"
 #include "taut/contact/closest_points.h"
@@ -42,6 +43,7 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
     u_.resize(count);
     v_.resize(count);
     shift_.resize(count);
+    loaded_.resize(count);
     marks_.assign(count, unmarked);
 }
 
@@ -192,8 +194,10 @@ void ContactGroup::selectActive(const Instant& instant) {
 
 void ContactGroup::solveActive(const Instant& instant) {
     // Load the points of active pairs and crossings. No others are read.
+    ++loads_;
     const auto load = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
+        if (std::exchange(loaded_[k], loads_) == loads_) return;
         u0_[k] = u_[k] = (instant.x1[k] - instant.x0[k]) / instant.h;
         v_[k] = instant.v[k];
         shift_[k] = dvec3(0.0);
@@ -223,6 +227,7 @@ void ContactGroup::solveActive(const Instant& instant) {
     squeezed_.clear();
     for (int round = 0; round < mostSqueezes && findSqueezed(instant); ++round) {
         std::erase_if(active_, [&](const ContactConstraint& pair) { return isLetThrough(pair); });
+        ++loads_;
         loadAll();
         solve();
     }
@@ -247,35 +252,34 @@ void ContactGroup::solveActive(const Instant& instant) {
 // may go through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster
 // than its softness explains. Returns whether any is, beyond those known.
 bool ContactGroup::findSqueezed(const Instant& instant) {
-    struct Pressed {
-        dvec3 sum{0.0};   // [N s] of impulses
-        double size = 0;  // [N s] sum of their sizes
-        bool yields = false;
-        int lowest = 1 << 30, highest = -1;  // rank
-    };
     if (std::none_of(active_.begin(), active_.end(), [](const auto& pair) { return pair.softness > 0; })) return false;
-    std::map<int, Pressed> pressed;  // by point
+    pressed_.resize(u_.size());
+    std::vector<int> points;
     for (std::size_t p = 0; p < active_.size(); ++p) {
         const ContactConstraint& pair = active_[p];
         const double impulse = solver_.impulses()[p];
         if (!(impulse > 0)) continue;
+        const bool isSoft = pair.softness > 0;
+        const int rank = isSoft ? rankOf(pair) : 0;
         double inverse = 0;
         for (std::size_t k = 0; k < 4; ++k)
             inverse +=
                 pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
         const bool yields = pair.softness * inverse * impulse * instant.h > squeezedShare * pair.thickness;
         for (std::size_t k = 0; k < 4; ++k) {
-            Pressed& own = pressed[pair.points[k]];
+            Pressed& own = pressed_[static_cast<std::size_t>(pair.points[k])];
+            if (own.size == 0) points.push_back(pair.points[k]);
             own.sum += (pair.weights[k] * impulse) * pair.normal;
             own.size += std::abs(pair.weights[k]) * impulse;
             own.yields = own.yields || yields;
-            if (!(pair.softness > 0)) continue;
-            own.lowest = std::min(own.lowest, rankOf(pair));
-            own.highest = std::max(own.highest, rankOf(pair));
+            if (!isSoft) continue;
+            own.lowest = std::min(own.lowest, rank);
+            own.highest = std::max(own.highest, rank);
         }
     }
     bool isAny = false;
-    for (const auto& [point, own] : pressed) {
+    for (int point : points) {
+        const Pressed own = std::exchange(pressed_[static_cast<std::size_t>(point)], {});
         if (!own.yields || !(instant.inverseMass[static_cast<std::size_t>(point)] > 0)) continue;
         if (length(own.sum) >= oneSided * own.size) continue;
         const int kept = own.lowest < own.highest ? own.lowest : -1;

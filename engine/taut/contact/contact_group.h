@@ -193,10 +193,19 @@ class ContactGroup {
     std::vector<Solid> solids_;
     CarriedPoints carried_;
     ContactSolver solver_;
-    std::map<int, int> squeezed_;  // points; the rank of the driven surface that still presses, -1: none
+    struct Pressed {
+        dvec3 sum{0.0};   // [N s] of impulses
+        double size = 0;  // [N s] sum of their sizes
+        bool yields = false;
+        int lowest = 1 << 30, highest = -1;  // rank
+    };
+    std::vector<Pressed> pressed_;  // (points) scratch, as new between uses
+    std::map<int, int> squeezed_;   // points; the rank of the driven surface that still presses, -1: none
     // (points) [m/s] mean velocity in the instant before and after the solver; [m/s] stored velocity after it; [m]
     // position correction. Set where active pairs or crossings have points.
     std::vector<dvec3> u0_, u_, v_, shift_;
+    std::vector<std::uint64_t> loaded_;  // (points) the number of the load that set them last
+    std::uint64_t loads_ = 0;
     std::vector<dvec3> ahead_;          // (points) [m] of a forecast
     std::vector<int> moved_, pending_;  // points that were handed over in this instant; since tested_ was found
     InstantResult result_;

@@ -115,7 +115,6 @@ struct ContactGroup::NarrowPhaseScratch {
 // Adds the due pairs of a list to the batches.
 void ContactGroup::gather(BroadPhase::CandidateList& list, std::span<const dvec3> x0, const ClosestKernels& kernels,
                           NarrowPhaseScratch& scratch) const {
-    const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
     // Find the pairs that have used up both budgets. The list gets the least budget of the others.
     scratch.due.resize(list.pairs.size());
     CandidateRows rows{static_cast<int>(list.pairs.size()),
@@ -130,16 +129,8 @@ void ContactGroup::gather(BroadPhase::CandidateList& list, std::span<const dvec3
     // Pairs of points and triangles go to one batch, pairs of edges to the other.
     for (int n = 0; n < dueCount; ++n) {
         const auto k = static_cast<std::size_t>(scratch.due[static_cast<std::size_t>(n)]);
-        const CandidatePair& candidate = list.pairs[k];
-        int slot;
-        if (k < list.pointPairs) {
-            const std::array<int, 3>& c = elements_.triangles()[static_cast<std::size_t>(candidate.b)].points;
-            slot = scratch.points.add(at(candidate.a), at(c[0]), at(c[1]), at(c[2]));
-        } else {
-            const Edge &first = elements_.edges()[static_cast<std::size_t>(candidate.a)],
-                       &second = elements_.edges()[static_cast<std::size_t>(candidate.b)];
-            slot = scratch.edges.add(at(first.a), at(first.b), at(second.a), at(second.b));
-        }
+        ClosestBatch& batch = k < list.pointPairs ? scratch.points : scratch.edges;
+        const int slot = batch.add(x0, list.pairs[k].points);
         scratch.measured.push_back({&list, k, slot});
     }
 }
@@ -157,14 +148,7 @@ ContactConstraint ContactGroup::constraintOf(const Measured& measured, const Nar
     pair.thickness = candidate.thickness;
     pair.distance = batch.distance(measured.slot);
     pair.weights = batch.weights(measured.slot);
-    if (pair.isPoint) {
-        const std::array<int, 3>& c = elements_.triangles()[static_cast<std::size_t>(pair.b)].points;
-        pair.points = {pair.a, c[0], c[1], c[2]};
-    } else {
-        const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],
-                   &second = elements_.edges()[static_cast<std::size_t>(pair.b)];
-        pair.points = {first.a, first.b, second.a, second.b};
-    }
+    pair.points = candidate.points;
     if (pair.hasSides()) {
         pair.normal = batch.separation(measured.slot) / pair.distance;
     } else {
@@ -291,6 +275,7 @@ void ContactGroup::runNarrowPhase(std::span<const dvec3> x0, std::span<const dve
         found_.insert(found_.end(), own.begin(), own.end());
     }
     const auto isBefore = [](const ContactConstraint& a, const ContactConstraint& b) { return a.comesBefore(b); };
+    if (tested_.empty()) return std::swap(tested_, found_);
     merged_.clear();
     std::set_union(tested_.begin(), tested_.end(), found_.begin(), found_.end(), std::back_inserter(merged_), isBefore);
     std::swap(tested_, merged_);

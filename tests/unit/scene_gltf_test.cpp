@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "taut/bodies/collider_figure.h"
 #include "taut/figure/figure.h"
 #include "taut/scene/private/gltf_file.h"
 #include "taut/world/world.h"
@@ -103,6 +104,24 @@ TEST(SceneGltf, AFileThatItNamesHasToBeAllowed) {
     options.assetFolders = {};
     const Confinement confinement{{folder / "inner"}};
     EXPECT_THROW(gltfMesh(folder / "inner/arm.gltf", confinement), core::Error);
+}
+
+// Before 0 too, where it begins again and again.
+TEST(SceneGltf, AFigureWaitsForTheStartOfItsAnimation) {
+    const AssetFolder folder;
+    folder.write("arm.gltf", armText());
+    const auto placesAt = [&](const std::string& start, double seconds) {
+        const world::SceneSpec scene = folder
+                                           .load(
+                                               "schema = 1\n[collider.f]\nshape = \"figure\"\nmesh = \"arm.gltf\"\n"
+                                               "animation = \"bend\"\nstart_s = " +
+                                               start + "\n")
+                                           .spec;
+        return world::ColliderFigure(scene.colliders[0]).at(seconds, {}).places();
+    };
+    EXPECT_EQ(placesAt("-1.0", 0.75), placesAt("0.0", 0.0));
+    EXPECT_EQ(placesAt("-1.0", 1.25), placesAt("0.0", 0.25));
+    EXPECT_NE(placesAt("-1.0", 1.25), placesAt("0.0", 0.0));
 }
 
 TEST(SceneGltf, AnAnimationOrJointThatIsNotThereIsNamed) {

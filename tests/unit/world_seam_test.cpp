@@ -309,4 +309,26 @@ TEST(Seams, WhatCannotBeSewnIsRefused) {
 }
 
 }  // namespace
+// Two panels sewn round a post that is too thick for them: they press on it, and nothing moves. Each pulls at the seam
+// along itself, and only what is left of both pulls presses.
+TEST(Seams, WhatIsTautRoundAPostHasNoVelocity) {
+    const std::string more = "cells = [6, 2]\nmaterial = \"m\"\nthickness = 0.004\n";
+    World world(sceneOf(
+        "schema = 1\n[solver]\nprecision = \"double\"\n[world]\ngravity = [0, 0, 0]\n[material.m]\ndrag_per_s = 5\n"
+        "[collider.post]\nshape = \"capsule\"\nradius = 0.13\nheight = 0.6\nposition = [0, 1, 0]\n"
+        "[cloth.a]\nsize = [0.34, 0.1]\norigin = [-0.17, 1.05, 0.18]\n" +
+        more + "[cloth.b]\nsize = [0.34, 0.1]\norigin = [0.17, 1.05, -0.18]\nacross = [-1, 0, 0]\n" + more +
+        "[[seam]]\na = \"cloth.a@left\"\nb = \"cloth.b@right\"\nover_s = 0.3\n"
+        "[[seam]]\na = \"cloth.a@right\"\nb = \"cloth.b@left\"\nover_s = 0.3\n"));
+    for (int i = 0; i < 90; ++i) ASSERT_FALSE(world.advance());
+    const std::vector<dvec3> before = world.points("cloth.a").x;
+    ASSERT_FALSE(world.advance());
+    const std::vector<dvec3> x = world.points("cloth.a").x;
+    const PointsNow now = world.points("cloth.a");
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        EXPECT_LT(lengthOf(x[i] - before[i]), 1e-9) << i;
+        EXPECT_LT(lengthOf(now.v[i]), 1e-6) << i;
+    }
+}
+
 }  // namespace taut::world::seams

@@ -6,6 +6,7 @@
 
 #include "support/scenes.h"
 #include "support/timelines.h"
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/net.h"
 #include "taut/core/private/hash.h"
 #include "taut/forces/wind.h"
@@ -149,6 +150,30 @@ TEST(Sleep, ATowerStaysWithinTheErrorOfTheRunThatNeverSleeps) {
         scene.bodies.add(block);
     }
     expectWithinError(scene, {"block.low", "block.high"}, 4.0);
+}
+
+// Points of a seam move as one: their mass and what holds them is that of both.
+TEST(Sleep, APanelSewnToAnotherStaysWithinTheErrorAndFallsWhenTheSeamIsReleased) {
+    SceneSpec scene = curtain();
+    ClothSpec lower = sheet("lower", {0, 0.599, 0}, {0, -1, 0});
+    lower.material = "still";
+    scene.bodies.add(lower);
+    SeamJoint hem;
+    hem.name = "hem";
+    hem.a = "cloth.curtain@bottom";
+    hem.b = "cloth.lower@top";
+    hem.over = 0.5;
+    scene.joints.add(hem);
+    expectWithinError(scene, {"cloth.curtain", "cloth.lower"}, 7.0);
+
+    World world(scene);
+    ASSERT_GT(untilAsleep(world, 7.0), 0);
+    const double height = positionsOf(world, "cloth.lower")[12].y;
+    auto release = support::release(0);
+    release.id = "hem";
+    world.apply(release);
+    test::advance(world, 30);
+    EXPECT_LT(positionsOf(world, "cloth.lower")[12].y, height - 0.1);
 }
 
 // An oscillator swings by v/ω and rests at f/k. A chain of three between walls has the compliance of its stiffness

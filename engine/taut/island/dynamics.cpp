@@ -437,6 +437,8 @@ class DynamicsOf final : public Dynamics {
     void findVelocities(double t, std::span<const collision::Contact> contacts,
                         std::span<const ContactAcceleration> pressed) {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
+        // Tied points share what forces have added; contacts bear what is left of it. Those of a solid are pushed alike.
+        if (plan_.constraints.size() > plan_.solids.size()) constraints_.projectVelocities(t, velocity_);
         contacts_.bear(pressed, 0.5 * step_, velocity_);
         contacts_.bear(contacts, velocity_);
         if (!constraints_.isEmpty()) constraints_.projectVelocities(t, velocity_);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/bodies/joints/constraint.h"
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island.h"
 #include "taut/island/private/rest_bound.h"
@@ -14,6 +15,28 @@ constexpr double holdingShare = 0.98;  // of Coulomb's limit: up to there all fr
 
 bool isOneSolid(const IslandPlan& plan) {
     return plan.solids.size() == 1 && plan.solids[0].size() == plan.bodies.size() && plan.constraints.size() == 1;
+}
+
+// (points) The lowest of those that constraints hold in one place with a point; empty where they do anything else.
+std::vector<std::size_t> leadersOf(const IslandPlan& plan, double t) {
+    std::vector<std::size_t> leaders(plan.points.size());
+    for (std::size_t i = 0; i < leaders.size(); ++i) leaders[i] = i;
+    const auto leaderOf = [&](std::size_t i) {
+        while (leaders[i] != i) i = leaders[i];
+        return i;
+    };
+    for (const auto& constraint : plan.constraints) {
+        const auto pairs = constraint->joinedFrom(t);
+        if (!pairs) return {};
+        const std::span<const int> points = constraint->points();
+        const auto numberOf = [&](int end) { return static_cast<std::size_t>(points[static_cast<std::size_t>(end)]); };
+        for (const Constraint::Pair& pair : *pairs) {
+            const std::size_t a = leaderOf(numberOf(pair.a)), b = leaderOf(numberOf(pair.b));
+            leaders[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    for (std::size_t& leader : leaders) leader = leaderOf(leader);
+    return leaders;
 }
 
 // Whether a rigid body stays: what presses it at places that are not on one line keeps it from tipping, and all its
@@ -47,15 +70,16 @@ void Island::watchRest(bool isMiddle) {
     rest_.look(x_, plan_.solver.sleepError / 3, isMiddle);
 }
 
-// What constraints hold has no stiffness, so their islands stay awake, but for a solid by itself. So does what a hand
-// or a collider moves.
+// What a hand or a collider moves stays awake.
 bool Island::isCalm() {
     const auto moves = [](const Grip& grip) { return grip.path.moves(); };
-    return rest_.isCalm() && (plan_.constraints.empty() || isOneSolid(plan_)) && now_.inside.empty() && !isOpen_ &&
+    return rest_.isCalm() && now_.inside.empty() && !isOpen_ &&
            std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) && dynamics_->isSteady(forces_);
 }
 
-bool Island::rests(double seconds, std::vector<Support> supports, std::span<const Foothold> footholds) {
+// Points that constraints hold in one place move as one. What they hold otherwise has no stiffness, so it stays awake,
+// but for a solid by itself.
+bool Island::rests(double t, double seconds, std::vector<Support> supports, std::span<const Foothold> footholds) {
     const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
     const std::size_t n = plan_.points.size();
     dynamics_->positions(x_);
@@ -64,6 +88,8 @@ bool Island::rests(double seconds, std::vector<Support> supports, std::span<cons
             if (const dvec3 v = rest_.velocity(i, x_[i], seconds); !(glm::dot(v, v) <= still * still)) return false;
         return holdRigidly(footholds, x_);
     }
+    const std::vector<std::size_t> leaders = leadersOf(plan_, t);
+    if (leaders.empty()) return false;
     supports.resize(n);
     for (const collision::Contact& contact : now_.contacts) {
         Support& support = supports[static_cast<std::size_t>(contact.point)];
@@ -82,7 +108,25 @@ bool Island::rests(double seconds, std::vector<Support> supports, std::span<cons
         const double push = std::sqrt(glm::dot(supports[i].push, supports[i].push));
         if (push > 0) normals[i] = supports[i].push / push;
     }
-    return restBound(inverseMasses, normals, v, r, still, stiffnessAt(x_)) <= error / 3;
+    // A leader stands for all that are in its place.
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t leader = leaders[i];
+        if (leader == i) continue;
+        double& inverse = inverseMasses[leader];
+        inverse = inverse > 0 && inverseMasses[i] > 0 ? 1.0 / (1.0 / inverse + 1.0 / inverseMasses[i]) : 0.0;
+        inverseMasses[i] = 0;
+        r[leader] += r[i];
+        if (normals[leader] == dvec3(0.0)) normals[leader] = normals[i];
+    }
+    std::vector<dvec3> ways(n), forces(n);
+    const mechanics::StiffnessProduct stiffness = stiffnessAt(x_);
+    const auto ofLeaders = [&](std::span<const dvec3> in, std::span<dvec3> sum) {
+        for (std::size_t i = 0; i < n; ++i) ways[i] = in[leaders[i]];
+        std::fill(forces.begin(), forces.end(), dvec3(0.0));
+        stiffness(ways, forces);
+        for (std::size_t i = 0; i < n; ++i) sum[leaders[i]] += forces[i];
+    };
+    return restBound(inverseMasses, normals, v, r, still, ofLeaders) <= error / 3;
 }
 
 void Island::fallAsleep(const TickTime& time, std::int64_t company) {

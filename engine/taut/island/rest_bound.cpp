@@ -43,7 +43,7 @@ bool solve(std::span<const double> inverseMasses, std::span<const dvec3> normals
         std::copy_n(&sum.front().x, 3 * n, to);
     };
     ode::ConjugateGradient<double> solver(3 * n);
-    const int most = std::min(mostProducts, 6 * static_cast<int>(n) + 20);
+    const int most = std::min(mostProducts, 12 * static_cast<int>(n) + 20);
     return solver.solve(multiplyAcross, &inverse.front().x, &across.front().x, tolerance, most, &u.front().x).converged;
 }
 

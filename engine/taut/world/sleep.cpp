@@ -68,7 +68,7 @@ void endWindow(WorldImpl& w) {
         for (Island::Support& support : supports) support.mayStick = support.mayStick && areGrounded[company] != 0;
         std::vector<Island::Foothold> places;
         if (areGrounded[company] != 0) places = footholds[&island];
-        if (!island.rests(seconds, std::move(supports), places)) rests[company] = 0;
+        if (!island.rests(w.now().start(), seconds, std::move(supports), places)) rests[company] = 0;
     }
     for (std::size_t k = 0; k < count; ++k) {
         Island& island = *w.islands[k];

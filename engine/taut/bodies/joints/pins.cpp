@@ -118,6 +118,14 @@ std::vector<Constraint::Pair> Pins::pairs(double t) {
     return all;
 }
 
+std::optional<std::vector<Constraint::Pair>> Pins::joinedFrom(double t) const {
+    if (!places_.empty()) return std::nullopt;
+    Pins then = *this;
+    then.layOut(t);
+    if (then.until_ != HUGE_VAL) return std::nullopt;
+    return then.pairs(t);
+}
+
 bool Pins::carries(int point) const {
     for (const Cluster& cluster : clusters_) {
         if (!isPlace(nodes_[static_cast<std::size_t>(cluster.first)].number)) continue;

@@ -135,7 +135,7 @@ class Island {
     // At the end of a window that lasted `seconds`: whether it was calm, and what acts on the points is steady.
     bool isCalm();
     // Whether no point of a calm island could go further than the error allows. supports (points; empty: none): by
-    // other bodies, with those of colliders to come. footholds: where a solid is pressed.
+    // other bodies, with those of colliders to come. footholds: where a solid is pressed. t [s]: now.
     struct Support {
         dvec3 push{0.0};        // what presses the point, as a direction; 0: nothing
         bool mayStick = false;  // friction could hold it by a margin
@@ -145,7 +145,7 @@ class Island {
         double friction, limit;  // [N s] and by Coulomb's law at most
         bool isOnCollider;
     };
-    bool rests(double seconds, std::vector<Support> supports, std::span<const Foothold> footholds);
+    bool rests(double t, double seconds, std::vector<Support> supports, std::span<const Foothold> footholds);
     void restInVain() { rest_.fail(); }
     // Takes the motion that is left, and books it.
     void fallAsleep(const TickTime& time, std::int64_t company);

@@ -39,6 +39,7 @@ class Pins final : public ConstraintOf<Pins> {
     bool projectPositions(const Moment& moment) override { return project(moment.x, moment); }
     bool projectVelocities(const Moment& moment) override { return project(moment.v, moment); }
     std::vector<Pair> pairs(double t) override;
+    std::optional<std::vector<Pair>> joinedFrom(double t) const override;
     bool carries(int point) const override;
     void check() const override;
     bool isDue(double t) const override;

@@ -276,7 +276,7 @@ TEST(SceneErrors, TargetsOfActionsThatAreNotThereAreReported) {
          "]\n"
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n",
-         "s.toml:3:34: error: there is no rope.r\n"
+         "s.toml:3:34: error: \"rope.r\" is no collider\n"
          "    { t = 1, do = \"move\", target = \"rope.r\", to = [0, 0, 0] },\n"
          "                                   ^ a move takes a collider, or a hand by its id"},
         {"a collider led twice",

@@ -119,7 +119,7 @@ TEST(SceneFiles, AllFaultsAreReportedInTheOrderOfTheFile) {
               "        ^\n"
               "s.toml:7:12: error: there is no material \"none\"\n"
               "  material = \"none\"\n"
-              "             ^ add a table [material.none]\n"
+              "             ^ add a table [material.none], or take a fabric: taut materials lists them\n"
               "s.toml:8:13: error: cells[1] must be between 1 and 1e+09, not -1\n"
               "  cells = [1, -1]\n"
               "              ^");

@@ -88,7 +88,7 @@ TEST(SceneOverrides, FaultsAreNamedByTheirKey) {
          "did you mean \"leapfrog\"?"},
         {"cloth.flag.material=none",
          "--set cloth.flag.material: error: there is no material \"none\"; "
-         "add a table [material.none]"},
+         "add a table [material.none], or take a fabric: taut materials lists them"},
         {"solver.dt=[1", "--set solver.dt: error: [1 is not a value: array: encountered end-of-file"},
         {"solver.dt=1\nx=2", "--set solver.dt: error: the value must be one value"},
     };

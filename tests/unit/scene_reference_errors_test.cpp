@@ -13,7 +13,7 @@ TEST(SceneErrors, ReferencesToWhatIsNotThereAreReported) {
          "material = \"n\"\n",
          "s.toml:4:12: error: there is no material \"n\"\n"
          "  material = \"n\"\n"
-         "             ^ add a table [material.n]"},
+         "             ^ add a table [material.n], or take a fabric: taut materials lists them"},
         {"a material that is nearly there",
          "[material.nylon]\n"
          "[cloth.c]\n"

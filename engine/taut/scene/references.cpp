@@ -21,7 +21,10 @@ void checkName(const NameReference& reference, const std::string& kind, const st
     for (const std::string& name : names)
         if (name == reference.text) return;
     std::string remedy = suggestion(reference.text, names);
-    if (remedy.empty()) remedy = fmt::format("add a table [{}.{}]", kind, reference.text);
+    if (remedy.empty()) {
+        remedy = fmt::format("add a table [{}.{}]", kind, reference.text);
+        if (kind == "material") remedy += ", or take a fabric: taut materials lists them";
+    }
     if (reference.text.empty()) remedy = "give a name";
     problems.addError(reference.place, fmt::format("there is no {} \"{}\"", kind, reference.text), remedy);
 }

@@ -181,7 +181,10 @@ class Timeline {
         std::string message = fmt::format("\"{}\" has grabbed nothing before {} s", id, t);
         if (!joints.empty()) message += ", and no joint has that name";
         joints.insert(joints.begin(), known_.begin(), known_.end());
-        error(event, "id", message, suggestion(id, joints));
+        std::string remedy = suggestion(id, joints);
+        if (joints.empty() && !scene_.spec.joints.empty())
+            remedy = "a seam or a joint is released by its name; give it one";
+        error(event, "id", message, remedy);
         return false;
     }
 
@@ -201,8 +204,10 @@ class Timeline {
             return checkSpan(event, move.over, target, target, "moved");
         }
         std::string remedy = suggestion(target, names);
-        if (remedy.empty() && !target.starts_with("collider.")) remedy = "a move takes a collider, or a hand by its id";
-        error(event, "target", fmt::format("there is no {}", target), remedy);
+        if (target.starts_with("collider."))
+            return error(event, "target", fmt::format("there is no {}", target), remedy);
+        error(event, "target", fmt::format("\"{}\" is no collider", target),
+              remedy.empty() ? "a move takes a collider, or a hand by its id" : remedy);
     }
 
     void checkRamp(const Event& event, RampAction& ramp) {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "support/network.h"
+#include "support/small_scenes.h"
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/rope.h"
 #include "taut/forces/wind.h"
 #include "taut/mechanics/builders.h"
@@ -56,6 +58,36 @@ TEST(HangingRope, StretchesUnderItsOwnWeightByTheTheoryAtEveryResolution) {
         if (segments % 2 == 0)
             EXPECT_NEAR(x[x.size() / 2].y, 2 - 0.5 * length - 0.75 * stretch, 1e-9) << segments << " segments";
     }
+}
+
+// A light rope carries a heavy one by a pin; the step has their dashpots split off. These see no motion where nothing
+// moves: the upper rope stretches by (M + m/2) g L/EA, the lower one by M g L/2EA, and both have no velocity.
+TEST(HangingRope, CarriesAnotherByAPinWithTheTheorysStretchUnderStrongDashpots) {
+    constexpr double light = 0.004, heavy = 0.4, ea = 100.0;
+    world::SceneSpec scene;
+    scene.solver.precision = world::Precision::double_;
+    for (const bool isLower : {false, true}) {
+        world::RopeSpec rope;
+        rope.name = isLower ? "lower" : "upper";
+        rope.start = {0, isLower ? 1 : 2, 0};
+        rope.end = {0, isLower ? 0 : 1, 0};
+        rope.segments = 4;
+        rope.mass = isLower ? heavy : light;
+        rope.stretch = ea;
+        rope.dampingTime = 2e-3;
+        rope.drag = 6.0;
+        if (!isLower) rope.hold = {"start"};
+        scene.bodies.add(rope);
+    }
+    world::WeldJoint pin = support::weld("rope.upper@end", "rope.lower@start");
+    pin.name = "pin";
+    scene.joints.add(pin);
+    world::World world(scene);
+    while (world.time() < 10.0) ASSERT_FALSE(world.advance());
+    const auto upper = world.points("rope.upper"), lower = world.points("rope.lower");
+    EXPECT_NEAR(upper.x.back().y, 1 - (heavy + light / 2) * g / ea, 1e-8);
+    EXPECT_NEAR(lower.x.back().y, upper.x.back().y - 1 - heavy * g / (2 * ea), 1e-8);
+    for (const dvec3& v : upper.v) EXPECT_LT(glm::length(v), 1e-6);
 }
 
 // In an even wind a rope hangs straight, at the angle θ where weight and drag across it are the same all along:

@@ -43,6 +43,9 @@ class DynamicsOf final : public Dynamics {
             set(state_.v, static_cast<int>(i), plan_.velocities[i]);
         }
         velocity_ = core::AlignedArray<Real>(system_.layout().size());
+        system_.setShareOut([this](double t, Real* v) {
+            if (!constraints_.isEmpty()) constraints_.shareKick(t, v, isStepping_);
+        });
     }
 
     void take(const Changes& changes, const ForceList& forces) override {
@@ -128,7 +131,9 @@ class DynamicsOf final : public Dynamics {
         time_ = t;
         if (!constraints_.isEmpty()) constraints_.remember(t);
         for (const Friction& friction : frictions_) friction.generator->slide(motion(t));
+        isStepping_ = true;
         method_->step(system_, t, step_, state_);
+        isStepping_ = false;
         speeds_ = leads_ ? ode::Speeds::unknown : method_->speeds();
         if (constraints_.isEmpty()) return;
         constraints_.project(*method_, t + step_, step_);
@@ -437,7 +442,7 @@ class DynamicsOf final : public Dynamics {
     void findVelocities(double t, std::span<const collision::Contact> contacts,
                         std::span<const ContactAcceleration> pressed) {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
-        // Tied points share what forces have added; contacts bear what is left of it. Those of a solid are pushed alike.
+        // Tied points share what forces have added, and contacts bear what is left. Those of a solid are pushed alike.
         if (plan_.constraints.size() > plan_.solids.size()) constraints_.projectVelocities(t, velocity_);
         contacts_.bear(pressed, 0.5 * step_, velocity_);
         contacts_.bear(contacts, velocity_);
@@ -484,7 +489,8 @@ class DynamicsOf final : public Dynamics {
     std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones
 
     std::unique_ptr<ode::Method<Real>> method_;
-    double step_ = 0, time_ = 0;                 // length and start of the last step [s]
+    double step_ = 0, time_ = 0;  // length and start of the last step [s]
+    bool isStepping_ = false;
     bool splits_ = false;                        // the dashpots act apart from the other forces
     bool leads_ = false;                         // whether some grip is rigid
     ode::Speeds speeds_ = ode::Speeds::unknown;  // of the present state

@@ -88,6 +88,11 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     void dampBefore(double h, const Real* x, Real* v) override { sweep_.before(damped_, points(x, v), h); }
     void dampBetween(const Real* x, Real* v) override { sweep_.between(points(x, v)); }
     void dampAfter(const Real* x, Real* v) override { sweep_.after(damped_, points(x, v)); }
+    void shareOut(double t, Real* v) override {
+        if (shareOut_) shareOut_(t, v);
+    }
+    // What constraints do with velocities that a kick has changed, see ode::SplitSystem.
+    void setShareOut(std::function<void(double t, Real* v)> shareOut) { shareOut_ = std::move(shareOut); }
     double largestPairRate() { return sweep_.largestPairRate(network(), inverseMass_.data()); }
 
     // The motion that generators get: x and v (layout().size()) [m], [m/s] are not copied.
@@ -150,6 +155,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     SpringKernels<Real> kernels_;
     SpringProducts<Real> products_;
     DashpotSweep<Real> sweep_;
+    std::function<void(double t, Real* v)> shareOut_;
     bool isSplit_ = false;
     SpringNetwork<Real> damped_;  // once split: with the dashpots, which network_ is then without
 };

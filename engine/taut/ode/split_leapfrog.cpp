@@ -9,7 +9,7 @@
 // What is split. The kick, at fixed positions, solves v' = A v + r(t, x, v) - γ v. A is the sum of the dashpots. Each
 // dashpot acts on only two points, so each alone is solved in closed form (mechanics/dashpot_sweep.h).
 //   D    half a step of most dashpots, one after the other
-//   R    a whole step of the forces r and the drag γ, then of the dashpots that are solved as chains
+//   R    a whole step of the forces r and the drag γ, which constraints share out; then of dashpots solved as chains
 //   D*   half a step of the dashpots of D, in the opposite order: the adjoint of D
 //
 // What order it keeps. D alone composes flows that do not commute: order 1 (Lie and Trotter). D* R D is the same in
@@ -95,6 +95,7 @@ class SplitLeapfrog final : public Method<Real> {
         Rest rest(state.layout, system.dragRates(), static_cast<Real>(h), v);
         split.dampBefore(h, state.x.data(), v);
         system.accelerate(t, state.x.data(), state.memory[0].data(), rest);
+        split.shareOut(t, v);
         split.dampBetween(state.x.data(), v);
         split.dampAfter(state.x.data(), v);
     }

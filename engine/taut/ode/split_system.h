@@ -16,6 +16,9 @@ class SplitSystem {
     // part for h/2 in the opposite order. However strong the dashpots are, they add no energy.
     virtual void dampBefore(double h, const Real* x, Real* v) = 0;
     virtual void dampBetween(const Real* x, Real* v) = 0;
+    // After the kick at t [s], before the dashpots: constraints share out what it gave to the points that they tie.
+    // Else dashpots would damp a motion that there is not, and what is tied would not rest where forces balance.
+    virtual void shareOut(double /*t*/, Real* /*v*/) {}
     virtual void dampAfter(const Real* x, Real* v) = 0;
 };
 

@@ -100,6 +100,16 @@ class ConstraintSlot {
         store(velocities, v_);
     }
 
+    // Projects velocities of places at t [s] that forces have just changed, before split dashpots do. isOfStep: its
+    // impulses belong to a step.
+    void shareKick(double t, Real* v, bool isOfStep) {
+        load(t, state_.v);
+        for (std::size_t i = 0; i < points_.size(); ++i) v_[i] = at(v, points_[i]);
+        takeTurns(&Constraint::projectVelocities);
+        if (isOfStep) addImpulses(1.0);
+        for (std::size_t i = 0; i < points_.size(); ++i) set(v, points_[i], v_[i]);
+    }
+
     // Keeps the positions before a step from t [s].
     void remember(double t) {
         load(t, state_.v);

@@ -57,7 +57,7 @@ class Loads {
 
 }  // namespace
 
-void Pins::look(World& world) {
+void RehearsedPins::look(World& world) {
     const WorldImpl& w = WorldAccess::of(world);
     for (const auto& island : w.islands)
         for (const Body* body : island->plan().bodies) {

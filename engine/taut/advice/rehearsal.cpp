@@ -43,7 +43,7 @@ bool followsFromAnother(const ActionSpec& action, const std::vector<Refusal>& be
     return isOfHand && !before.empty();
 }
 
-std::vector<Refusal> refusals(World& world, Pins& pins) {
+std::vector<Refusal> refusals(World& world, RehearsedPins& pins) {
     WorldImpl& w = WorldAccess::of(world);
     const Ticks ticks(w.start->run);
     std::vector<Refusal> all;
@@ -122,7 +122,7 @@ Rehearsal rehearse(const SceneSpec& scene) {
             rehearsal.warnings.push_back(warning);
     std::optional<std::int64_t> lastDoubtful;
     std::vector<std::string> certain, doubts;  // warnings
-    Pins pins;
+    RehearsedPins pins;
     pins.look(world);
     const std::vector<Refusal> refused = refusals(world, pins);
     rehearsal.warnings.insert(rehearsal.warnings.end(), pins.warnings().begin(), pins.warnings().end());

@@ -10,7 +10,7 @@ namespace taut::world {
 
 class World;
 
-class Pins {
+class RehearsedPins {
   public:
     // Looks at the present world: points that are held, grabbed, tied, or weighed down by a mass of the scene.
     void look(World& world);

@@ -80,6 +80,17 @@ TEST(SceneErrors, HandsOutOfTheirOrderAreReported) {
          "s.toml:2:37: error: \"pegg\" has grabbed nothing before 1 s, and no joint has that name\n"
          "  at = [{ t = 1, do = \"release\", id = \"pegg\" }]\n"
          "                                      ^ did you mean \"peg\"?"},
+        {"a release where joints have no names",
+         "at = [{ t = 1, do = \"release\", id = \"peg\" }]\n"
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "[[joint]]\n"
+         "a = \"rope.r@start\"\n"
+         "b = \"rope.r@end\"\n"
+         "kind = \"rod\"\n",
+         "s.toml:2:37: error: \"peg\" has grabbed nothing before 1 s\n"
+         "  at = [{ t = 1, do = \"release\", id = \"peg\" }]\n"
+         "                                      ^ a joint or a seam is released by its name; give it one"},
         {"a claim about a joint that is not there",
          "check = [{ that = \"joints_left(pig) == 1\" }]\n"
          "[rope.r]\n"

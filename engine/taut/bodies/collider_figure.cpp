@@ -85,7 +85,7 @@ ColliderFigure::ColliderFigure(const ColliderSpec& spec)
 
 ColliderFigure::Moment ColliderFigure::at(double seconds, const collision::Pose& pose) const {
     double t = start_ + speed_ * seconds;
-    const bool waits = start_ < 0 && speed_ > 0 && t < 0;
+    const bool waits = t < 0 && speed_ > 0;
     if (animation_ != nullptr && loops_ && !waits && animation_->seconds > 0)
         t -= animation_->seconds * std::floor(t / animation_->seconds);
     Moment moment;

@@ -43,7 +43,6 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
     u_.resize(count);
     v_.resize(count);
     shift_.resize(count);
-    loaded_.resize(count);
     marks_.assign(count, unmarked);
 }
 
@@ -194,10 +193,8 @@ void ContactGroup::selectActive(const Instant& instant) {
 
 void ContactGroup::solveActive(const Instant& instant) {
     // Load the points of active pairs and crossings. No others are read.
-    ++loads_;
     const auto load = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
-        if (std::exchange(loaded_[k], loads_) == loads_) return;
         u0_[k] = u_[k] = (instant.x1[k] - instant.x0[k]) / instant.h;
         v_[k] = instant.v[k];
         shift_[k] = dvec3(0.0);
@@ -227,7 +224,6 @@ void ContactGroup::solveActive(const Instant& instant) {
     squeezed_.clear();
     for (int round = 0; round < mostSqueezes && findSqueezed(instant); ++round) {
         std::erase_if(active_, [&](const ContactConstraint& pair) { return isLetThrough(pair); });
-        ++loads_;
         loadAll();
         solve();
     }

@@ -204,8 +204,6 @@ class ContactGroup {
     // (points) [m/s] mean velocity in the instant before and after the solver; [m/s] stored velocity after it; [m]
     // position correction. Set where active pairs or crossings have points.
     std::vector<dvec3> u0_, u_, v_, shift_;
-    std::vector<std::uint64_t> loaded_;  // (points) the number of the load that set them last
-    std::uint64_t loads_ = 0;
     std::vector<dvec3> ahead_;          // (points) [m] of a forecast
     std::vector<int> moved_, pending_;  // points that were handed over in this instant; since tested_ was found
     InstantResult result_;

@@ -1,6 +1,7 @@
 // How an island comes to rest, sleeps, and what wakes it. Which islands sleep together is the world's to say.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "taut/bodies/joints/constraint.h"
 #include "taut/core/private/hash.h"
@@ -17,25 +18,18 @@ bool isOneSolid(const IslandPlan& plan) {
     return plan.solids.size() == 1 && plan.solids[0].size() == plan.bodies.size() && plan.constraints.size() == 1;
 }
 
-// (points) The lowest of those that constraints hold in one place with a point; empty where they do anything else.
+// (points) One of those that constraints hold in one place with a point; empty where they do anything else.
 std::vector<std::size_t> leadersOf(const IslandPlan& plan, double t) {
     std::vector<std::size_t> leaders(plan.points.size());
-    for (std::size_t i = 0; i < leaders.size(); ++i) leaders[i] = i;
-    const auto leaderOf = [&](std::size_t i) {
-        while (leaders[i] != i) i = leaders[i];
-        return i;
-    };
+    std::iota(leaders.begin(), leaders.end(), std::size_t{0});
     for (const auto& constraint : plan.constraints) {
         const auto pairs = constraint->joinedFrom(t);
         if (!pairs) return {};
-        const std::span<const int> points = constraint->points();
-        const auto numberOf = [&](int end) { return static_cast<std::size_t>(points[static_cast<std::size_t>(end)]); };
-        for (const Constraint::Pair& pair : *pairs) {
-            const std::size_t a = leaderOf(numberOf(pair.a)), b = leaderOf(numberOf(pair.b));
-            leaders[std::max(a, b)] = std::min(a, b);
-        }
+        const auto numberOf = [&](int end) {
+            return static_cast<std::size_t>(constraint->points()[static_cast<std::size_t>(end)]);
+        };
+        for (const Constraint::Pair& pair : *pairs) leaders[numberOf(pair.a)] = leaders[numberOf(pair.b)];
     }
-    for (std::size_t& leader : leaders) leader = leaderOf(leader);
     return leaders;
 }
 

@@ -235,7 +235,8 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
             .ramps(Affects::colliders)
             .text("animation", &ColliderSpec::animation, Role::none, "The animation of its file that moves it.")
             .only(shapesWith(shapes, "animation"))
-            .number("start_s", &ColliderSpec::start, "s", placeRange, "Where the animation begins; below 0 it waits until then.")
+            .number("start_s", &ColliderSpec::start, "s", placeRange,
+                    "Where the animation begins; below 0 it waits until then.")
             .only(shapesWith(shapes, "animation"))
             .number("speed", &ColliderSpec::speed, "", placeRange, "How fast the animation goes.")
             .only(shapesWith(shapes, "animation"))

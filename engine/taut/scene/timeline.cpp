@@ -167,11 +167,14 @@ class Timeline {
         std::vector<std::string> joints;
         for (const JointSpec& joint : scene_.spec.joints)
             if (!joint.name.empty()) joints.push_back(joint.name);
-        if (checkHeld(event, id, joints)) grabbed_.erase(id);
+        const bool areUnnamed = joints.empty() && !scene_.spec.joints.empty();
+        if (checkHeld(event, id, joints, areUnnamed ? "a joint or a seam is released by its name; give it one" : ""))
+            grabbed_.erase(id);
     }
 
     // Returns whether the hand holds something. If not, reports it with suggestions.
-    bool checkHeld(const Event& event, const std::string& id, std::vector<std::string> joints = {}) {
+    bool checkHeld(const Event& event, const std::string& id, std::vector<std::string> joints = {},
+                   const std::string& otherwise = {}) {
         if (grabbed_.contains(id)) return true;
         const double t = event.action->t;
         if (std::find(known_.begin(), known_.end(), id) != known_.end()) {
@@ -181,10 +184,8 @@ class Timeline {
         std::string message = fmt::format("\"{}\" has grabbed nothing before {} s", id, t);
         if (!joints.empty()) message += ", and no joint has that name";
         joints.insert(joints.begin(), known_.begin(), known_.end());
-        std::string remedy = suggestion(id, joints);
-        if (joints.empty() && !scene_.spec.joints.empty())
-            remedy = "a seam or a joint is released by its name; give it one";
-        error(event, "id", message, remedy);
+        const std::string remedy = suggestion(id, joints);
+        error(event, "id", message, remedy.empty() ? otherwise : remedy);
         return false;
     }
 

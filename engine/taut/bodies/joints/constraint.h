@@ -63,7 +63,8 @@ class Constraint {
         double length = 0;  // [m]
     };
     virtual std::vector<Pair> pairs(double /*t*/) { return {}; }
-    // Its pairs, if from t [s] on all that it does is to hold points of the plan in one place.
+    // Its pairs, if from t [s] on all that it does is to hold points of the plan in one place: in the order of walks that
+    // go from b to a.
     virtual std::optional<std::vector<Pair>> joinedFrom(double /*t*/) const { return std::nullopt; }
 
     // Number of its ties, with those that have let go. They are numbered from 0.

@@ -41,7 +41,8 @@ TEST(SceneInheritance, TablesAreLaidOverEachOtherKeyByKey) {
     EXPECT_EQ(rope(scene, 0).finish.roughness, 0.25);
 }
 
-// A cloth's own keys, then those of the cloth that it is like, then its material's, then the defaults.
+// A cloth's own keys, then those of the cloth that it is like, then its material's, then the defaults. Of those that no
+// cloth takes for this, a warning tells.
 TEST(SceneInheritance, AMaterialHasKeysForItsCloth) {
     const Loaded scene = loaded(
         "[defaults.cloth]\nthickness = 0.01\nfriction = 0.1\njitter_m = 0.001\n"
@@ -57,6 +58,11 @@ TEST(SceneInheritance, AMaterialHasKeysForItsCloth) {
     EXPECT_EQ(x.finish.roughness, 0.25);
     EXPECT_EQ(y.thickness, 0.02);
     EXPECT_EQ(y.friction, 0.3);
+    ASSERT_EQ(scene.warnings.size(), 3U);  // the last: nothing is made of a
+    EXPECT_NE(scene.warnings[0].find("no cloth takes this thickness: that of its material, b, comes first"),
+              std::string::npos)
+        << scene.warnings[0];
+    EXPECT_NE(scene.warnings[1].find("no cloth takes this friction"), std::string::npos) << scene.warnings[1];
 }
 
 TEST(SceneInheritance, WhatDoesNotGoWithAFormIsLeftOut) {

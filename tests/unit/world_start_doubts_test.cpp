@@ -53,6 +53,23 @@ TEST(StartDoubts, AreOfWindsFasterThanAnyStorm) {
                                        "20 to 30"}));
 }
 
+TEST(StartDoubts, AreOfABlockInPiecesThatDoNotTouch) {
+    SceneSpec scene = ropeScene(support::rope("line", {0, 2, 0}, {1, 2, 0}));
+    scene.bodies[0].touch = Touch::others;
+    BlockSpec block;
+    block.name = "jelly";
+    block.touch = Touch::others;
+    scene.bodies.add(block);
+    CutAction cut;
+    cut.target = "block.jelly";
+    cut.planePoint = cut.planeNormal = glm::dvec3(0, 1, 0);
+    scene.actions.add(cut);
+    EXPECT_EQ(doubtsOf(scene), (Doubts{"warning: block.jelly touches others only: its pieces will go through each "
+                                       "other; give it touch = \"all\""}));
+    scene.bodies.of<BlockSpec>()[0].touch = Touch::all;
+    EXPECT_EQ(doubtsOf(scene), Doubts());
+}
+
 TEST(StartDoubts, AreOfACameraInsideACollider) {
     SceneSpec scene = ropeScene(support::rope("line", {0, 2, 0}, {1, 2, 0}));
     scene.run.seconds = 2;

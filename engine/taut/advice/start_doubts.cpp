@@ -6,9 +6,12 @@
 #include <cmath>
 
 #include "taut/advice/contact_doubts.h"
+#include "taut/bodies/block.h"
 #include "taut/bodies/net.h"
 #include "taut/forces/wind.h"
+#include "taut/spec/actions.h"
 #include "taut/spec/private/motion.h"
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
 
 namespace taut::world {
@@ -82,6 +85,22 @@ void doubtSteps(const Island& island, double ticksPerSecond, std::vector<std::st
                     body.fullName(), island.substeps(), 1e-6 * ticksPerSecond * island.substeps()));
 }
 
+// Two pieces of a block are still one body.
+void doubtCuts(const WorldImpl& world, std::vector<std::string>& doubts) {
+    foreseen<CutAction>(
+        world.spec.actions,
+        [&](const CutAction& cut) {
+            for (const Body* body : bodiesOf(world))
+                if (cut.planePoint && names(cut.target, *body) && body->kind() == BlockSpec::kindName &&
+                    body->spec->touch == Touch::others)
+                    doubts.push_back(
+                        asWarning(at(cut.source)) +
+                        fmt::format("{} touches others only: its pieces will go through each other; give it "
+                                    "touch = \"all\"",
+                                    body->fullName()));
+        });
+}
+
 }  // namespace
 
 std::vector<std::string> startDoubts(World& world) {
@@ -89,6 +108,7 @@ std::vector<std::string> startDoubts(World& world) {
     std::vector<std::string> doubts = touchDoubts(world);
     doubtWinds(w, doubts);
     doubtCameras(w, doubts);
+    doubtCuts(w, doubts);
     for (const auto& island : w.islands) {
         doubtStrains(*island, doubts);
         doubtSteps(*island, w.ticksPerSecond, doubts);

@@ -135,6 +135,11 @@ class FillingForce final : public ForceOf<FillingForce> {
 Section FillingSpec::section() {
     Section section;
     section.help = "A gas or a liquid that a closed surface holds; what is cut or torn open holds nothing any more.";
+    section.variantKey = "keeps";
+    section.variant = [](const fields::Node& table) {
+        const std::string keeps = table.textAt("keeps");
+        return keeps.empty() ? "pressure" : keeps;
+    };
     section.fields =
         FieldList<FillingSpec>()
             .texts("in", &FillingSpec::in, Role::bodies,
@@ -148,6 +153,7 @@ Section FillingSpec::section() {
                     "volume stays; or the volume, as of a liquid.")
             .number("bulk_modulus_Pa", &FillingSpec::bulkModulus, "Pa", Range{1.0, 1e10},
                     "What resists a change of the kept volume, times its share.")
+            .only({"volume"})
             .take();
     return section;
 }

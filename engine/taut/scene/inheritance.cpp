@@ -149,6 +149,38 @@ class Elements {
     Problems& problems_;
 };
 
+bool isSame(const Place& a, const Place& b) {
+    return a.origin == b.origin && a.line == b.line && a.column == b.column;
+}
+
+// Warns of defaults that no element has taken, as the materials of some have their own. `path`: inside the defaults.
+void warnOfHidden(const std::string& section, const Node& defaults, const KeyPath& path, const Node& elements,
+                  const Node& materials, Problems& problems) {
+    for (const Member& member : defaults.members) {
+        KeyPath own = path;
+        own.push_back(member.key);
+        if (member.value.kind == NodeKind::table) {
+            warnOfHidden(section, member.value, own, elements, materials, problems);
+            continue;
+        }
+        KeyPath inMaterial{"", section};
+        inMaterial.insert(inMaterial.end(), own.begin(), own.end());
+        std::string hiddenBy;
+        bool isTaken = false;
+        for (const Member& element : elements.members) {
+            const Node* value = element.value.along(own);
+            isTaken = isTaken || (value != nullptr && isSame(value->place, member.value.place));
+            inMaterial.front() = element.value.textAt("material");
+            if (materials.along(inMaterial) != nullptr) hiddenBy = inMaterial.front();
+        }
+        if (isTaken || hiddenBy.empty()) continue;
+        problems.addWarning(member.place,
+                            fmt::format("no {} takes this {}: that of its material, {}, comes first", section,
+                                        joined(own, "."), hiddenBy),
+                            fmt::format("write it in the {} itself", section));
+    }
+}
+
 }  // namespace
 
 void inherit(const std::vector<SceneSection>& sections, Node& root, Problems& problems) {
@@ -163,6 +195,8 @@ void inherit(const std::vector<SceneSection>& sections, Node& root, Problems& pr
         const bool isTable = own != nullptr && own->kind == NodeKind::table;
         const Node* materials = section.name != "material" ? root.at("material") : nullptr;
         Elements(section, isTable ? own : nullptr, materials, elements->value, taken, problems).inherit();
+        if (isTable && materials != nullptr)
+            warnOfHidden(section.name, *own, {}, elements->value, *materials, problems);
     }
 }
 

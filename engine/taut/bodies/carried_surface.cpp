@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "taut/bodies/private/skin_pieces.h"
+#include "taut/core/error.h"
 #include "taut/spec/private/rotation.h"
 #include "taut/spec/spec.h"
 
@@ -102,12 +104,33 @@ Mesh thinned(const Mesh& mesh, double side) {
     return joined(chosen, [&](std::size_t v) { return root(static_cast<int>(v)); });
 }
 
+// Of a block that is cut. Parts of one body keep restShare of their distance at rest: its cut faces lie so far behind
+// the cut that this is the distance of two surfaces.
+CarriedSurface cutSurface(const Body& body) {
+    constexpr double back = 1.5;  // thicknesses
+    CarriedSurface surface;
+    Skin skin = skinOf(body, back * body.spec->thickness);
+    for (const SkinVertex& vertex : skin.vertices) {
+        surface.rest.push_back(vertex.rest);
+        mechanics::CarriedPoint& point = surface.points.emplace_back();
+        TAUT_EXPECTS(vertex.terms.size() <= point.points.size());
+        point.points.fill(vertex.terms.front().point);
+        for (std::size_t k = 0; k < vertex.terms.size(); ++k) {
+            point.points[k] = vertex.terms[k].point;
+            point.weights[k] = static_cast<double>(vertex.terms[k].weight);
+        }
+    }
+    for (const SkinTriangle& triangle : skin.triangles) surface.triangles.push_back(triangle.vertices);
+    return surface;
+}
+
 }  // namespace
 
 CarriedSurface carriedSurface(const Body& body) {
     constexpr double fineness = 1.0 / 3.0;  // of a cell
+    if (body.damage.goneTetrahedra() > 0) return cutSurface(body);
     CarriedSurface surface;
-    if (!body.spec->hasCarriedSurface() || body.damage.goneTetrahedra() > 0) return surface;
+    if (!body.spec->hasCarriedSurface()) return surface;
     const BlockFrame frame(body);
     const BlockSpec& block = frame.block();
     const MeshData& file = *block.meshData;

@@ -29,9 +29,11 @@ class Damage {
     }
     bool isCellGone(std::size_t cell) const;
     std::size_t goneTetrahedra() const { return goneTetrahedra_; }  // how many
-    // Number of tetrahedra and triangles that are gone, for a body with cells. While it stays the same, so do the bare
-    // faces.
-    std::size_t goneAround() const { return goneTetrahedra_ > 0 ? goneTetrahedra_ + goneTriangles_ : 0; }
+    // Of a body with cells, a number that grows whenever its surface up to the cuts becomes another; 0 while that is
+    // whole.
+    std::size_t goneAround() const {
+        return goneTetrahedra_ > 0 ? goneTetrahedra_ + goneTriangles_ + edges_.size() : 0;
+    }
 
     // Severs an edge at a share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
     void sever(int a, int b, double share);

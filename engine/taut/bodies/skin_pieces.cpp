@@ -18,9 +18,14 @@ class Cutter {
             if (!damage_.isTriangleGone(t)) addFan(model_.triangles[t]);
     }
 
-    Skin cut() {
+    Skin cut(double back) {
         for (std::size_t t = 0; t < model_.triangles.size(); ++t) addTriangle(static_cast<int>(t));
         eachTetrahedron(true, [this](const std::array<int, 4>& corners) { addCutFaces(corners); });
+        if (back > 0) moveBack(back);
+        for (const auto& [ends, number] : known_) {
+            SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
+            if (ends.second >= 0) vertex.terms = termsBeyond(ends.first, vertex.rest - rest(ends.first));
+        }
         return std::move(skin_);
     }
 
@@ -74,28 +79,56 @@ class Cutter {
         return entry->second;
     }
 
-    // The vertex where the edge from a to b is severed, attached to a.
+    // The vertex where the edge from a to b is severed, attached to a. Where nothing whole is left at a, that is a
+    // itself.
     int vertexBeyond(int a, int b) {
+        if (fans_[static_cast<std::size_t>(a)].empty()) return vertexAt(a);
         const auto [entry, isNew] = known_.try_emplace({a, b}, static_cast<int>(skin_.vertices.size()));
         if (!isNew) return entry->second;
         const double share = damage_.share(a, b);
         const dvec2 from = model_.uv[static_cast<std::size_t>(a)], to = model_.uv[static_cast<std::size_t>(b)];
-        skin_.vertices.push_back({termsBeyond(a, share * (rest(b) - rest(a))), rest(a) + share * (rest(b) - rest(a)),
-                                  from + share * (to - from)});
+        skin_.vertices.push_back({{}, rest(a) + share * (rest(b) - rest(a)), from + share * (to - from)});
         return entry->second;
     }
 
-    // The place at `way` [m] of the model from a, carried along by the triangles or tetrahedra at a: a weighted mean
-    // over the whole ones, with more weight where they extend less. Without any of these, a itself.
+    // Moves the vertices of cut faces along their edges until they lie so far [m] behind, but half of the way at most.
+    void moveBack(double back) {
+        std::vector<dvec3> normals(skin_.vertices.size(), dvec3(0.0));
+        for (const SkinTriangle& triangle : skin_.triangles) {
+            if (triangle.source >= 0) continue;
+            const auto at = [&](std::size_t k) -> const dvec3& {
+                return skin_.vertices[static_cast<std::size_t>(triangle.vertices[k])].rest;
+            };
+            const dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
+            for (const int v : triangle.vertices) normals[static_cast<std::size_t>(v)] += normal;
+        }
+        for (const auto& [ends, number] : known_) {
+            if (ends.second < 0) continue;
+            const auto v = static_cast<std::size_t>(number);
+            const dvec3 way = skin_.vertices[v].rest - rest(ends.first);
+            const double height = glm::dot(way, normals[v]);
+            const double share = height > 0 ? back * glm::length(normals[v]) / height : 1.0;
+            skin_.vertices[v].rest -= std::min(share, 0.5) * way;
+        }
+    }
+
+    // The place at `way` [m] of the model from a, carried along by the whole triangles at a, as a weighted mean with
+    // more weight where they extend less, or by the tetrahedron that extends least. Without any of these, a itself.
     std::vector<SkinVertex::Term> termsBeyond(int a, const dvec3& way) const {
         std::map<int, double> weights;
-        double sum = 0;
+        double sum = 0, most = 0;
         for (const Corners& others : fans_[static_cast<std::size_t>(a)]) {
             std::vector<double> part = inCorners(a, others, way);
             if (part.empty()) continue;
             double size = 0;
             for (double p : part) size += std::abs(p);
             const double weight = 1 / (1e-3 + size);
+            if (others.size() == 3) {
+                if (weight <= most) continue;
+                most = weight;
+                weights.clear();
+                sum = 0;
+            }
             sum += weight;
             for (std::size_t i = 0; i < others.size(); ++i) {
                 weights[others[i]] += weight * part[i];
@@ -128,7 +161,9 @@ class Cutter {
         return {(ff * we - ef * wf) / det, (ee * wf - ef * we) / det};
     }
 
-    void add(int a, int b, int c, int source) { skin_.triangles.push_back({{a, b, c}, source}); }
+    void add(int a, int b, int c, int source) {
+        if (a != b && b != c && c != a) skin_.triangles.push_back({{a, b, c}, source});
+    }
 
     void addTriangle(int number) {
         const std::array<int, 3>& t = model_.triangles[static_cast<std::size_t>(number)];
@@ -191,8 +226,8 @@ glm::vec3 SkinVertex::at(std::span<const glm::vec3> positions) const {
     return x;
 }
 
-Skin skinOf(const Body& body) {
-    return Cutter(body).cut();
+Skin skinOf(const Body& body, double back) {
+    return Cutter(body).cut(back);
 }
 
 }  // namespace taut::world

@@ -137,8 +137,8 @@ Section FillingSpec::section() {
     section.help = "A gas or a liquid that a closed surface holds; what is cut or torn open holds nothing any more.";
     section.variantKey = "keeps";
     section.variant = [](const fields::Node& table) {
-        const std::string keeps = table.textAt("keeps");
-        return keeps.empty() ? "pressure" : keeps;
+        const std::string own = table.textAt("keeps");
+        return own.empty() ? "pressure" : own;
     };
     section.fields =
         FieldList<FillingSpec>()

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "taut/bodies/joints/constraint.h"
-#include "taut/bodies/private/bare_faces.h"
 #include "taut/bodies/private/carried_surface.h"
 #include "taut/contact/penetration.h"
 #include "taut/contact/round_solids.h"
@@ -66,8 +65,6 @@ contact::ContactSurface surfaceOf(const Body& body, const mechanics::RigidPart& 
     surface.bond = bond;
     const auto at = [&](int i) { return offset + body.pointOf[static_cast<std::size_t>(i)]; };
     std::vector<std::array<int, 3>> triangles = model.triangles;
-    const std::vector<std::array<int, 3>> bare = bareFaces(body);
-    triangles.insert(triangles.end(), bare.begin(), bare.end());
     std::erase_if(triangles, [&](const auto& t) { return !isOfPart(t[0]); });
     for (const std::array<int, 3>& t : triangles) surface.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
     std::vector<bool> isOutside(model.positions.size(), triangles.empty());
@@ -119,7 +116,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
             for (const mechanics::RigidPart& part : surfacesOf(*body)) {
                 surfaces.push_back(surfaceOf(*body, part, offset, static_cast<int>(islands_.size())));
                 surfaces.back().solid = solidOf(island->plan(), *body, static_cast<int>(solids_.size()));
-                if (body->spec->meetsCollidersAsWhole())
+                if (body->spec->meetsCollidersAsWhole() || body->damage.goneTetrahedra() > 0)
                     wholes_.push_back({static_cast<int>(bodies_.size()), part.thickness});
                 offsets.push_back(offset);
                 bodies_.push_back(body);

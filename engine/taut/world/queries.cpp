@@ -4,7 +4,6 @@
 #include <set>
 
 #include "taut/bodies/drawing.h"
-#include "taut/bodies/private/bare_faces.h"
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island_report.h"
 #include "taut/spec/targets.h"
@@ -20,7 +19,7 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-// A rigid body is what is drawn of it: what touches may be points.
+// A rigid body is what is drawn of it, for what touches may be points; so is a block that is cut.
 void addDrawn(const Body& body, const Island& island, std::vector<Corners>& triangles) {
     std::vector<glm::vec3> positions;
     for (int i : body.pointOf) positions.emplace_back(island.position(i));
@@ -128,7 +127,7 @@ std::vector<std::array<glm::dvec3, 3>> World::triangles(const Selection& bodies)
     for (const Selection::Part& part : bodies.parts) {
         const Body& body = *part.body;
         const Island& island = islandOf(body);
-        if (body.spec->isRigid()) {
+        if (body.spec->isRigid() || body.damage.goneTetrahedra() > 0) {
             addDrawn(body, island, triangles);
             continue;
         }
@@ -139,7 +138,6 @@ std::vector<std::array<glm::dvec3, 3>> World::triangles(const Selection& bodies)
         };
         for (std::size_t t = 0; t < body.model.triangles.size(); ++t)
             if (!body.damage.isTriangleGone(t)) add(body.model.triangles[t]);
-        for (const std::array<int, 3>& bared : bareFaces(body)) add(bared);
     }
     return triangles;
 }

@@ -39,8 +39,8 @@ struct CarriedSurface {
     std::vector<std::array<int, 3>> triangles;    // of these, counter-clockwise seen from outside
 };
 
-// The mesh from which a block is made, with vertices a third of a cell apart where it is finer. Empty for other bodies,
-// and where the block is torn, which shows its cells then.
+// The mesh from which a block is made, with vertices a third of a cell apart where it is finer; of a block that is cut its
+// cells up to the cut. Empty for other bodies.
 CarriedSurface carriedSurface(const Body& body);
 
 }  // namespace taut::world

@@ -43,7 +43,7 @@ struct Skin {
     std::vector<SkinTriangle> triangles;
 };
 
-// Expects damage that has been assessed.
-Skin skinOf(const Body& body);
+// Expects damage that has been assessed. The faces that a cut bares of a block lie `back` [m] behind the cut.
+Skin skinOf(const Body& body, double back = 0);
 
 }  // namespace taut::world

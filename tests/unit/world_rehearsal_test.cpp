@@ -53,7 +53,7 @@ TEST(Rehearsal, FindsAnActionOnABodyThatIsNotThereYet) {
 
 TEST(Rehearsal, WarnsOfACutThatMeetsNothing) {
     const std::string warning =
-        "timeline.toml:7:3: warning: there is nothing of \"rope.line\" where this cuts; put it where the body is";
+        "timeline.toml:7:3: warning: there is nothing whole of \"rope.line\" where this cuts; put it where the body is";
     SceneSpec scene = heldRope();
     scene.actions = {support::cutPlane(0.0, "rope.line", {2, 0, 0}, {1, 0, 0})};
     EXPECT_EQ(rehearse(scene).warnings, std::vector{warning});
@@ -76,7 +76,7 @@ TEST(Rehearsal, WarnsOfACutWhosePlayingWouldBeDear) {
     const Rehearsal rehearsal = rehearse(scene);
     EXPECT_TRUE(rehearsal.faults.empty());
     ASSERT_EQ(rehearsal.warnings.size(), 1U);
-    EXPECT_TRUE(rehearsal.warnings[0].starts_with("timeline.toml:7:3: warning: there is nothing of \"rope.line\""))
+    EXPECT_TRUE(rehearsal.warnings[0].starts_with("timeline.toml:7:3: warning: there is nothing whole of \"rope.line\""))
         << rehearsal.warnings[0];
 }
 

@@ -104,12 +104,10 @@ Mesh thinned(const Mesh& mesh, double side) {
     return joined(chosen, [&](std::size_t v) { return root(static_cast<int>(v)); });
 }
 
-// Of a block that is cut. Parts of one body keep restShare of their distance at rest: its cut faces lie so far behind
-// the cut that this is the distance of two surfaces.
+// Of a block that is cut: its thickness behind the cut, so that what is drawn of it ends where what it touches begins.
 CarriedSurface cutSurface(const Body& body) {
-    constexpr double back = 1.5;  // thicknesses
     CarriedSurface surface;
-    Skin skin = skinOf(body, back * body.spec->thickness);
+    const Skin skin = bluntSkinOf(body, body.spec->thickness);
     for (const SkinVertex& vertex : skin.vertices) {
         surface.rest.push_back(vertex.rest);
         mechanics::CarriedPoint& point = surface.points.emplace_back();

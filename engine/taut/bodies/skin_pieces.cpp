@@ -18,10 +18,9 @@ class Cutter {
             if (!damage_.isTriangleGone(t)) addFan(model_.triangles[t]);
     }
 
-    Skin cut(double back) {
+    Skin cut() {
         for (std::size_t t = 0; t < model_.triangles.size(); ++t) addTriangle(static_cast<int>(t));
         eachTetrahedron(true, [this](const std::array<int, 4>& corners) { addCutFaces(corners); });
-        if (back > 0) moveBack(back);
         for (const auto& [ends, number] : known_) {
             SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
             if (ends.second >= 0) vertex.terms = termsBeyond(ends.first, vertex.rest - rest(ends.first));
@@ -29,8 +28,87 @@ class Cutter {
         return std::move(skin_);
     }
 
+    Skin blunt(double back) {
+        std::map<int, std::vector<CutEdge>> cuts;  // (points)
+        for (const auto& [ends, share] : damage_.edges()) {
+            const dvec3 along = rest(ends.second) - rest(ends.first);
+            cuts[ends.first].push_back({along, share * along});
+            cuts[ends.second].push_back({-along, (share - 1.0) * along});
+        }
+        const auto add = [&](const std::array<int, 3>& corners, int source) {
+            SkinTriangle& triangle = skin_.triangles.emplace_back(SkinTriangle{corners, source});
+            for (int& corner : triangle.vertices) corner = vertexAt(corner);
+        };
+        for (std::size_t t = 0; t < model_.triangles.size(); ++t)
+            if (!damage_.isTriangleGone(t)) add(model_.triangles[t], static_cast<int>(t));
+        for (const std::array<int, 3>& face : bareFaces()) add(face, -1);
+        for (const auto& [ends, number] : known_) {
+            const auto found = cuts.find(ends.first);
+            if (found == cuts.end()) continue;
+            SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
+            const dvec3 way = wayOut(found->second, back);
+            vertex.terms = termsBeyond(ends.first, way);
+            vertex.rest += way;
+        }
+        return std::move(skin_);
+    }
+
   private:
     using Corners = std::vector<int>;
+
+    struct CutEdge {
+        dvec3 along, cut;  // [m] from a point: to its other end, and to where it is severed
+    };
+
+    // Straight to the plane of the cuts, nearly. All of a plane go by the same map, which no surface crosses itself by.
+    // So where something tore, and cuts lie in no plane, they stay.
+    static dvec3 wayOut(std::span<const CutEdge> edges, double back) {
+        constexpr double share = 0.95, leastTwist = 1e-3, flatness = 0.1;
+        dvec3 mean(0.0), out(0.0), normal(0.0);
+        for (const CutEdge& edge : edges) {
+            mean += edge.cut / static_cast<double>(edges.size());
+            out += edge.along;
+        }
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const dvec3 across = glm::cross(edges[i].cut - mean, edges[j].cut - mean);
+                normal += glm::dot(across, out) < 0 ? -across : across;
+            }
+        const bool areInLine = !(glm::length(normal) > leastTwist * glm::dot(edges[0].along, edges[0].along));
+        if (areInLine) normal = out;
+        if (!(glm::length(normal) > 0)) return dvec3(0.0);
+        normal = glm::normalize(normal);
+        const auto isBeside = [&](const CutEdge& edge) {
+            return std::abs(glm::dot(edge.cut - mean, normal)) > flatness * glm::length(edge.along);
+        };
+        if (!areInLine && std::any_of(edges.begin(), edges.end(), isBeside)) return dvec3(0.0);
+        return (share * glm::dot(mean, normal) - back) * normal;
+    }
+
+    // Of whole tetrahedra, those that neither another one nor the surface of the model has, counter-clockwise seen from
+    // outside.
+    std::vector<std::array<int, 3>> bareFaces() const {
+        using Face = std::array<int, 3>;
+        const auto key = [](Face face) {
+            std::sort(face.begin(), face.end());
+            return face;
+        };
+        std::map<Face, int> users;
+        for (std::size_t t = 0; t < model_.triangles.size(); ++t)
+            if (!damage_.isTriangleGone(t)) ++users[key(model_.triangles[t])];
+        std::vector<Face> faces;
+        eachTetrahedron(
+            false,
+            [&](const std::array<int, 4>& p) {
+                for (const Face& face :
+                     {Face{p[0], p[2], p[1]}, Face{p[0], p[1], p[3]}, Face{p[0], p[3], p[2]}, Face{p[1], p[2], p[3]}}) {
+                    ++users[key(face)];
+                    faces.push_back(face);
+                }
+            });
+        std::erase_if(faces, [&](const Face& face) { return users[key(face)] > 1; });
+        return faces;
+    }
 
     // Visits the corners of the tetrahedra that are gone, or of those that are whole.
     template <class Visit>
@@ -89,27 +167,6 @@ class Cutter {
         const dvec2 from = model_.uv[static_cast<std::size_t>(a)], to = model_.uv[static_cast<std::size_t>(b)];
         skin_.vertices.push_back({{}, rest(a) + share * (rest(b) - rest(a)), from + share * (to - from)});
         return entry->second;
-    }
-
-    // Moves the vertices of cut faces along their edges until they lie so far [m] behind, but half of the way at most.
-    void moveBack(double back) {
-        std::vector<dvec3> normals(skin_.vertices.size(), dvec3(0.0));
-        for (const SkinTriangle& triangle : skin_.triangles) {
-            if (triangle.source >= 0) continue;
-            const auto at = [&](std::size_t k) -> const dvec3& {
-                return skin_.vertices[static_cast<std::size_t>(triangle.vertices[k])].rest;
-            };
-            const dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
-            for (const int v : triangle.vertices) normals[static_cast<std::size_t>(v)] += normal;
-        }
-        for (const auto& [ends, number] : known_) {
-            if (ends.second < 0) continue;
-            const auto v = static_cast<std::size_t>(number);
-            const dvec3 way = skin_.vertices[v].rest - rest(ends.first);
-            const double height = glm::dot(way, normals[v]);
-            const double share = height > 0 ? back * glm::length(normals[v]) / height : 1.0;
-            skin_.vertices[v].rest -= std::min(share, 0.5) * way;
-        }
     }
 
     // The place at `way` [m] of the model from a, carried along by the whole triangles at a, as a weighted mean with
@@ -200,6 +257,9 @@ class Cutter {
             else
                 for (int a : group)
                     for (int b : others) face.push_back(vertexBeyond(a, b));
+            // Where nothing whole is left at a corner its vertices are one.
+            face.erase(std::unique(face.begin(), face.end()), face.end());
+            if (face.size() > 1 && face.front() == face.back()) face.pop_back();
             if (face.size() < 3) continue;
             const auto at = [&](std::size_t i) { return skin_.vertices[static_cast<std::size_t>(face[i])].rest; };
             dvec3 inside(0.0);
@@ -226,8 +286,12 @@ glm::vec3 SkinVertex::at(std::span<const glm::vec3> positions) const {
     return x;
 }
 
-Skin skinOf(const Body& body, double back) {
-    return Cutter(body).cut(back);
+Skin bluntSkinOf(const Body& body, double back) {
+    return Cutter(body).blunt(back);
+}
+
+Skin skinOf(const Body& body) {
+    return Cutter(body).cut();
 }
 
 }  // namespace taut::world

@@ -140,35 +140,93 @@ Colliders::Near Colliders::nearest(const glm::dvec3& position, double reach) con
     return near;
 }
 
-void Colliders::findNear(std::span<const Way> ways, double thickness, double seconds, double h,
+namespace {
+
+using Ways = Colliders::Ways;
+
+const dvec3& at(std::span<const dvec3> places, int point) {
+    return places[static_cast<std::size_t>(point)];
+}
+
+double reachAt(const Ways& ways, int point) {
+    return ways.ahead > 0 ? ways.reach + ways.ahead * glm::length(at(ways.velocities, point)) : ways.reach;
+}
+
+core::Aabb boxOf(const dvec3& from, const dvec3& to, double reach) {
+    core::Aabb box{to, to};
+    box.add(from);
+    box.grow(reach);
+    return box;
+}
+
+// Some that follow each other, taken together.
+struct Block {
+    std::span<const int> points;
+    core::Aabb box;       // of their ways and reach
+    dvec3 centre{0.0};    // [m] of their ends
+    double radius = 0;    // [m] around it
+    double furthest = 0;  // [m] a surface further from an end than this is not met
+};
+
+std::vector<Block> blocksOf(const Ways& ways, double thickness) {
+    constexpr std::size_t inBlock = 32;
+    std::vector<Block> blocks;
+    for (std::size_t first = 0; first < ways.points.size(); first += inBlock) {
+        Block& block = blocks.emplace_back();
+        block.points = ways.points.subspan(first, std::min(inBlock, ways.points.size() - first));
+        core::Aabb ends, starts;
+        double reach = 0, longest = 0;  // [m], [m²]
+        for (const int i : block.points) {
+            const dvec3 way = at(ways.to, i) - at(ways.from, i);
+            ends.add(at(ways.to, i));
+            starts.add(at(ways.from, i));
+            reach = std::max(reach, reachAt(ways, i));
+            longest = std::max(longest, glm::dot(way, way));
+        }
+        block.centre = ends.centre();
+        block.radius = glm::length(ends.halfSize());
+        block.furthest = std::max(reach, thickness + std::sqrt(longest));
+        block.box = ends;
+        block.box.add(starts);
+        block.box.grow(reach);
+    }
+    return blocks;
+}
+
+// Whether none of a block meets a solid that stands still. What has no bounds is convex, so distances from it grow no
+// faster than the way from one place to another.
+bool isPast(const Block& block, const Solid& solid) {
+    constexpr double rounding = 1.0 + 1e-9;
+    if (solid.bounded) return !solid.bounds.overlaps(block.box, 0.0);
+    return solid.form->nearest(solid.to.toLocal(block.centre)).distance > rounding * (block.radius + block.furthest);
+}
+
+}  // namespace
+
+void Colliders::findNear(const Ways& ways, double thickness, double seconds, double h,
                          std::vector<Surface>& found) const {
-    const auto boxOf = [](const Way& way, const dvec3& from) {
-        core::Aabb box{way.to, way.to};
-        box.add(from);
-        box.grow(way.reach);
-        return box;
-    };
-    core::Aabb all;
-    for (const Way& way : ways) all.add(boxOf(way, way.from));
+    const std::vector<Block> blocks = blocksOf(ways, thickness);
     for (const Solid& solid : impl_->solids) {
         const bool isStill = solid.still || hasJumped(solid, h);
-        if (solid.bounded && isStill && !solid.bounds.overlaps(all, 0.0)) continue;
         const Frame moved = isStill ? Frame{} : motionOf(solid, static_cast<int>(std::lround(seconds / h)));
-        for (std::size_t k = 0; k < ways.size(); ++k) {
-            const Way& way = ways[k];
-            const dvec3 from = isStill ? way.from : moved.toWorld(way.from);
-            if (solid.bounded && !solid.bounds.overlaps(boxOf(way, from), 0.0)) continue;
-            const dvec3 local = solid.to.toLocal(way.to);
-            const Nearest near = solid.form->nearest(local);
-            if (!(near.distance < way.reach) && !(near.distance < thickness + glm::distance(from, way.to))) continue;
-            const double skin = skinPerMetre<double> * (glm::dot(glm::abs(way.to), dvec3(1.0)) + thickness);
-            const std::optional<Met> met =
-                metBy(solid, {solid.to.toLocal(from), local, thickness, skin}, near, way.reach);
-            if (!met) continue;
-            const dvec3 velocity =
-                isStill ? dvec3(0.0) : (solid.to.toWorld(met->place) - solid.from.toWorld(met->place)) / h;
-            found.push_back({k, met->plane.distance, solid.to.directionToWorld(met->plane.normal), velocity,
-                             solid.collider, solid.material});
+        for (const Block& block : blocks) {
+            if (isStill && isPast(block, solid)) continue;
+            for (const int i : block.points) {
+                const dvec3 &to = at(ways.to, i), from = isStill ? at(ways.from, i) : moved.toWorld(at(ways.from, i));
+                const double reach = reachAt(ways, i);
+                if (solid.bounded && !solid.bounds.overlaps(boxOf(from, to, reach), 0.0)) continue;
+                const dvec3 local = solid.to.toLocal(to);
+                const Nearest near = solid.form->nearest(local);
+                if (!(near.distance < reach) && !(near.distance < thickness + glm::distance(from, to))) continue;
+                const double skin = skinPerMetre<double> * (glm::dot(glm::abs(to), dvec3(1.0)) + thickness);
+                const std::optional<Met> met =
+                    metBy(solid, {solid.to.toLocal(from), local, thickness, skin}, near, reach);
+                if (!met) continue;
+                const dvec3 velocity =
+                    isStill ? dvec3(0.0) : (solid.to.toWorld(met->place) - solid.from.toWorld(met->place)) / h;
+                found.push_back({i, met->plane.distance, solid.to.directionToWorld(met->plane.normal), velocity,
+                                 solid.collider, solid.material});
+            }
         }
     }
 }

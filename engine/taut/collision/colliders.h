@@ -149,24 +149,27 @@ class Colliders {
     };
     Near nearest(const glm::dvec3& position, double reach) const;
 
-    // Appends what ways lead through, and colliders whose surface is less than `reach` from their ends, at their
-    // end-of-step poses, in their order; for each, the ways in theirs. Of a mesh the nearest place alone. What a way
-    // has met, the surface is a plane where it did. thickness [m]: what goes there meets a surface that is so near.
-    // seconds: that the ways took, in which colliders move as in their steps of h [s].
-    struct Way {
-        glm::dvec3 from, to;  // [m]
-        double reach;         // [m]
+    // Appends what points go through, and colliders whose surface is less than their reach from where they end, at
+    // their end-of-step poses, in their order; for each, the points in theirs. Of a mesh the nearest place alone. What
+    // a point has met, the surface is a plane where it did. thickness [m]: what goes there meets a surface that is so
+    // near. seconds: that it took, in which colliders move as in their steps of h [s]. It costs least where points that
+    // follow each other are near each other.
+    struct Ways {
+        std::span<const int> points;                  // numbers in the lists
+        std::span<const glm::dvec3> from, to;         // [m]
+        double reach;                                 // [m]
+        double ahead = 0;                             // [s] the reach is longer by what a point goes in this time
+        std::span<const glm::dvec3> velocities = {};  // [m/s] not needed without
     };
     struct Surface {
-        std::size_t way;
+        int point;
         double distance;      // [m]
         glm::dvec3 away;      // unit, in which it grows fastest
         glm::dvec3 velocity;  // [m/s] of the surface there, over a step
         int collider;
         Material material;
     };
-    void findNear(std::span<const Way> ways, double thickness, double seconds, double h,
-                  std::vector<Surface>& found) const;
+    void findNear(const Ways& ways, double thickness, double seconds, double h, std::vector<Surface>& found) const;
 
     // The collider whose end-of-step pose contains the position deepest, and how deep [m]; -1 and 0 outside all.
     struct Inside {

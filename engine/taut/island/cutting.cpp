@@ -28,10 +28,15 @@ struct Knife {
     }
 };
 
+// A layer of points that the plane meets is on one side of it, wherever rounding has put each.
 Knife planeThrough(const CutAction& action, const Island& island, const Body& body) {
+    constexpr double met = 1e-3;  // of the shortest edge
+    const double near = met * shortestEdge(body) * glm::length(*action.planeNormal);
     Knife knife;
-    for (int i : body.pointOf)
-        knife.side.push_back(glm::dot(island.position(i) - *action.planePoint, *action.planeNormal));
+    for (int i : body.pointOf) {
+        const double side = glm::dot(island.position(i) - *action.planePoint, *action.planeNormal);
+        knife.side.push_back(std::abs(side) < near ? 0.0 : side);
+    }
     return knife;
 }
 

@@ -39,6 +39,23 @@ int solidOf(const IslandPlan& plan, const Body& body, int first) {
     return -1;
 }
 
+// Puts next to each other what is near each other.
+void sortInSpace(std::span<int> points, std::span<const dvec3> places) {
+    constexpr std::size_t few = 16;
+    if (points.size() <= few) return;
+    core::Aabb box;
+    for (const int i : points) box.add(places[static_cast<std::size_t>(i)]);
+    const dvec3 size = box.halfSize();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t half = points.size() / 2;
+    std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half), points.end(),
+                     [&](int a, int b) {
+                         return places[static_cast<std::size_t>(a)][axis] < places[static_cast<std::size_t>(b)][axis];
+                     });
+    sortInSpace(points.first(half), places);
+    sortInSpace(points.subspan(half), places);
+}
+
 }  // namespace
 
 int fewestInstants(double tickSeconds) {
@@ -117,7 +134,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
                 surfaces.push_back(surfaceOf(*body, part, offset, static_cast<int>(islands_.size())));
                 surfaces.back().solid = solidOf(island->plan(), *body, static_cast<int>(solids_.size()));
                 if (body->spec->meetsCollidersAsWhole() || body->damage.goneTetrahedra() > 0)
-                    wholes_.push_back({static_cast<int>(bodies_.size()), part.thickness});
+                    wholes_.push_back({static_cast<int>(bodies_.size()), part.thickness, {}});
                 offsets.push_back(offset);
                 bodies_.push_back(body);
             }
@@ -154,6 +171,10 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     options.restitution = spec.restitution;
     group_ = std::make_unique<contact::ContactGroup>(std::move(surfaces), std::move(rest), options);
     group_->setCarried({firstCarried, std::move(carriedPoints)});
+    for (Whole& whole : wholes_) {
+        whole.points = elements().surface(whole.surface).points;
+        sortInSpace(whole.points, elements().rest());
+    }
     for (const Part& part : parts_)
         for (const JointTie& tie : part.island->plan().ties)
             if (tie.isSeam) group_->elements().sew(part.first + tie.a, part.first + tie.b);
@@ -235,11 +256,10 @@ ContactStage::Penetration ContactStage::penetration(const std::function<bool(con
     if (isEmpty()) return all;
     const auto isWanted = [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); };
     const std::vector<contact::Crossing>& now = crossings();  // places x1_
-    for (const auto& [whole, thickness] : wholes_) {
+    for (const auto& [whole, thickness, points] : wholes_) {
         const Island& island = *bodyOf(whole).island;
         if (!isWanted(whole) || !bodyOf(whole).spec->collide || island.colliders().size() == 0) continue;
-        for (int i : elements().surface(whole).points)
-            all.ofPoints = std::max(all.ofPoints, -island.colliders().distance(position(i)));
+        for (int i : points) all.ofPoints = std::max(all.ofPoints, -island.colliders().distance(position(i)));
     }
     if (colliders_.isEmpty()) return all;
     all.deepest = contact::penetrationOf(elements(), now, x1_, isWanted);
@@ -412,23 +432,17 @@ template <class Each>
 void ContactStage::forEachNearCollider(double past, double ahead, const Each& each,
                                        const std::function<bool(int)>& isWanted) const {
     constexpr double nearShare = 0.05;  // of the thickness
-    std::vector<collision::Colliders::Way> ways;
     std::vector<collision::Colliders::Surface> found;
-    for (const auto& [whole, thickness] : wholes_) {
+    for (const auto& [whole, thickness, points] : wholes_) {
         const Island& island = *bodyOf(whole).island;
         const BodySpec& spec = *bodyOf(whole).spec;
         if (!spec.collide || island.isStill() || (isWanted && !isWanted(whole))) continue;
-        const contact::ContactSurface& surface = elements().surface(whole);
-        ways.clear();
-        for (int i : surface.points) {
-            const auto k = static_cast<std::size_t>(i);
-            const double reach = (1.0 + nearShare) * surface.thickness + ahead * std::sqrt(glm::dot(v_[k], v_[k]));
-            ways.push_back({past > 0 ? x0_[k] : x1_[k], x1_[k], reach});
-        }
+        const double most = elements().surface(whole).thickness;
         found.clear();
-        island.colliders().findNear(ways, surface.thickness, past, island.step(), found);
+        island.colliders().findNear({points, past > 0 ? x0_ : x1_, x1_, (1.0 + nearShare) * most, ahead, v_}, most,
+                                    past, island.step(), found);
         for (const auto& near : found)
-            if (!mountedOn_.contains({whole, near.collider})) each(surface.points[near.way], spec, thickness, near);
+            if (!mountedOn_.contains({whole, near.collider})) each(near.point, spec, thickness, near);
     }
 }
 
@@ -484,7 +498,7 @@ double ContactStage::furtherIntoColliders(double h) const {
 
 // Whole bodies meet colliders, and solids turn and roll, in no fewer instants than bodies that press each other.
 void ContactStage::foreseeWholes(contact::Forecast& forecast) const {
-    for (const auto& [whole, thickness] : wholes_)
+    for (const auto& [whole, thickness, points] : wholes_)
         if (bodyOf(whole).spec->isRigid() && !bodyOf(whole).island->isStill()) forecast.isInContact = true;
     forEachNearCollider(0.0, tickSeconds_,
                         [&](int i, const BodySpec&, double thickness, const collision::Colliders::Surface& surface) {

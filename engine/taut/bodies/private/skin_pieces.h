@@ -43,7 +43,11 @@ struct Skin {
     std::vector<SkinTriangle> triangles;
 };
 
-// Expects damage that has been assessed. The faces that a cut bares of a block lie `back` [m] behind the cut.
-Skin skinOf(const Body& body, double back = 0);
+// Expects damage that has been assessed.
+Skin skinOf(const Body& body);
+
+// What of a block meets others where it is cut: the outside of its whole tetrahedra, a closed surface, whose corners at
+// the cut stand out until `back` [m] behind where their edges are severed, nearly.
+Skin bluntSkinOf(const Body& body, double back);
 
 }  // namespace taut::world

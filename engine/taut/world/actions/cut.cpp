@@ -48,7 +48,7 @@ void CutAction::perform(World& world) const {
         w.actionWarnings.push_back(
             asWarning(at(source)) +
             (areRigid ? "\"" + target + "\" is rigid: a cut takes its joints alone"
-                      : "there is nothing of \"" + target + "\" where this cuts; put it where the body is"));
+                      : "there is nothing whole of \"" + target + "\" where this cuts; put it where the body is"));
     redrawDamage(w);
 }
 

@@ -181,7 +181,8 @@ class ContactStage {
     std::vector<std::vector<int>> solids_;  // their points in the group, ascending
     struct Whole {
         int surface;
-        double thickness;  // [m] without its sag
+        double thickness;         // [m] without its sag
+        std::vector<int> points;  // of the surface, those that are near each other together
     };
     std::vector<Whole> wholes_;  // of bodies that meet colliders as a whole
     // Surfaces and numbers of colliders that carry points of them: they do not touch.

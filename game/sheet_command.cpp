@@ -23,6 +23,9 @@ struct SheetFlags {
 // Of a folder the names that the run's record tells, if it has one.
 image::FramePattern patternOf(const std::filesystem::path& frames) {
     if (frames.extension() == ".png") return image::FramePattern(frames);
+    if (frames.extension() == ".toml")
+        failUsage("{0} is a scene: taut render {0} -o out/ makes frames of it, and then taut sheet out/ the sheet",
+                  frames.string());
     const std::vector<std::string> names = pipeline::recordedFiles(frames);
     return image::FramePattern(names.size() == 1 ? frames / names.front() : frames);
 }

@@ -44,7 +44,7 @@ class Cutter {
         for (const std::array<int, 3>& face : bareFaces()) add(face, -1);
         for (const auto& [ends, number] : known_) {
             const auto found = cuts.find(ends.first);
-            if (found == cuts.end()) continue;
+            if (found == cuts.end() || fans_[static_cast<std::size_t>(ends.first)].empty()) continue;
             SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
             const dvec3 way = wayOut(found->second, back);
             vertex.terms = termsBeyond(ends.first, way);
@@ -264,7 +264,9 @@ class Cutter {
             const auto at = [&](std::size_t i) { return skin_.vertices[static_cast<std::size_t>(face[i])].rest; };
             dvec3 inside(0.0);
             for (int a : group) inside += rest(a) / static_cast<double>(group.size());
-            const bool isOutward = glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(0) - inside) > 0;
+            dvec3 normal(0.0);  // some of its triangles may have no area
+            for (std::size_t i = 2; i < face.size(); ++i) normal += glm::cross(at(i - 1) - at(0), at(i) - at(0));
+            const bool isOutward = glm::dot(normal, at(0) - inside) > 0;
             for (std::size_t i = 2; i < face.size(); ++i)
                 isOutward ? add(face[0], face[i - 1], face[i], -1) : add(face[0], face[i], face[i - 1], -1);
         }

@@ -174,12 +174,11 @@ std::vector<Block> blocksOf(const Ways& ways, double thickness) {
     for (std::size_t first = 0; first < ways.points.size(); first += inBlock) {
         Block& block = blocks.emplace_back();
         block.points = ways.points.subspan(first, std::min(inBlock, ways.points.size() - first));
-        core::Aabb ends, starts;
+        core::Aabb ends;
         double reach = 0, longest = 0;  // [m], [m²]
         for (const int i : block.points) {
             const dvec3 way = at(ways.to, i) - at(ways.from, i);
             ends.add(at(ways.to, i));
-            starts.add(at(ways.from, i));
             reach = std::max(reach, reachAt(ways, i));
             longest = std::max(longest, glm::dot(way, way));
         }
@@ -187,8 +186,7 @@ std::vector<Block> blocksOf(const Ways& ways, double thickness) {
         block.radius = glm::length(ends.halfSize());
         block.furthest = std::max(reach, thickness + std::sqrt(longest));
         block.box = ends;
-        block.box.add(starts);
-        block.box.grow(reach);
+        block.box.grow(reach + std::sqrt(longest));
     }
     return blocks;
 }

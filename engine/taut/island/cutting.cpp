@@ -28,10 +28,10 @@ struct Knife {
     }
 };
 
-// A layer of points that the plane meets is on one side of it, wherever rounding has put each.
+// A layer of a block's points that the plane meets is on one side of it, wherever rounding has put each.
 Knife planeThrough(const CutAction& action, const Island& island, const Body& body) {
     constexpr double met = 1e-3;  // of the shortest edge
-    const double near = met * shortestEdge(body) * glm::length(*action.planeNormal);
+    const double near = body.model.cells.empty() ? 0.0 : met * shortestEdge(body) * glm::length(*action.planeNormal);
     Knife knife;
     for (int i : body.pointOf) {
         const double side = glm::dot(island.position(i) - *action.planePoint, *action.planeNormal);

@@ -50,14 +50,9 @@ class CarriedPoints {
     void follow(std::span<dvec3> x, std::span<dvec3> v) const {
         constexpr int atOnce = 512;
         core::parallelFor(static_cast<int>(points_.size()), atOnce, [&](int k) {
-            const CarriedPoint& own = points_[static_cast<std::size_t>(k)];
-            dvec3 place(0.0), velocity(0.0);
-            for (std::size_t m = 0; m < own.by.size(); ++m) {
-                place += own.weights[m] * x[static_cast<std::size_t>(own.by[m])];
-                velocity += own.weights[m] * v[static_cast<std::size_t>(own.by[m])];
-            }
-            x[static_cast<std::size_t>(first_ + k)] = place;
-            v[static_cast<std::size_t>(first_ + k)] = velocity;
+            const auto i = static_cast<std::size_t>(first_ + k);
+            x[i] = valueAt(first_ + k, x);
+            v[i] = valueAt(first_ + k, v);
         });
     }
 

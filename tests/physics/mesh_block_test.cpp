@@ -100,7 +100,69 @@ TEST(MeshBlock, LiesOnItsMesh) {
     }
 }
 
-// Its cells touch then. They fill the cube exactly.
+// A ball is cut aslant in the air, and nothing stirs. What is drawn of the pieces is the ball, open nowhere: seen from
+// far away its volume is that of the mesh.
+TEST(MeshBlock, IsDrawnUpToTheCut) {
+    world::SceneSpec spec = scene(0.0);
+    spec.world.gravity = dvec3(0.0);
+    BlockSpec own = block("ball", ball(0.2), 0.05);
+    own.touch = world::Touch::all;
+    own.drag = 0;
+    spec.bodies.add(own);
+    World world(spec);
+    const auto volume = [&] {
+        const dvec3 far(7.0, 5.0, 3.0);
+        double sixfold = 0;
+        for (const auto& t : world.triangles(world.select("block.ball")))
+            sixfold += glm::dot(t[0] - far, glm::cross(t[1] - far, t[2] - far));
+        return sixfold / 6;
+    };
+    const double whole = volume();
+    world::CutAction cut;
+    cut.target = "block.ball";
+    cut.planePoint = dvec3(0.02, 0.07, 0.01);
+    cut.planeNormal = glm::normalize(dvec3(0.3, 1.0, 0.2));
+    cut.perform(world);
+    for (int i = 0; i < 20; ++i) ASSERT_FALSE(world.advance());
+    EXPECT_NEAR(volume(), whole, 1e-3 * whole);
+    EXPECT_EQ(world.metrics().crossings, 0);
+    EXPECT_LT(world.metrics().kinetic, 1e-6);
+}
+
+// A ball that lies on the ground is cut near its top, and across into slices of one layer of points: nothing jumps, and
+// what has no whole cell lies on the ground too.
+TEST(MeshBlock, IsCutWhereItLies) {
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0)};
+    for (const bool isSliced : {false, true}) {
+        spec.bodies = {};
+        BlockSpec own = block("ball", ball(0.2), 0.09);
+        own.young = 2e5;
+        own.position = {0, 0.2 + own.thickness, 0};
+        own.touch = world::Touch::all;
+        spec.bodies.add(own);
+        World world(spec);
+        for (int i = 0; i < 20; ++i) ASSERT_FALSE(world.advance());
+        const double before = world.metrics().energy();
+        world::CutAction cut;
+        cut.target = "block.ball";
+        cut.planePoint = isSliced ? dvec3(-0.04, 0, 0) : dvec3(0, 0.37, 0);
+        cut.planeNormal = isSliced ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+        cut.perform(world);
+        if (isSliced) {
+            cut.planePoint = dvec3(0.04, 0, 0);
+            cut.perform(world);
+        }
+        for (int i = 0; i < 60; ++i) {
+            ASSERT_FALSE(world.advance());
+            EXPECT_LT(world.metrics().energy(), before + 1e-3 * std::abs(before)) << i;
+        }
+        for (const dvec3& x : positionsOf(world, "block.ball"))
+            EXPECT_GT(x.y, -0.09);  // corners of its cells stand out
+    }
+}
+
+// Its cells fill the cube exactly.
 TEST(MeshBlock, LiesOnTheGroundWhereItIsCut) {
     world::SceneSpec spec = scene();
     spec.colliders = {ground(0.0)};

@@ -55,14 +55,14 @@ struct Octahedron {
         }
         triangles = finer;
     }
-    Filling<double> filling(const FillingLaw& law) const {
-        return {chambersOf(triangles, places), places, law, {200.0, 200.0}};
+    Filling<double> filling(const FillingLaw& law, double pressure = 200.0) const {
+        return {chambersOf(triangles, places), places, law, {pressure, pressure}};
     }
 };
 
-const std::array<FillingLaw, 3> laws = {FillingLaw{FillingKeeps::pressure, 1000.0, 1.0},
-                                        FillingLaw{FillingKeeps::amount, 1000.0, 1.0},
-                                        FillingLaw{FillingKeeps::volume, 1000.0, 5000.0}};
+const std::array<FillingLaw, 3> laws = {FillingLaw{FillingKeeps::pressure, 1000.0, 1000.0, 1.0},
+                                        FillingLaw{FillingKeeps::amount, 1000.0, 1000.0, 1.0},
+                                        FillingLaw{FillingKeeps::volume, 1000.0, 1000.0, 5000.0}};
 
 TEST(Filling, SurfacesAreClosedOpenTwistedOrFlat) {
     const Octahedron solid;
@@ -90,6 +90,16 @@ TEST(Filling, SurfacesAreClosedOpenTwistedOrFlat) {
     ASSERT_EQ(sewn.size(), 1U);
     EXPECT_TRUE(sewn[0].isClosed());
     EXPECT_NEAR(sewn[0].firstVolume, 4.0 / 3.0, 1e-15);
+    // Half a metre apart and not closed yet, they enclose the prism between them too, on a square of 2 m².
+    for (std::size_t i = 6; i < 12; ++i) twice[i].z -= 0.5;
+    const std::vector<Chamber> apart =
+        chambersOf(halves, twice, std::vector<int>{0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 10, 11});
+    EXPECT_NEAR(apart.at(0).firstVolume, 7.0 / 3.0, 1e-14);
+    PlanarState<double> state(twice, std::vector<double>(12, 1.0));
+    const std::vector<dvec3> forces = state.forces(Filling<double>(apart, twice, laws[0], {200.0, 200.0}));
+    dvec3 torque(0.0);
+    for (int i = 0; i < 12; ++i) torque += glm::cross(state.get(state.x, i), forces[static_cast<std::size_t>(i)]);
+    EXPECT_LT(glm::length(sum(forces)) + glm::length(torque), 1e-11);
 
     // Möbius's band of five triangles; a pillow of two squares, with another at a corner that is sewn to itself.
     const std::vector<Triangle> band = {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 0}, {4, 0, 1}};
@@ -119,18 +129,40 @@ TEST(Filling, PartsThatMeetAlongAnEdgeAreClosed) {
     EXPECT_NEAR(chambers[0].firstVolume, 2.0 / 6.0, 1e-15);
 }
 
+// The last is sealed in at 1000 Pa and then taken up to where the air has 900.
 TEST(Filling, PressesAsItsLawSays) {
     const Octahedron solid;
     const double s = 1.1, v = s * s * s;  // of all lengths, of the volume
-    const std::array<double, 3> expected = {200.0, 1200.0 / v - 1000.0, 200.0 + 5000.0 * (1.0 - v)};
-    for (std::size_t law = 0; law < 3; ++law) {
+    std::vector<FillingLaw> all(laws.begin(), laws.end());
+    all.push_back({FillingKeeps::amount, 900.0, 1000.0, 1.0});
+    const std::array<double, 4> expected = {200.0, 1200.0 / v - 1000.0, 200.0 + 5000.0 * (1.0 - v), 1200.0 / v - 900.0};
+    for (std::size_t law = 0; law < 4; ++law) {
         PlanarState<double> state(solid.places, solid.masses);
-        if (laws[law].keeps == FillingKeeps::amount)  // its energy is that since it was sealed
-            EXPECT_NEAR(solid.filling(laws[law]).potentialEnergy(state.motion()), 0.0, 1e-12);
+        if (all[law].keeps == FillingKeeps::amount)  // its energy is that since it was sealed
+            EXPECT_NEAR(solid.filling(all[law]).potentialEnergy(state.motion()), 0.0, 1e-12);
         for (double& x : state.x) x *= s;
-        const std::vector<dvec3> forces = state.forces(solid.filling(laws[law]));
+        const std::vector<dvec3> forces = state.forces(solid.filling(all[law]));
         // Each of four triangles has an area of ½ √3 and a normal of 1/√3 along the axis; a third of them.
         EXPECT_NEAR(forces[0].x, expected[law] * s * s * 4.0 / 6.0, 1e-10) << law;
+    }
+}
+
+// A tenth of the volume is left at 0.46 of the lengths; below, a pump draws in proportion to what is left, and where
+// the surface is inside out not at all. The forces along the arms are -dE/ds.
+TEST(Filling, SucksNothingInsideOut) {
+    const Octahedron solid;
+    const Filling<double> filling = solid.filling(laws[0], -200.0);
+    for (const auto& [s, share] : {std::pair(0.5, 1.0), {0.4, 0.64}, {-0.4, 0.0}}) {
+        PlanarState<double> state(solid.places, solid.masses);
+        const auto energyAt = [&](double size) {
+            for (std::size_t i = 0; i < solid.places.size(); ++i)
+                state.set(state.x, static_cast<int>(i), size * solid.places[i]);
+            return filling.potentialEnergy(state.motion());
+        };
+        const double h = 1e-5, slope = (energyAt(s + h) - energyAt(s - h)) / (2.0 * h);
+        energyAt(s);
+        EXPECT_NEAR(state.forces(filling)[0].x, -200.0 * share * s * s * 4.0 / 6.0, 1e-10) << s;
+        EXPECT_NEAR(slope, 200.0 * share * 4.0 * s * s, 1e-6) << s;
     }
 }
 

@@ -42,6 +42,21 @@ TEST(RenderHem, BelowAPixelNoByteChanges) {
     EXPECT_EQ(thin.rgb, pictureOf(view).rgb);
 }
 
+// Two squares, seen from above, that meet along the z axis: there they are sewn, and look as if they were one.
+TEST(RenderHem, IsNotWhereTwoEdgesAreOne) {
+    view::FrameView view = edgeView(0.1F);
+    view.camera.eye = {0.0F, 2.0F, 0.2F};
+    view.surfaces.push_back(view.surfaces[0]);
+    view.surfaces[0].transform[3].x = -0.5F;
+    view.surfaces[1].transform[3].x = 0.5F;
+    const image::Image hemmed = pictureOf(view);
+    for (view::Surface& surface : view.surfaces) surface.hem = 0.0F;
+    const image::Image plain = pictureOf(view);
+    EXPECT_NE(hemmed.rgb, plain.rgb);
+    for (float x = -0.05F; x < 0.06F; x += 0.01F)
+        EXPECT_EQ(pixelOf(hemmed, view.camera, {x, 0.0F, 0.0F}), pixelOf(plain, view.camera, {x, 0.0F, 0.0F})) << x;
+}
+
 // Bytes of the ground beside the cloth are what they are without a rim.
 TEST(RenderHem, ShadowsAreThrownWithoutIt) {
     view::FrameView view = floorView();

@@ -328,5 +328,41 @@ TEST(SceneErrors, RampsOfWhatCannotChangeAreReported) {
     });
 }
 
+TEST(SceneErrors, SeamsThatTheRunDoesNotSeeOrSeesTwiceAreReported) {
+    expectMessages({
+        {"a seam past the end",
+         "run = { seconds = 2 }\n"
+         "[[seam]]\n"
+         "a = \"cloth.a@right\"\n"
+         "b = \"cloth.b@left\"\n"
+         "start_s = 2\n"
+         "over_s = 1\n"
+         "[material.m]\n"
+         "[cloth.a]\n"
+         "material = \"m\"\n"
+         "[cloth.b]\n"
+         "material = \"m\"\n",
+         "s.toml:6:11: error: 2 s is past the end: the last frame shows 1.98333 s\n"
+         "  start_s = 2\n"
+         "            ^ set seconds in [run]"},
+        {"a seam twice",
+         "[[seam]]\n"
+         "a = \"cloth.a@right\"\n"
+         "b = \"cloth.b@left\"\n"
+         "[[seam]]\n"
+         "a = \"cloth.b@left\"\n"
+         "b = \"cloth.a@right\"\n"
+         "over_s = 1\n"
+         "[material.m]\n"
+         "[cloth.a]\n"
+         "material = \"m\"\n"
+         "[cloth.b]\n"
+         "material = \"m\"\n",
+         "s.toml:5:1: error: this seam is there already, in line 2\n"
+         "  [[seam]]\n"
+         "  ^"},
+    });
+}
+
 }  // namespace
 }  // namespace taut::scene

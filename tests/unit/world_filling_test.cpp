@@ -99,6 +99,11 @@ TEST_F(Fillings, ASealedGasCarriesAPistonAsBoyleSays) {
     World world = load(piston("keeps = \"amount\"\npressure_Pa = 20"));
     support::run(world, 180);
     EXPECT_NEAR(heightOf(world), 0.4 * 1020.0 / (1000.0 + weightOf(world)), 4e-5);
+    World up = load(piston("keeps = \"amount\"\npressure_Pa = 20",
+                           "[[at]]\nt = 0.1\nover_s = 0.4\ndo = \"ramp\"\nkey = \"world.air_pressure_Pa\"\n"
+                           "to = 900\n"));
+    support::run(up, 180);
+    EXPECT_NEAR(heightOf(up), 0.4 * 1020.0 / (900.0 + weightOf(up)), 4e-5);
 }
 
 // V/V₀ = 1 - w/K: within a thousandth.

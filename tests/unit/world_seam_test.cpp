@@ -226,6 +226,50 @@ TEST(Seams, WarnWhereEdgesHaveUnlikePoints) {
     EXPECT_TRUE(warnings(even).empty());
     ASSERT_EQ(warnings(uneven).size(), 1U);
     EXPECT_NE(warnings(uneven)[0].find("sews 5 points to 7"), std::string::npos) << warnings(uneven)[0];
+    const auto expectWarning = [&](std::string text, const std::string& from, const std::string& to,
+                                   const std::string& what) {
+        text.replace(text.rfind(from), from.size(), to);
+        ASSERT_FALSE(warnings(text).empty()) << what;
+        EXPECT_NE(warnings(text).back().find(what), std::string::npos) << warnings(text).back();
+    };
+    expectWarning(even, "[0.3, 0.4]", "[0.3, 1.4]", "sews 0.4 m to 1.4 m");
+    expectWarning(even, "\"cloth.b@left\"", "[\"cloth.b@left\", \"cloth.b@right\"]", "leaves a gap of 0.3 m");
+    for (std::size_t at = even.find("size"); at != std::string::npos; at = even.find("\nsize", at + 40))
+        even.insert(at == even.find("size") ? at : at + 1, "hold = [\"all\"]\n");
+    ASSERT_EQ(warnings(even).size(), 1U);
+    EXPECT_NE(warnings(even)[0].find("does not close: 5 of its points"), std::string::npos) << warnings(even)[0];
+}
+
+// A panel whose edge is bent twice, sewn to two that meet where the bends do: each of these has a corner there, and the
+// seam's ends; drawn smooth by itself, the edge of the first would be round where theirs are not.
+TEST(Seams, AreDrawnWithoutGapsWhereEdgesAreSmooth) {
+    std::string text = "schema = 1\n[world]\ngravity = [0, 0, 0]\n[material.m]\n";
+    for (const auto& [name, outline] : {std::pair("whole", "[[0, 0], [0.1, 0.03], [0.2, 0], [0.2, -0.1], [0, -0.1]]"),
+                                        std::pair("one", "[[0, 0], [0.1, 0.03], [0.1, 0.1], [0, 0.1]]"),
+                                        std::pair("two", "[[0.1, 0.03], [0.2, 0], [0.2, 0.1], [0.1, 0.1]]")})
+        text += std::string("[cloth.") + name + "]\nmaterial = \"m\"\noutline = " + outline +
+                "\ncell_m = 0.02\nfinish = { smooth = 1 }\n";
+    text +=
+        "[[seam]]\na = \"cloth.whole@side0\"\nb = \"cloth.one@side0\"\n"
+        "[[seam]]\na = \"cloth.whole@side1\"\nb = \"cloth.two@side0\"\n"
+        "[[seam]]\na = \"cloth.one@side1\"\nb = \"cloth.two@side3\"\n";
+    const World world(sceneOf(text));
+    const auto placesOf = [&](const std::string& name) {
+        for (const view::Surface& surface : world.view(false).surfaces)
+            if (surface.name == name) return surface.geometry->positions;
+        return std::vector<glm::vec3>();
+    };
+    const std::vector<glm::vec3> whole = placesOf("cloth.whole");
+    for (const char* name : {"cloth.one", "cloth.two"}) {
+        int met = 0;
+        for (const glm::vec3& place : placesOf(name)) {
+            float nearest = 1.0F;
+            for (const glm::vec3& other : whole) nearest = std::min(nearest, glm::distance(place, other));
+            met += nearest < 1e-6F ? 1 : 0;
+            EXPECT_TRUE(nearest < 1e-6F || nearest > 3e-3F) << name << " " << nearest;
+        }
+        EXPECT_GE(met, 9) << name;  // five points or more, and their middles
+    }
 }
 
 // Of two panels the coarser side gets the points of the finer; a panel gets those of a grid, whose cells are given. A

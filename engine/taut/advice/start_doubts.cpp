@@ -7,8 +7,12 @@
 
 #include "taut/advice/contact_doubts.h"
 #include "taut/bodies/block.h"
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/net.h"
+#include "taut/bodies/private/ties.h"
+#include "taut/forces/filling.h"
 #include "taut/forces/wind.h"
+#include "taut/mechanics/private/filling.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/private/motion.h"
 #include "taut/world/private/bodies.h"
@@ -101,6 +105,34 @@ void doubtCuts(const WorldImpl& world, std::vector<std::string>& doubts) {
         });
 }
 
+// Panels that are still apart give a filling another volume than what is sewn of them.
+void doubtFillings(const WorldImpl& world, std::vector<std::string>& doubts) {
+    for (const FillingSpec& filling : world.spec.forces.of<FillingSpec>()) {
+        const bool keepsPressure = filling.keeps == mechanics::FillingKeeps::pressure;
+        if (keepsPressure && filling.pressure == 0.0) continue;
+        const auto isIn = [&](const JointSide& side) {
+            const std::vector<Body*> bodies = bodiesOf(world);
+            return std::any_of(bodies.begin(), bodies.end(), [&](const Body* body) {
+                return names(side, *body) && std::any_of(filling.in.begin(), filling.in.end(),
+                                                         [&](const std::string& in) { return names(in, *body); });
+            });
+        };
+        for (const JointSpec& joint : world.spec.joints) {
+            const auto* seam = dynamic_cast<const SeamJoint*>(&joint);
+            if (seam == nullptr || seam->isWeld() || !isIn(seam->a) || !isIn(seam->b)) continue;
+            doubts.push_back(
+                asWarning(at(filling.source)) +
+                fmt::format(
+                    "filling.{} {} before the seam \"{}\" – \"{}\" is closed at {:g} s; {}ramp pressure_Pa from "
+                    "0 after that",
+                    filling.name, keepsPressure ? "presses" : "has its volume of panels as they stand,", seam->a.text(),
+                    seam->b.text(), seam->start + seam->over,
+                    keepsPressure ? "" : "give it keeps = \"pressure\", and "));
+            break;
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> startDoubts(World& world) {
@@ -109,6 +141,7 @@ std::vector<std::string> startDoubts(World& world) {
     doubtWinds(w, doubts);
     doubtCameras(w, doubts);
     doubtCuts(w, doubts);
+    doubtFillings(w, doubts);
     for (const auto& island : w.islands) {
         doubtStrains(*island, doubts);
         doubtSteps(*island, w.ticksPerSecond, doubts);

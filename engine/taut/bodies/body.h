@@ -28,6 +28,8 @@ struct Body {
     std::vector<bool> clamped;           // (points) whether the direction is held while the point is; empty: none
     glm::dquat carriedFrom{1, 0, 0, 0};  // rotation of that collider when the points were tied to it
 
+    std::vector<int> seamCorners;  // ascending points, from which two borders that are sewn go different ways
+
     Damage damage;  // what has been cut or torn
 
     // In the island that owns it.

@@ -191,6 +191,17 @@ BoundMesh::BoundMesh(const Body& body, std::span<const std::uint32_t> triangles,
     topology_ = topology;
 }
 
+PlacedMesh placedMesh(const Body& body) {
+    const BlockFrame frame(body);
+    const MeshData& mesh = *frame.block().meshData;
+    PlacedMesh placed{{}, mesh.uv, mesh.triangles};
+    for (const dvec3& x : mesh.positions) {
+        placed.places.push_back(frame.placeOf(x));
+        if (mesh.uv.empty()) placed.uv.emplace_back(frame.inside(placed.places.back()));
+    }
+    return placed;
+}
+
 BoundMesh::BoundMesh(const Body& body) {
     const BlockFrame frame(body);
     const dvec3 cell = frame.lattice().cell;

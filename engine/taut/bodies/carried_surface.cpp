@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "taut/bodies/private/cut_mesh.h"
 #include "taut/bodies/private/skin_pieces.h"
 #include "taut/core/error.h"
 #include "taut/spec/private/rotation.h"
@@ -24,6 +25,10 @@ dvec3 BlockFrame::shift() const {
     return first_ - (shape.centre + shape.axes * (lattice_->cell * dvec3(lattice_->points.front()) - 0.5 * shape.size));
 }
 
+dvec3 BlockFrame::placeOf(const dvec3& x) const {
+    return shift() + block_->position + rotated(turn_, block_->scale * x);
+}
+
 dvec3 BlockFrame::inside(const dvec3& place) const {
     dvec3 local = lattice_->cell * dvec3(lattice_->points.front());
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,6 +37,10 @@ dvec3 BlockFrame::inside(const dvec3& place) const {
         local[axis] += glm::dot(place - first_, rotated(turn_, unit));
     }
     return local;
+}
+
+dvec3 BlockFrame::place(const dvec3& inside) const {
+    return first_ + rotated(turn_, inside - lattice_->cell * dvec3(lattice_->points.front()));
 }
 
 namespace {
@@ -104,10 +113,8 @@ Mesh thinned(const Mesh& mesh, double side) {
     return joined(chosen, [&](std::size_t v) { return root(static_cast<int>(v)); });
 }
 
-// Of a block that is cut: its thickness behind the cut, so that what is drawn of it ends where what it touches begins.
-CarriedSurface cutSurface(const Body& body) {
+CarriedSurface surfaceOf(const Skin& skin) {
     CarriedSurface surface;
-    const Skin skin = bluntSkinOf(body, body.spec->thickness);
     for (const SkinVertex& vertex : skin.vertices) {
         surface.rest.push_back(vertex.rest);
         mechanics::CarriedPoint& point = surface.points.emplace_back();
@@ -126,9 +133,10 @@ CarriedSurface cutSurface(const Body& body) {
 
 CarriedSurface carriedSurface(const Body& body) {
     constexpr double fineness = 1.0 / 3.0;  // of a cell
-    if (body.damage.goneTetrahedra() > 0) return cutSurface(body);
-    CarriedSurface surface;
-    if (!body.spec->hasCarriedSurface()) return surface;
+    const bool isCut = body.damage.goneTetrahedra() > 0;
+    // At a cut its thickness behind it, so that what is drawn of a body ends where what it touches begins.
+    const double back = body.spec->thickness;
+    if (!body.spec->hasCarriedSurface()) return isCut ? surfaceOf(bluntSkinOf(body, back)) : CarriedSurface{};
     const BlockFrame frame(body);
     const BlockSpec& block = frame.block();
     const MeshData& file = *block.meshData;
@@ -138,13 +146,17 @@ CarriedSurface carriedSurface(const Body& body) {
         return std::array{x.x, x.y, x.z};
     });
     mesh = thinned(mesh, fineness * block.cell / block.scale);
-    const glm::dquat turn = rotationOf(block.rotation);
-    const dvec3 shift = frame.shift() + block.position;
+    for (dvec3& x : mesh.places) x = frame.placeOf(x);
+    if (isCut) {
+        std::vector<dvec2> uv(mesh.places.size());
+        return surfaceOf(bluntMesh(body, {std::move(mesh.places), std::move(uv), std::move(mesh.triangles)}, back));
+    }
+    CarriedSurface surface;
     for (const dvec3& x : mesh.places) {
-        surface.rest.push_back(shift + rotated(turn, block.scale * x));
-        const dvec3 local = frame.inside(surface.rest.back()) / frame.lattice().cell;
+        const dvec3 local = frame.inside(x) / frame.lattice().cell;
         surface.points.push_back(mechanics::carriedBy(frame.lattice().carrierOf(local), local));
     }
+    surface.rest = std::move(mesh.places);
     surface.triangles = std::move(mesh.triangles);
     return surface;
 }

@@ -74,7 +74,8 @@ std::vector<int> orderInFile(const BodySpec& spec) {
 class SkinDrawing final : public BodyDrawing {
   public:
     SkinDrawing(const Body& body, bool twoSided)
-        : name_(body.fullName()),
+        : body_(body),
+          name_(body.fullName()),
           twoSided_(twoSided),
           hem_(twoSided ? static_cast<float>(body.spec->finish.hem) : 0.0F),
           room_(body.spec->facesMeet() ? shareOfThickness * static_cast<float>(body.spec->thickness)
@@ -82,7 +83,11 @@ class SkinDrawing final : public BodyDrawing {
           finish_(finishOf(body.spec->finish)) {
         auto topology = std::make_shared<view::Topology>();
         const mechanics::Model& model = body.model;
-        const Skin skin = body.damage.isEmpty() ? wholeSkin(model) : skinOf(body);
+        const MeshSource* source = body.spec->meshSource();
+        const bool isFilled = !twoSided_ && source != nullptr && source->meshData != nullptr;
+        const Skin skin = body.damage.isEmpty() ? wholeSkin(model)
+                          : isFilled            ? cutMesh(body, placedMesh(body))
+                                                : skinOf(body);
         const BlockAxes axes = twoSided_ ? BlockAxes{} : BlockAxes(model);
         VertexNumbers vertexOf;
         const auto vertexAt = [&](int v, int side) {
@@ -91,8 +96,9 @@ class SkinDrawing final : public BodyDrawing {
             if (isNew) {
                 if (vertex.terms.size() > 1) beyond_.push_back({points_.size(), vertex});
                 points_.push_back(vertex.terms.front().point);
-                topology->uv.push_back(twoSided_ ? along(model, vertex.uv)
-                                                 : axes.across(vertex.rest, side % sidesOfBlock));
+                const bool hasOwn = twoSided_ || (isFilled && side < sidesOfBlock);
+                topology->uv.push_back(hasOwn ? along(model, vertex.uv)
+                                              : axes.across(vertex.rest, side % sidesOfBlock));
             }
             return entry->second;
         };
@@ -101,23 +107,23 @@ class SkinDrawing final : public BodyDrawing {
         for (const SkinTriangle& triangle : skin.triangles) {
             // The faces of cuts are separate sides.
             const bool isCut = triangle.source < 0;
-            const int side = twoSided_ ? 0
-                             : isCut   ? sidesOfBlock + axes.sideLike(normalOf(skin, triangle))
-                                       : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
+            const int side = twoSided_  ? 0
+                             : isCut    ? sidesOfBlock + axes.sideLike(normalOf(skin, triangle))
+                             : isFilled ? 0
+                                        : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
             for (int v : triangle.vertices) topology->triangles.push_back(vertexAt(v, side));
         }
         topology_ = topology;
+        addInner(skin, body.spec->finish);
         if (const int levels = body.spec->finish.smooth; twoSided_ && levels > 0)
             refinement_ = refinement(model, skin, vertexOf, topology->triangles, levels);
         // What is cut or torn shows its own surface.
-        const MeshSource* source = body.spec->meshSource();
-        const bool isFilled = !twoSided_ && source != nullptr && source->meshData != nullptr;
         if ((body.spec->finish.skinData == nullptr && !isFilled) || !body.damage.isEmpty()) return;
         if (!twoSided_) {
             bound_ = std::make_unique<BoundMesh>(body);
         } else {
             bound_ = std::make_unique<BoundMesh>(body, topology_->triangles, sheet(startOf(body)), topology_->uv);
-            bodyToBind_ = refinement_.levels > 0 ? &body : nullptr;
+            isBoundFine_ = refinement_.levels > 0;
         }
     }
 
@@ -137,6 +143,11 @@ class SkinDrawing final : public BodyDrawing {
         surface.finish = finish_;
         surface.twoSided = twoSided_;
         surface.hem = hem_;
+        surfaces.push_back(surface);
+        if (inner_ == nullptr) return;
+        surfaces.back().topology = outer_;
+        surface.topology = inner_;
+        surface.finish = innerFinish_;
         surfaces.push_back(std::move(surface));
     }
 
@@ -146,6 +157,22 @@ class SkinDrawing final : public BodyDrawing {
     // which come nearer: so less than that is room for what is drawn.
     static constexpr float shareOfThickness = 0.4F;
     using VertexNumbers = std::map<std::pair<int, int>, std::uint32_t>;  // by vertex of the skin, and side of the block
+
+    // A picture is of the outside: faces of cuts have the colour of the back.
+    void addInner(const Skin& skin, const FinishSpec& finish) {
+        if (finish.pattern != view::Pattern::image) return;
+        view::Topology outer{{}, topology_->uv}, inner{{}, topology_->uv};
+        for (std::size_t t = 0; t < skin.triangles.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k)
+                (skin.triangles[t].source < 0 ? inner : outer).triangles.push_back(topology_->triangles[3 * t + k]);
+        if (inner.triangles.empty()) return;
+        outer_ = std::make_shared<view::Topology>(std::move(outer));
+        inner_ = std::make_shared<view::Topology>(std::move(inner));
+        auto plain = std::make_shared<view::Finish>(*finish_);
+        plain->pattern = view::Pattern::plain;
+        plain->front = plain->back;
+        innerFinish_ = std::move(plain);
+    }
 
     // What a fine mesh is made of. It is made for the first picture: a run may have none.
     struct Refinement {
@@ -176,11 +203,15 @@ class SkinDrawing final : public BodyDrawing {
     }
     void refine() const {
         if (refinement_.levels == 0) return;
-        fine_ = view::subdivided(refinement_.faces, refinement_.rest, refinement_.keepsCorners, refinement_.levels);
+        std::vector<std::uint32_t> kept;
+        for (std::size_t v = 0; v < points_.size(); ++v)
+            if (std::binary_search(body_.seamCorners.begin(), body_.seamCorners.end(), points_[v]))
+                kept.push_back(static_cast<std::uint32_t>(v));
+        fine_ =
+            view::subdivided(refinement_.faces, refinement_.rest, refinement_.keepsCorners, refinement_.levels, kept);
         topology_ = std::make_shared<view::Topology>(view::Topology{fine_->triangles, fine_->spread(topology_->uv)});
-        if (bodyToBind_ != nullptr)
-            bound_ = std::make_unique<BoundMesh>(*bodyToBind_, topology_->triangles, sheet(startOf(*bodyToBind_)),
-                                                 topology_->uv);
+        if (isBoundFine_)
+            bound_ = std::make_unique<BoundMesh>(body_, topology_->triangles, sheet(startOf(body_)), topology_->uv);
     }
 
     // The surface that points make of the triangles, or finer.
@@ -217,11 +248,13 @@ class SkinDrawing final : public BodyDrawing {
         return model.grid[0] > 0 ? glm::vec2(uv.x, -uv.y) : uv;
     }
 
+    const Body& body_;
     std::string name_;
     bool twoSided_;
     float hem_;   // [m]
     float room_;  // [m] how far a smooth sheet may go from its triangles
-    std::shared_ptr<const view::Finish> finish_;
+    std::shared_ptr<const view::Finish> finish_, innerFinish_;
+    std::shared_ptr<const view::Topology> outer_, inner_;     // null: all has one finish
     std::vector<int> points_;                                 // (vertices) their points of the model
     std::vector<std::pair<std::size_t, SkinVertex>> beyond_;  // vertices at a cut, beyond all points
     Refinement refinement_;                                   // of a sheet that is smoothed
@@ -229,7 +262,7 @@ class SkinDrawing final : public BodyDrawing {
     mutable std::optional<view::FineMesh> fine_;
     mutable std::shared_ptr<const view::Topology> topology_;
     mutable std::unique_ptr<BoundMesh> bound_;  // what is drawn in its place; null: nothing
-    const Body* bodyToBind_ = nullptr;          // that to which it is bound once that is refined
+    bool isBoundFine_ = false;                  // once the sheet is refined
 };
 
 // Draws springs as rods and points as balls.

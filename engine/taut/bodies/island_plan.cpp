@@ -6,8 +6,10 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "taut/bodies/joints/constraint.h"
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/private/rigid_constraint.h"
 #include "taut/bodies/private/seam_pairing.h"
 #include "taut/bodies/private/ties.h"
@@ -76,6 +78,8 @@ class Planner {
                 addJoint(joint, number);
             ++number;
         }
+        for (Body* body : bodies) body->seamCorners.clear();
+        markSeamCorners();
     }
 
     std::vector<IslandPlan> plans() {
@@ -137,11 +141,19 @@ class Planner {
         std::vector<PointRef> points;
         SewnEdge edge;
         double longest = 0;  // [m] from a point to the next
+        double gap = 0;      // [m] between two edges one after the other, the largest that no seam closes
+        double length() const { return std::accumulate(edge.steps.begin(), edge.steps.end(), 0.0); }
         void addStep(double length) {
             edge.steps.push_back(length);
             longest = std::max(longest, length);
         }
     };
+
+    bool isHeld(PointRef p) const {
+        const std::vector<int>& carried = body(p.body).carried;
+        return body(p.body).model.held[static_cast<std::size_t>(p.point)] ||
+               std::binary_search(carried.begin(), carried.end(), p.point);
+    }
 
     double distance(PointRef a, PointRef b) const {
         const dvec3 d = position(b) - position(a);
@@ -227,10 +239,15 @@ class Planner {
                                     global(b.points[static_cast<std::size_t>(j)]));
         }
         for (std::array<Row, 2>& sides : rows)
-            for (Row& row : sides)
+            for (Row& row : sides) {
+                for (std::size_t k = 0; k + 1 < row.points.size(); ++k)
+                    if (const PointRef here = row.points[k], next = row.points[k + 1];
+                        row.edge.steps[k] == 0.0 && meets.find(global(here)) != meets.find(global(next)))
+                        row.gap = std::max(row.gap, distance(here, next));
                 if (!row.edge.isClosed() && row.points.size() > 2 &&
                     meets.find(global(row.points.front())) == meets.find(global(row.points.back())))
                     row.addStep(0.0);
+            }
         return rows;
     }
 
@@ -245,7 +262,7 @@ class Planner {
             return static_cast<int>(row.points.size()) -
                    static_cast<int>(std::count(row.edge.steps.begin(), row.edge.steps.end(), 0.0));
         };
-        report.sewn = {countOf(as), countOf(bs)};
+        report.sewn = {{countOf(as), countOf(bs)}, {as.length(), bs.length()}, std::max(as.gap, bs.gap)};
         std::map<std::pair<int, int>, int> sewn;  // by bodies: number of points
         for (const auto& [i, j] : pairedByLength(as.edge, bs.edge)) {
             const PointRef first = as.points[static_cast<std::size_t>(i)];
@@ -257,8 +274,10 @@ class Planner {
                                                        seam.b.text() + "\" starts " + std::to_string(apart) +
                                                        " m apart; say how long it takes to close, e.g. over_s = 1.0");
             if (seam.isWeld()) report.jump = std::max(report.jump, apart);
+            if (apart > WeldJoint().furthest && isHeld(first) && isHeld(second)) ++report.sewn.heldApart;
             ++sewn[{first.body, second.body}];
             islands_.unite(first.body, second.body);
+            sewn_.push_back({first, second});
             if (seam.isWeld() && first.body != second.body && !seam.hasOwnTies())
                 welds_.unite(global(first), global(second));
             else
@@ -269,6 +288,47 @@ class Planner {
                         at(seam.source) + "the seam sews \"" + seam.a.text() + "\" to itself; name two edges");
         for (const auto& [numbers, count] : sewn)
             report.pairs.push_back({&body(numbers.first), &body(numbers.second), count});
+    }
+
+    // Borders that are sewn are one curve, also where each is drawn as a smooth one, if both go the same way from point
+    // to point. Where one turns off, as at a seam's end, where three are sewn, or at a corner of one, both have a
+    // corner.
+    void markSeamCorners() {
+        Sets one(firstGlobalEnd());
+        for (const auto& [a, b] : sewn_) one.unite(global(a), global(b));
+        std::map<int, std::vector<std::vector<int>>> borders;  // by body
+        const auto beside = [&](PointRef p) -> const std::vector<int>& {
+            const auto [found, isNew] = borders.try_emplace(p.body);
+            if (isNew) found->second = borderNeighbours(body(p.body).model);
+            return found->second[static_cast<std::size_t>(p.point)];
+        };
+        const auto turns = [&](PointRef p) {
+            constexpr double most = 0.5;  // the cosine of what a curve may turn by
+            const std::vector<int>& ends = beside(p);
+            if (ends.size() != 2) return true;
+            const dvec3 in = position(p) - position({p.body, ends[0]}), out = position({p.body, ends[1]}) - position(p);
+            return glm::dot(in, out) < most * std::sqrt(glm::dot(in, in) * glm::dot(out, out));
+        };
+        const auto ways = [&](PointRef p) {
+            std::set<int> found;
+            for (const int i : beside(p)) found.insert(one.find(global({p.body, i})));
+            return found;
+        };
+        std::map<int, std::vector<PointRef>> members;
+        for (const auto& pair : sewn_)
+            for (const PointRef& p : pair) {
+                std::vector<PointRef>& own = members[one.find(global(p))];
+                if (std::none_of(own.begin(), own.end(), [&](const PointRef& o) { return global(o) == global(p); }))
+                    own.push_back(p);
+            }
+        for (const auto& [number, own] : members) {
+            const bool isCorner = own.size() > 2 || std::any_of(own.begin(), own.end(), [&](const PointRef& p) {
+                                      return turns(p) || ways(p) != ways(own.front());
+                                  });
+            for (const PointRef& p : own)
+                if (isCorner) body(p.body).seamCorners.push_back(p.point);
+        }
+        for (Body* body : bodies_) std::sort(body->seamCorners.begin(), body->seamCorners.end());
     }
 
     // The bodies that a side names as a whole, if all are rigid; else none.
@@ -546,7 +606,8 @@ class Planner {
     std::vector<int> firstGlobal_;  // (bodies)
     Sets welds_;                    // (points of all bodies)
     std::vector<JointPair> joints_;
-    std::vector<JointReport> reports_;  // (joints of the scene)
+    std::vector<JointReport> reports_;           // (joints of the scene)
+    std::vector<std::array<PointRef, 2>> sewn_;  // pairs of all seams
 };
 
 }  // namespace

@@ -87,9 +87,15 @@ struct JointReport {
         const Body *a, *b;  // bodies of its two sides
         int points;         // number of points of a joined to b
     };
-    std::vector<Pair> pairs;                            // in the order of the bodies
-    double jump = 0;                                    // [m] largest distance of points that were welded
-    std::array<int, 2> sewn{};                          // points of the two edges of a seam
+    std::vector<Pair> pairs;  // in the order of the bodies
+    double jump = 0;          // [m] largest distance of points that were welded
+    struct Sewn {
+        std::array<int, 2> points{};      // of its two edges
+        std::array<double, 2> lengths{};  // [m]
+        double gap = 0;                   // [m] the largest in an edge of several, which no seam closes
+        int heldApart = 0;                // pairs of points that are held, and not in one place
+    };
+    Sewn sewn;                                          // of a seam
     std::vector<std::pair<const Body*, double>> loose;  // bodies that it names but does not join; smallest distance [m]
 };
 

@@ -124,6 +124,15 @@ Line lineOf(const mechanics::Model& model, std::span<const int> points) {
     return !border.points.empty() ? border : lineAlong(threadsOf(model), points);
 }
 
+std::vector<std::vector<int>> borderNeighbours(const mechanics::Model& model) {
+    std::vector<std::vector<int>> neighbours(model.positions.size());
+    for (const auto& [a, b] : bordersOf(model)) {
+        neighbours[static_cast<std::size_t>(a)].push_back(b);
+        neighbours[static_cast<std::size_t>(b)].push_back(a);
+    }
+    return neighbours;
+}
+
 std::vector<std::pair<int, int>> pairedByLength(const SewnEdge& a, const SewnEdge& b) {
     const bool turnsFirst = a.isClosed() && (!b.isClosed() || a.places.size() > b.places.size());
     const SewnEdge &still = turnsFirst ? b : a, &turned = turnsFirst ? a : b;

@@ -2,30 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+
+#include "taut/bodies/private/remains.h"
 
 namespace taut::world {
 namespace {
 
 class Cutter {
   public:
-    explicit Cutter(const Body& body) : model_(body.model), damage_(body.damage), fans_(model_.positions.size()) {
-        for (const mechanics::Spring& s : model_.springs)
-            if (s.kind != mechanics::SpringKind::bend && !damage_.isSevered(s.a, s.b)) held_.insert(edge(s.a, s.b));
-        eachTetrahedron(false, [this](const std::array<int, 4>& corners) { addFan(corners); });
-        if (!model_.cells.empty()) return;
-        for (std::size_t t = 0; t < model_.triangles.size(); ++t)
-            if (!damage_.isTriangleGone(t)) addFan(model_.triangles[t]);
-    }
+    explicit Cutter(const Body& body) : model_(body.model), damage_(body.damage), remains_(body) {}
 
     Skin cut() {
         for (std::size_t t = 0; t < model_.triangles.size(); ++t) addTriangle(static_cast<int>(t));
-        eachTetrahedron(true, [this](const std::array<int, 4>& corners) { addCutFaces(corners); });
-        for (const auto& [ends, number] : known_) {
-            SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
-            if (ends.second >= 0) vertex.terms = termsBeyond(ends.first, vertex.rest - rest(ends.first));
-        }
-        return std::move(skin_);
+        return faces();
+    }
+
+    Skin faces() {
+        remains_.eachTetrahedron(true, [this](const std::array<int, 4>& corners) { addCutFaces(corners); });
+        return carried();
+    }
+
+    // None beside crumbs.
+    Skin carriedFaces() {
+        remains_.eachTetrahedron(true, [this](const std::array<int, 4>& corners) {
+            if (std::all_of(corners.begin(), corners.end(), [this](int i) { return remains_.carrierOf(i) >= 0; }))
+                addCutFaces(corners);
+        });
+        return carried();
     }
 
     Skin blunt(double back) {
@@ -42,19 +45,26 @@ class Cutter {
         for (std::size_t t = 0; t < model_.triangles.size(); ++t)
             if (!damage_.isTriangleGone(t)) add(model_.triangles[t], static_cast<int>(t));
         for (const std::array<int, 3>& face : bareFaces()) add(face, -1);
+        for (int i = 0; i < model_.pointCount(); ++i)
+            if (!remains_.isAnyWholeAt(i)) vertexAt(i);
         for (const auto& [ends, number] : known_) {
             const auto found = cuts.find(ends.first);
-            if (found == cuts.end() || fans_[static_cast<std::size_t>(ends.first)].empty()) continue;
+            if (found == cuts.end() || !remains_.isAnyWholeAt(ends.first)) continue;
             SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
-            const dvec3 way = wayOut(found->second, back);
-            vertex.terms = termsBeyond(ends.first, way);
-            vertex.rest += way;
+            vertex.rest += wayOut(found->second, back);
+            remains_.carry(vertex, ends.first);
         }
         return std::move(skin_);
     }
 
   private:
-    using Corners = std::vector<int>;
+    Skin carried() {
+        for (const auto& [ends, number] : known_) {
+            SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
+            if (ends.second >= 0) remains_.carry(vertex, ends.first);
+        }
+        return std::move(skin_);
+    }
 
     struct CutEdge {
         dvec3 along, cut;  // [m] from a point: to its other end, and to where it is severed
@@ -64,16 +74,14 @@ class Cutter {
     // So where something tore, and cuts lie in no plane, they stay.
     static dvec3 wayOut(std::span<const CutEdge> edges, double back) {
         constexpr double share = 0.95, leastTwist = 1e-3, flatness = 0.1;
-        dvec3 mean(0.0), out(0.0), normal(0.0);
+        dvec3 mean(0.0), out(0.0);
+        std::vector<dvec3> cuts;
         for (const CutEdge& edge : edges) {
+            cuts.push_back(edge.cut);
             mean += edge.cut / static_cast<double>(edges.size());
             out += edge.along;
         }
-        for (std::size_t i = 0; i < edges.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j) {
-                const dvec3 across = glm::cross(edges[i].cut - mean, edges[j].cut - mean);
-                normal += glm::dot(across, out) < 0 ? -across : across;
-            }
+        dvec3 normal = normalThrough(cuts, mean, out);
         const bool areInLine = !(glm::length(normal) > leastTwist * glm::dot(edges[0].along, edges[0].along));
         if (areInLine) normal = out;
         if (!(glm::length(normal) > 0)) return dvec3(0.0);
@@ -97,7 +105,7 @@ class Cutter {
         for (std::size_t t = 0; t < model_.triangles.size(); ++t)
             if (!damage_.isTriangleGone(t)) ++users[key(model_.triangles[t])];
         std::vector<Face> faces;
-        eachTetrahedron(
+        remains_.eachTetrahedron(
             false,
             [&](const std::array<int, 4>& p) {
                 for (const Face& face :
@@ -110,45 +118,7 @@ class Cutter {
         return faces;
     }
 
-    // Visits the corners of the tetrahedra that are gone, or of those that are whole.
-    template <class Visit>
-    void eachTetrahedron(bool isGone, Visit&& visit) const {
-        for (std::size_t c = 0; c < model_.cells.size(); ++c)
-            for (std::size_t n = 0; n < mechanics::cellTetrahedra.size(); ++n)
-                if (damage_.isTetrahedronGone(c, n) == isGone) visit(tetrahedronOf(model_.cells[c], n));
-    }
-
-    static Damage::Edge edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-    const dvec3& rest(int point) const { return model_.positions[static_cast<std::size_t>(point)]; }
-
-    // Whole triangles or tetrahedra at a point, as their other corners. They tell what the surface is like there.
-    template <std::size_t N>
-    void addFan(const std::array<int, N>& corners) {
-        for (int corner : corners) {
-            Corners others;
-            for (int other : corners)
-                if (other != corner) others.push_back(other);
-            fans_[static_cast<std::size_t>(corner)].push_back(others);
-        }
-    }
-
-    // Groups of corners that springs still hold together, in their order.
-    template <std::size_t N>
-    std::vector<Corners> groupsOf(const std::array<int, N>& corners) const {
-        std::vector<Corners> groups;
-        for (int corner : corners) {
-            Corners merged;
-            std::erase_if(groups, [&](const Corners& group) {
-                if (std::none_of(group.begin(), group.end(), [&](int o) { return held_.count(edge(corner, o)) > 0; }))
-                    return false;
-                merged.insert(merged.end(), group.begin(), group.end());
-                return true;
-            });
-            merged.push_back(corner);
-            groups.push_back(merged);
-        }
-        return groups;
-    }
+    const dvec3& rest(int point) const { return remains_.rest(point); }
 
     // The vertex at a point.
     int vertexAt(int point) {
@@ -157,10 +127,10 @@ class Cutter {
         return entry->second;
     }
 
-    // The vertex where the edge from a to b is severed, attached to a. Where nothing whole is left at a, that is a
+    // The vertex where the edge from a to b is severed, attached to a. Where nothing at a can carry it, that is a
     // itself.
     int vertexBeyond(int a, int b) {
-        if (fans_[static_cast<std::size_t>(a)].empty()) return vertexAt(a);
+        if (remains_.carrierOf(a) < 0) return vertexAt(a);
         const auto [entry, isNew] = known_.try_emplace({a, b}, static_cast<int>(skin_.vertices.size()));
         if (!isNew) return entry->second;
         const double share = damage_.share(a, b);
@@ -169,84 +139,25 @@ class Cutter {
         return entry->second;
     }
 
-    // The place at `way` [m] of the model from a, carried along by the whole triangles at a, as a weighted mean with
-    // more weight where they extend less, or by the tetrahedron that extends least. Without any of these, a itself.
-    std::vector<SkinVertex::Term> termsBeyond(int a, const dvec3& way) const {
-        std::map<int, double> weights;
-        double sum = 0, most = 0;
-        for (const Corners& others : fans_[static_cast<std::size_t>(a)]) {
-            std::vector<double> part = inCorners(a, others, way);
-            if (part.empty()) continue;
-            double size = 0;
-            for (double p : part) size += std::abs(p);
-            const double weight = 1 / (1e-3 + size);
-            if (others.size() == 3) {
-                if (weight <= most) continue;
-                most = weight;
-                weights.clear();
-                sum = 0;
-            }
-            sum += weight;
-            for (std::size_t i = 0; i < others.size(); ++i) {
-                weights[others[i]] += weight * part[i];
-                weights[a] -= weight * part[i];
-            }
-        }
-        std::vector<SkinVertex::Term> terms;
-        double ofA = 1;
-        for (const auto& [point, weight] : weights)
-            if (point == a)
-                ofA += weight / sum;
-            else
-                terms.push_back({point, static_cast<float>(weight / sum)});
-        terms.push_back({a, static_cast<float>(ofA)});
-        return terms;
-    }
-
-    // `way` as a combination of the edges from a to the others; least squares if they span only a plane.
-    std::vector<double> inCorners(int a, const Corners& others, const dvec3& way) const {
-        const dvec3 e = rest(others[0]) - rest(a), f = rest(others[1]) - rest(a);
-        if (others.size() == 3) {
-            const glm::dmat3 edges(e, f, rest(others[2]) - rest(a));
-            if (!(std::abs(glm::determinant(edges)) > 0)) return {};
-            const dvec3 parts = glm::inverse(edges) * way;
-            return {parts.x, parts.y, parts.z};
-        }
-        const double ee = glm::dot(e, e), ef = glm::dot(e, f), ff = glm::dot(f, f), det = ee * ff - ef * ef;
-        if (!(det > 0)) return {};
-        const double we = glm::dot(way, e), wf = glm::dot(way, f);
-        return {(ff * we - ef * wf) / det, (ee * wf - ef * we) / det};
-    }
-
     void add(int a, int b, int c, int source) {
         if (a != b && b != c && c != a) skin_.triangles.push_back({{a, b, c}, source});
     }
 
     void addTriangle(int number) {
         const std::array<int, 3>& t = model_.triangles[static_cast<std::size_t>(number)];
-        const std::vector<Corners> groups = damage_.isTriangleGone(static_cast<std::size_t>(number))
-                                                ? groupsOf(t)
-                                                : std::vector<Corners>{{t[0], t[1], t[2]}};
+        if (!damage_.isTriangleGone(static_cast<std::size_t>(number)))
+            return add(vertexAt(t[0]), vertexAt(t[1]), vertexAt(t[2]), number);
+        const std::vector<Corners> groups = remains_.groupsOf(t);
         if (groups.size() == 1) return add(vertexAt(t[0]), vertexAt(t[1]), vertexAt(t[2]), number);
-        for (const Corners& group : groups) {
-            // The corner of the triangle that represents the group: the only one in it, or the only one not in it.
-            std::size_t k = 0;
-            const auto isIn = [&](int corner) { return std::find(group.begin(), group.end(), corner) != group.end(); };
-            while (isIn(t[k]) != (group.size() == 1)) ++k;
-            const int a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
-            if (group.size() == 1) {
-                add(vertexAt(a), vertexBeyond(a, b), vertexBeyond(a, c), number);
-            } else {
-                add(vertexAt(b), vertexAt(c), vertexBeyond(c, a), number);
-                add(vertexAt(b), vertexBeyond(c, a), vertexBeyond(b, a), number);
-            }
-        }
+        splitTriangle(
+            t, groups, [this](int a) { return vertexAt(a); }, [this](int a, int b) { return vertexBeyond(a, b); },
+            [&](int a, int b, int c) { add(a, b, c, number); });
     }
 
     // Adds the faces that a cut through a tetrahedron bares on each part: a triangle, or a quadrangle between two
     // pairs.
     void addCutFaces(const std::array<int, 4>& corners) {
-        for (const Corners& group : groupsOf(corners)) {
+        for (const Corners& group : remains_.groupsOf(corners)) {
             Corners others;
             for (int corner : corners)
                 if (std::find(group.begin(), group.end(), corner) == group.end()) others.push_back(corner);
@@ -274,8 +185,7 @@ class Cutter {
 
     const mechanics::Model& model_;
     const Damage& damage_;
-    std::vector<std::vector<Corners>> fans_;  // (points)
-    std::set<Damage::Edge> held_;             // edges with springs that are whole
+    const Remains remains_;
     std::map<std::pair<int, int>, int> known_;
     Skin skin_;
 };
@@ -284,8 +194,12 @@ class Cutter {
 
 glm::vec3 SkinVertex::at(std::span<const glm::vec3> positions) const {
     glm::vec3 x(0.0F);
-    for (const Term& term : terms) x += term.weight * positions[static_cast<std::size_t>(term.point)];
-    return x;
+    const auto place = [&](int point) { return positions[static_cast<std::size_t>(point)]; };
+    for (const Term& term : terms) x += term.weight * place(term.point);
+    if (above == 0.0F) return x;
+    const glm::vec3 normal = glm::cross(place(base[1]) - place(base[0]), place(base[2]) - place(base[0]));
+    const float length = glm::length(normal);
+    return length > 0.0F ? x + above / length * normal : x;
 }
 
 Skin bluntSkinOf(const Body& body, double back) {
@@ -294,6 +208,10 @@ Skin bluntSkinOf(const Body& body, double back) {
 
 Skin skinOf(const Body& body) {
     return Cutter(body).cut();
+}
+
+Skin cutFacesOf(const Body& body) {
+    return Cutter(body).carriedFaces();
 }
 
 }  // namespace taut::world

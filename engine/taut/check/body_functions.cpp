@@ -1,10 +1,15 @@
 // What is measured of whole bodies.
+#include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
+#include <vector>
 
 #include "taut/check/private/function_table.h"
 #include "taut/check/private/places.h"
 #include "taut/check/private/shadow.h"
 #include "taut/island/metric_table.h"
+#include "taut/mechanics/private/filling.h"
 
 namespace taut::check {
 
@@ -25,15 +30,33 @@ Quantity shadow(const Now& now, std::span<const Expression> arguments) {
     return {glm::dvec3(coveredArea(std::move(flat)), 0, 0)};
 }
 
-// Seen from a corner of its own.
+// Closed parts count whichever way they are turned, but for a hollow that looks inwards in others that look outwards.
+// What is left is seen from its middle, as if closed by a cone.
 Quantity enclosed(const Now& now, std::span<const Expression> arguments) {
-    const auto triangles = now.triangles(arguments[0].target);
-    double sixfold = 0.0;
-    for (const auto& t : triangles) {
-        const glm::dvec3& origin = triangles.front()[0];
-        sixfold += glm::dot(t[0] - origin, glm::cross(t[1] - origin, t[2] - origin));
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<glm::dvec3> places;
+    std::map<std::array<double, 3>, int> numbers;
+    for (const auto& t : now.triangles(arguments[0].target)) {
+        triangles.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [number, isNew] = numbers.try_emplace({t[k].x, t[k].y, t[k].z}, static_cast<int>(places.size()));
+            if (isNew) places.push_back(t[k]);
+            triangles.back()[k] = number->second;
+        }
     }
-    return {glm::dvec3(sixfold / 6.0, 0, 0)};
+    double volume = 0.0, turnedAlike = 0.0;  // [m³]
+    std::vector<std::array<int, 3>> open;
+    for (const mechanics::Chamber& chamber : mechanics::chambersOf(triangles, places))
+        if (chamber.isClosed())
+            (chamber.side == 0 ? volume : turnedAlike) += (chamber.side < 0 ? -1 : 1) * chamber.firstVolume;
+        else
+            open.insert(open.end(), chamber.triangles.begin(), chamber.triangles.end());
+    const auto at = [&](int i) { return places[static_cast<std::size_t>(i)]; };
+    glm::dvec3 middle(0.0);
+    for (const auto& t : open) middle += (at(t[0]) + at(t[1]) + at(t[2])) / (3.0 * static_cast<double>(open.size()));
+    double sixfold = 0.0;
+    for (const auto& t : open) sixfold += glm::dot(at(t[0]) - middle, glm::cross(at(t[1]) - middle, at(t[2]) - middle));
+    return {glm::dvec3(volume + std::abs(turnedAlike) + sixfold / 6.0, 0, 0)};
 }
 
 std::string bodiesOf(std::span<const Expression> arguments) {
@@ -79,8 +102,8 @@ std::vector<Function> bodyFunctions() {
          false,
          false,
          "m³",
-         "Volume that the bodies' surfaces enclose, their fronts outside; a surface that is open has none "
-         "of its own.",
+         "Volume that the bodies' surfaces enclose, also several that are sewn together; one that is open is closed by "
+         "a cone to its middle.",
          enclosed,
          {}});
     return functions;

@@ -55,10 +55,10 @@ bool isDamaged(const IslandPlan& plan) {
 
 class FillingForce final : public ForceOf<FillingForce> {
   public:
-    FillingForce(const FillingSpec& filling, double outside)
+    FillingForce(const FillingSpec& filling, const WorldSpec& world)
         : ForceOf(filling.fullName()),
           spec_(filling),
-          law_{filling.keeps, outside, filling.bulkModulus},
+          law_{filling.keeps, world.airPressure, world.sealedPressure, filling.bulkModulus},
           pressure_{filling.pressure, filling.pressure} {}
 
     // What is cut or torn open holds nothing any more.
@@ -116,11 +116,11 @@ class FillingForce final : public ForceOf<FillingForce> {
                 "its parts",
                 chamber.openEdges));
         if (chamber.isTwisted) fail("has one side only, as a Möbius strip has, and encloses nothing");
-        if (law_.keeps == FillingKeeps::amount && law_.outside + pressure_.to < 0)
+        if (law_.keeps == FillingKeeps::amount && law_.sealedIn + pressure_.to < 0)
             fail(fmt::format(
                 "would hold less than nothing: {:.6g} Pa are less than the air has, world.air_pressure_Pa = "
                 "{:.6g}",
-                pressure_.to, law_.outside));
+                pressure_.to, law_.sealedIn));
         if (law_.keeps != FillingKeeps::pressure && !(chamber.firstVolume > 0))
             fail("is flat when the scene starts, and has no volume to keep; keeps = \"pressure\" blows it up");
     }
@@ -159,10 +159,13 @@ Section FillingSpec::section() {
 }
 
 std::shared_ptr<const Force> FillingSpec::make(const SceneSpec& scene) const {
-    return std::make_shared<FillingForce>(*this, scene.world.airPressure);
+    return std::make_shared<FillingForce>(*this, scene.world);
 }
 
 void FillingSpec::checkBodies(std::span<Body* const> bodies) const {
+    if (in.empty())
+        throw core::Error(core::ErrorKind::badContent,
+                          world::at(source) + "in is empty; name the bodies that hold it, e.g. in = [\"cloth.ball\"]");
     for (const std::string& target : in)
         if (std::none_of(bodies.begin(), bodies.end(),
                          [&](const Body* body) { return names(target, *body) && !body->model.triangles.empty(); }))

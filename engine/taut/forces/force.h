@@ -62,7 +62,6 @@ bool hasSameBytes(const Force& a, const Force& b);
 //   template <class Real> std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan&) const;
 // Forces that change while they act override the rest: visit() for all that a ramp or the force itself changes, the
 // others for changes after which no method has to start again.
-// changes, the rest for changes that no method has to start again for.
 template <class Own>
 class ForceOf : public Force {
   public:

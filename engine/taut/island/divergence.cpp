@@ -45,7 +45,7 @@ std::string explainDivergence(const Divergence& d, const Fault& fault, const Ste
     else if (d.limit > 0)
         text +=
             "  the step is within the limit, so something else feeds energy in: look at colliders that move fast, "
-            "winds, anchors, and working_stretch of blocks\n";
+            "winds, anchors, fillings, seams that close, and working_stretch of blocks\n";
     for (const ode::MethodInfo& other : methodsOf(plan.solver).all()) {
         const double limit = other.automaticStep(choice.mode);
         if (other.name == plan.solver.integrator || !(limit > 0)) continue;

@@ -14,7 +14,7 @@ namespace {
 using glm::dvec3;
 using Triangle = std::array<int, 3>;
 
-constexpr double leastShare = 1e-3;                               // of V₀
+constexpr double leastShare = 1e-3, softShare = 0.1;              // of V₀
 constexpr double workingStretch = 1.2, workingShare = 2.0 / 3.0;  // of edges, of V₀
 
 template <class Real>
@@ -83,6 +83,39 @@ bool isShared(const std::vector<EdgeSide>& sides) {
     return sides.size() > 2 && 2 * static_cast<std::size_t>(forward) == sides.size();
 }
 
+// What closes the gaps between edges that are sewn and not yet together: of points that are `one`, as triangles that
+// are turned as those of the surface are. An edge has a strip; where strips meet, a fan from the first of their points.
+std::vector<Triangle> gapsIn(std::span<const Triangle> triangles, std::span<const int> one) {
+    using Ends = std::array<int, 2>;
+    std::map<std::pair<int, int>, std::array<std::vector<Ends>, 2>>
+        edges;  // by what they are, the one way and the other
+    for (const Triangle& t : triangles) {
+        const Triangle corners = known(t, one);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int a = corners[k], b = corners[(k + 1) % 3];
+            edges[std::minmax(a, b)][a < b ? 0 : 1].push_back({t[k], t[(k + 1) % 3]});
+        }
+    }
+    std::vector<Triangle> gaps;
+    std::map<int, int> first;
+    const auto add = [&](int a, int b, int c) {
+        if (a != b && b != c && c != a) gaps.push_back({a, b, c});
+    };
+    const auto addStripEnd = [&](int from, int to) {
+        add(first.try_emplace(one[static_cast<std::size_t>(from)], from).first->second, to, from);
+    };
+    for (const auto& [key, sides] : edges)
+        for (std::size_t i = 0; i < std::min(sides[0].size(), sides[1].size()); ++i) {
+            const auto& [u, v] = sides[0][i];
+            const auto& [w, o] = sides[1][i];  // beside v and u
+            add(v, u, o);
+            add(v, o, w);
+            addStripEnd(u, o);
+            addStripEnd(w, v);
+        }
+    return gaps;
+}
+
 // ½ (b - a) × (c - a): of a triangle its area, along its normal.
 inline dvec3 areaOf(const dvec3& a, const dvec3& b, const dvec3& c) {
     return 0.5 * glm::cross(b - a, c - a);
@@ -128,6 +161,10 @@ std::vector<Chamber> chambersOf(std::span<const Triangle> all, std::span<const d
                 found.push_back(other);
             }
         }
+        if (!one.empty()) {
+            const std::vector<Triangle> gaps = gapsIn(chamber.triangles, one);
+            chamber.triangles.insert(chamber.triangles.end(), gaps.begin(), gaps.end());
+        }
         const double volume = enclosed(chamber.triangles, [&](int i) { return places[static_cast<std::size_t>(i)]; });
         double size = 0.0;  // of a cube with as much surface
         for (const Triangle& t : chamber.triangles)
@@ -135,8 +172,10 @@ std::vector<Chamber> chambersOf(std::span<const Triangle> all, std::span<const d
                                        places[static_cast<std::size_t>(t[2])]));
         size = std::sqrt(size / 6.0) * size / 6.0;
         const bool isFlat = !(std::abs(volume) > 1e-9 * size);
-        if (isFlat ? 2 * turned > found.size() : volume < 0)
+        const bool isInward = isFlat ? 2 * turned > found.size() : volume < 0;
+        if (isInward)
             for (Triangle& t : chamber.triangles) std::swap(t[1], t[2]);
+        chamber.side = turned > 0 && turned < found.size() ? 0 : isInward == (turned > 0) ? 1 : -1;
         chamber.firstVolume = isFlat ? 0.0 : std::abs(volume);
     }
     for (const auto& [edge, sides] : edges)
@@ -156,10 +195,14 @@ template <class Real>
 typename Filling<Real>::State Filling<Real>::stateOf(const Chamber& chamber, double volume, double t) const {
     const double pressure = pressure_.at(t), first = chamber.firstVolume;
     switch (law_.keeps) {
-        case FillingKeeps::pressure: break;
+        case FillingKeeps::pressure: {
+            if (pressure >= 0 || volume >= softShare * first) break;
+            if (!(volume > 0)) return {};
+            return {pressure * volume / (softShare * first), -pressure / (softShare * first)};
+        }
         case FillingKeeps::amount: {
             const double bounded = std::max(volume, leastShare * first);
-            const double inside = (law_.outside + pressure) * first / bounded;
+            const double inside = (law_.sealedIn + pressure) * first / bounded;
             return {inside - law_.outside, volume < bounded ? 0.0 : inside / bounded};
         }
         case FillingKeeps::volume:
@@ -212,9 +255,13 @@ double Filling<Real>::potentialEnergy(const Motion<Real>& motion, const std::vec
         if (!only.empty() && std::any_of(chamber.triangles.begin(), chamber.triangles.end(), isLeftOut)) continue;
         const double v = volumeOf(chamber, motion), v0 = chamber.firstVolume;
         switch (law_.keeps) {
-            case FillingKeeps::pressure: energy -= pressure * v; break;
+            case FillingKeeps::pressure: {
+                const double soft = pressure < 0 ? softShare * v0 : 0.0;
+                energy -= pressure * (v >= soft ? v - 0.5 * soft : v > 0 ? 0.5 * v * v / soft : 0.0);
+                break;
+            }
             case FillingKeeps::amount: {
-                const double inside = (law_.outside + pressure) * v0, least = leastShare * v0;
+                const double inside = (law_.sealedIn + pressure) * v0, least = leastShare * v0;
                 energy += law_.outside * (v - v0) - inside * std::log(std::max(v, least) / v0);
                 if (v < least) energy += inside / least * (least - v);
                 break;
@@ -297,7 +344,9 @@ void Filling<Real>::addStability(const Motion<Real>& motion, StabilityShare& sha
         const double smallest = isGas ? workingShare * chamber.firstVolume : chamber.firstVolume;
         const double pressure = std::max(std::abs(pressure_.from), std::abs(pressure_.to));
         State most = stateOf(chamber, smallest, motion.t);
-        if (isGas) most.slope *= (law_.outside + pressure) / (law_.outside + pressure_.at(motion.t));
+        if (isGas) most.slope *= (law_.sealedIn + pressure) / (law_.sealedIn + pressure_.at(motion.t));
+        if (law_.keeps == FillingKeeps::pressure && std::min(pressure_.from, pressure_.to) < 0 && smallest > 0)
+            most.slope = pressure / (softShare * chamber.firstVolume);
         most.excess = std::max(std::abs(most.excess), pressure);
         std::map<int, double> areas;
         for (const auto& t : chamber.triangles) {

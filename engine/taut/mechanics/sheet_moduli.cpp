@@ -4,6 +4,11 @@
 #include <glm/glm.hpp>
 
 namespace taut::mechanics {
+namespace {
+
+constexpr double mostDistorted = 0.02;  // of the area, by a map that directions are taken from
+
+}  // namespace
 
 using glm::dvec2;
 
@@ -25,20 +30,29 @@ SheetStiffness sheetStiffness(const Model& model) {
         const dvec2 uv = model.uv[static_cast<std::size_t>(point)];
         return dvec2(glm::dot(uv, warp), glm::dot(uv, weft));
     };
-    double area = 0.0;
+    const auto place = [&](int point) { return model.positions[static_cast<std::size_t>(point)]; };
+    double area = 0.0, flatArea = 0.0;
     for (const auto& [a, b, c] : model.triangles) {
         const dvec2 e = at(b) - at(a), f = at(c) - at(a);
-        area += 0.5 * std::abs(e.x * f.y - e.y * f.x);
+        flatArea += 0.5 * std::abs(e.x * f.y - e.y * f.x);
+        area += 0.5 * glm::length(glm::cross(place(b) - place(a), place(c) - place(a)));
     }
     SheetStiffness sum;
     if (!(area > 0.0)) return sum;
+    const bool isDeveloped = std::abs(flatArea - area) < mostDistorted * area;
     for (const Spring& spring : model.springs) {
         if (spring.kind != SpringKind::structural && spring.kind != SpringKind::shear) continue;
+        const double share = spring.stiffness * spring.restLength * spring.restLength / area;
+        if (!isDeveloped) {  // the mean of n⊗n⊗n⊗n over all directions
+            sum.c11 += 0.375 * share;
+            sum.c22 += 0.375 * share;
+            sum.c12 += 0.125 * share;
+            continue;
+        }
         const dvec2 e = at(spring.b) - at(spring.a);
         const double length2 = glm::dot(e, e);
         if (!(length2 > 0.0)) continue;
         const double cc = e.x * e.x / length2, ss = e.y * e.y / length2;
-        const double share = spring.stiffness * spring.restLength * spring.restLength / area;
         sum.c11 += share * cc * cc;
         sum.c22 += share * ss * ss;
         sum.c12 += share * cc * ss;

@@ -21,7 +21,8 @@ struct SheetStiffness {
 
 // The mean over a body, of its springs but those of bending, strained alike everywhere: Σ k L² n⊗n⊗n⊗n / area, where n
 // is a spring's direction in the material, from Model::grain on. Exact for grids, but for what one with a grain between
-// multiples of 45° couples besides; an upper bound for a mesh, whose points give way. All 0 for a body without an area.
+// multiples of 45° couples besides; an upper bound for a mesh, whose points give way. A mesh that is not laid flat by
+// its texture coordinates has springs in all directions alike. All 0 for a body without an area.
 SheetStiffness sheetStiffness(const Model& model);
 
 }  // namespace taut::mechanics

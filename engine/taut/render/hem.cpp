@@ -176,39 +176,53 @@ std::shared_ptr<const view::Geometry> Hems::shapeOf(const view::Geometry& plain,
 }
 
 std::vector<view::Surface> Hems::addTo(std::vector<DrawItem>& items, const PixelScale& scale, MeshCache& meshes) {
+    std::vector<Rim> rims;
+    for (DrawItem& item : items)
+        if (std::optional<Rim> rim = rimOf(item, scale)) rims.push_back(std::move(*rim));
+    leaveOutSeams(rims);
     std::vector<view::Surface> surfaces;
-    std::vector<std::size_t> which;
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        std::optional<view::Surface> surface = hemmed(*items[i].surface, items[i].bounds, scale);
-        if (!surface) continue;
-        surfaces.push_back(std::move(*surface));
-        which.push_back(i);
+    for (const Rim& rim : rims) {
+        view::Surface& surface = surfaces.emplace_back(*rim.item->surface);
+        surface.topology = rim.plan->topology;
+        surface.geometry = shapeOf(*rim.item->surface->geometry, *rim.plan, rim.radius);
     }
     const std::vector<DrawItem> hems = meshes.items(surfaces);
-    for (std::size_t k = 0; k < which.size(); ++k) items[which[k]] = hems[k];
+    for (std::size_t k = 0; k < rims.size(); ++k) *rims[k].item = hems[k];
     return surfaces;
 }
 
-std::optional<view::Surface> Hems::hemmed(const view::Surface& surface, const Bounds& bounds, const PixelScale& scale) {
+std::optional<Hems::Rim> Hems::rimOf(DrawItem& item, const PixelScale& scale) {
+    const view::Surface& surface = *item.surface;
     if (!(surface.hem > 0.0F) || !surface.twoSided) return std::nullopt;
     const auto shownAhead = [&](float ahead) { return ahead > 0.0F ? shown(scale.pixels(surface.hem, ahead)) : 1.0F; };
     float nearest = INFINITY;
-    for (const glm::vec3& corner : bounds.corners()) nearest = std::min(nearest, scale.ahead(corner));
+    for (const glm::vec3& corner : item.bounds.corners()) nearest = std::min(nearest, scale.ahead(corner));
     if (shownAhead(nearest) == 0.0F) return std::nullopt;
-    const Plan& own = plan(surface);
-    std::vector<float> radius;  // (border) [m]
-    bool isShown = false;
-    for (const std::uint32_t vertex : own.border) {
-        const glm::vec4 place = surface.transform * glm::vec4(surface.geometry->positions[vertex], 1.0F);
-        radius.push_back(0.5F * surface.hem * shownAhead(scale.ahead(glm::vec3(place))));
-        isShown = isShown || radius.back() > 0.0F;
+    Rim rim{&item, &plan(surface), {}, {}};
+    for (const std::uint32_t vertex : rim.plan->border) {
+        rim.places.emplace_back(surface.transform * glm::vec4(surface.geometry->positions[vertex], 1.0F));
+        rim.radius.push_back(0.5F * surface.hem * shownAhead(scale.ahead(rim.places.back())));
     }
-    if (!isShown) return std::nullopt;
+    const bool isShown = std::any_of(rim.radius.begin(), rim.radius.end(), [](float radius) { return radius > 0.0F; });
+    return isShown ? std::optional(std::move(rim)) : std::nullopt;
+}
 
-    view::Surface result = surface;
-    result.topology = own.topology;
-    result.geometry = shapeOf(*surface.geometry, own, radius);
-    return result;
+// Where two borders are in one place they are sewn, and no free edges.
+void Hems::leaveOutSeams(std::vector<Rim>& rims) {
+    constexpr float samePlace = 2e-5F;  // [m]
+    struct Vertex {
+        glm::vec3 place;
+        float* radius;
+    };
+    std::vector<Vertex> vertices;
+    for (Rim& rim : rims)
+        for (std::size_t i = 0; i < rim.places.size(); ++i) vertices.push_back({rim.places[i], &rim.radius[i]});
+    std::stable_sort(vertices.begin(), vertices.end(),
+                     [](const Vertex& a, const Vertex& b) { return a.place.x < b.place.x; });
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (std::size_t j = i + 1; j < vertices.size() && vertices[j].place.x - vertices[i].place.x < samePlace; ++j)
+            if (glm::distance(vertices[i].place, vertices[j].place) < samePlace)
+                *vertices[i].radius = *vertices[j].radius = 0.0F;
 }
 
 }  // namespace taut::render

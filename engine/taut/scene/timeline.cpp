@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <utility>
 
+#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/private/ties.h"
 #include "taut/fields/private/value_reader.h"
 #include "taut/scene/private/body_index.h"
@@ -52,6 +55,7 @@ class Timeline {
         for (const Event& event : events_)
             if (const auto* spawn = event.as<SpawnAction>()) enterSpawn(event, spawn->target);
         for (const Event& event : events_) checkEvent(event);
+        checkSeams();
     }
 
   private:
@@ -222,6 +226,33 @@ class Timeline {
         if (const double* number = std::get_if<double>(&*value)) ramp.value = {*number};
         if (const auto* numbers = std::get_if<std::vector<double>>(&*value)) ramp.value = *numbers;
         checkSpan(event, ramp.over, "ramp " + ramp.key, ramp.key, "changed");
+    }
+
+    void checkSeams() {
+        const Node* list = root_.at("seam");
+        std::map<std::array<std::string, 2>, std::string> known;  // where each is
+        std::size_t number = 0;
+        for (const JointSpec& joint : scene_.spec.joints) {
+            const auto* seam = dynamic_cast<const world::SeamJoint*>(&joint);
+            if (seam == nullptr) continue;
+            const Node& item = list->items[number++];
+            const std::array sides{std::min(seam->a.text(), seam->b.text()), std::max(seam->a.text(), seam->b.text())};
+            const auto [before, isNew] = known.emplace(sides, fmt::format("line {}", item.place.line));
+            if (!isNew)
+                problems_.addError(item.place, fmt::format("this seam is there already, in {}", before->second));
+            const double end = ticks_.secondsOf(ticks_.last());
+            if (seam->start + seam->over <= scene_.spec.run.seconds || isLengthOverridden(root_)) continue;
+            const Node* start = item.at("start_s");
+            if (start != nullptr && seam->start >= end)
+                problems_.addError(
+                    start->place,
+                    fmt::format("{:g} s is past the end: the last frame shows {:.6g} s", seam->start, end),
+                    "set seconds in [run]");
+            else
+                problems_.addWarning(item.at("over_s") != nullptr ? item.at("over_s")->place : item.place,
+                                     fmt::format("the seam is closed after {:g} s, and the last frame shows {:.6g} s",
+                                                 seam->start + seam->over, end));
+        }
     }
 
     // Two ways at once contradict each other, but one may begin where the other ends.

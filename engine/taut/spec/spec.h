@@ -32,9 +32,10 @@ template <class Base>
 class KindTable;
 
 struct WorldSpec {
-    dvec3 gravity{0.0, -9.81, 0.0};  // [m/s²]
-    double airDensity = 1.2;         // [kg/m³]
-    double airPressure = 101325.0;   // [Pa]
+    dvec3 gravity{0.0, -9.81, 0.0};    // [m/s²]
+    double airDensity = 1.2;           // [kg/m³]
+    double airPressure = 101325.0;     // [Pa]
+    double sealedPressure = 101325.0;  // [Pa] of the air at the start; set by World
 };
 
 // For bodies that touch each other or themselves.

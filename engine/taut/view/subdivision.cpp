@@ -280,10 +280,12 @@ bool isCorner(std::uint32_t v, const Fan& fan, std::span<const dvec3> rest) {
 
 }  // namespace
 
-FineMesh subdivided(std::vector<Face> faces, std::span<const dvec3> rest, bool keepsCorners, int levels) {
+FineMesh subdivided(std::vector<Face> faces, std::span<const dvec3> rest, bool keepsCorners, int levels,
+                    std::span<const std::uint32_t> kept) {
     const std::size_t count = rest.size();
     std::vector<Fan> fans = fansOf(faces, count);
     std::vector<bool> isFixed(count, false);
+    for (const std::uint32_t v : kept) isFixed[v] = fans[v].isFixed = true;
     RowSum sum(count);
     const auto unit = [](std::uint32_t v) { return Row{{v, dvec3(1.0, 0.0, 0.0)}}; };
     Facets mesh{std::move(faces), {}, {}};

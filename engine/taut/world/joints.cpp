@@ -64,15 +64,31 @@ std::string jumpWarning(const JointReport& report) {
            "): move the bodies together, lower reach_m, or use kind = \"spring\"";
 }
 
-// Warns of a seam on which several points of an edge go with one of the other; else empty.
-std::string unevenWarning(const JointReport& report) {
-    const auto [a, b] = report.sewn;
-    if (a == b) return "";
+// What a seam cannot do, or only by force.
+std::vector<std::string> seamWarnings(const JointReport& report) {
+    constexpr double mostGathered = 2.5;  // times as long: ruffles are twice
+    std::vector<std::string> warnings;
     const JointSpec& seam = *report.spec;
-    return asWarning(at(seam.source)) + "the seam \"" + seam.a.text() + "\" – \"" + seam.b.text() + "\" sews " +
-           std::to_string(a) + " points to " + std::to_string(b) +
-           ": cells between points that go with the same one are crushed to nothing, which a stiff edge does not bear; "
-           "give both edges as many cells";
+    const auto warn = [&](const std::string& what) {
+        warnings.push_back(asWarning(at(seam.source)) + "the seam \"" + seam.a.text() + "\" – \"" + seam.b.text() +
+                           "\" " + what);
+    };
+    if (const auto [a, b] = report.sewn.points; a != b)
+        warn("sews " + std::to_string(a) + " points to " + std::to_string(b) +
+             ": cells between points that go with the same one are crushed to nothing, which a stiff edge does not "
+             "bear; give both edges as many cells");
+    if (const auto [a, b] = report.sewn.lengths; std::max(a, b) > mostGathered * std::min(a, b))
+        warn("sews " + metres(a) + " to " + metres(b) +
+             ": the longer edge is crushed to the length of the shorter one, or stretches it; cut them alike, or name "
+             "other edges");
+    if (const double gap = report.sewn.gap; gap > 0)
+        warn("leaves a gap of " + metres(gap) +
+             " between edges of its list: they do not follow each other, and no seam brings their ends together; name "
+             "them as they do, or sew what is between them");
+    if (const int held = report.sewn.heldApart; held > 0)
+        warn("does not close: " + std::to_string(held) +
+             " of its points are held on both edges; hold one of them, or none");
+    return warnings;
 }
 
 }  // namespace
@@ -86,8 +102,10 @@ void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
             const JointReport& report = reports[next++];
             w.joints.push_back(infoOf(report, number));
             if (!report.loose.empty()) w.jointWarnings.push_back(warningOf(report));
-            for (std::string& warning : std::array{jumpWarning(report), unevenWarning(report)})
-                if (!warning.empty()) w.jointWarnings.push_back(std::move(warning));
+            if (std::string warning = jumpWarning(report); !warning.empty())
+                w.jointWarnings.push_back(std::move(warning));
+            if (report.spec->isSeam())
+                for (std::string& warning : seamWarnings(report)) w.jointWarnings.push_back(std::move(warning));
         } else {
             JointInfo& info = tied.emplace_back(infoOf(joint, number));
             for (const Body* body : bodiesOf(w))

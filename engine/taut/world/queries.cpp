@@ -19,12 +19,19 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-// A rigid body is what is drawn of it, for what touches may be points; so is a block that is cut.
-void addDrawn(const Body& body, const Island& island, std::vector<Corners>& triangles) {
+// Of a rigid body what touches may be points, of a block what carries the surface.
+bool isWhatIsDrawn(const Body& body) {
+    return body.spec->isRigid() || body.spec->hasCarriedSurface() || body.damage.goneTetrahedra() > 0;
+}
+
+void addDrawn(const WorldImpl& w, const Body& body, std::vector<Corners>& triangles) {
+    const auto member =
+        std::find_if(w.bodies.begin(), w.bodies.end(), [&](const auto& own) { return own.body == &body; });
+    const Island& island = islandOf(body);
     std::vector<glm::vec3> positions;
     for (int i : body.pointOf) positions.emplace_back(island.position(i));
     std::vector<view::Surface> surfaces;
-    body.spec->drawing(body)->addSurfaces(positions, surfaces);
+    w.registry.find<BodyPart>(member->entity)->drawing->addSurfaces(positions, surfaces);
     for (const view::Surface& surface : surfaces) {
         const std::vector<std::uint32_t>& corners = surface.topology->triangles;
         for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -126,11 +133,11 @@ std::vector<std::array<glm::dvec3, 3>> World::triangles(const Selection& bodies)
     std::vector<Corners> triangles;
     for (const Selection::Part& part : bodies.parts) {
         const Body& body = *part.body;
-        const Island& island = islandOf(body);
-        if (body.spec->isRigid() || body.damage.goneTetrahedra() > 0) {
-            addDrawn(body, island, triangles);
+        if (isWhatIsDrawn(body)) {
+            addDrawn(*impl_, body, triangles);
             continue;
         }
+        const Island& island = islandOf(body);
         const auto add = [&](const std::array<int, 3>& corners) {
             auto& triangle = triangles.emplace_back();
             for (std::size_t i = 0; i < 3; ++i)

@@ -19,6 +19,7 @@ namespace {
 SceneSpec completed(SceneSpec scene) {
     meetFigures(scene);
     evenSeams(scene);
+    scene.world.sealedPressure = scene.world.airPressure;
     return scene;
 }
 

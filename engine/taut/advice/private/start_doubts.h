@@ -8,7 +8,8 @@ namespace taut::world {
 
 class World;
 
-// Winds above any storm, cameras inside colliders, bodies that start overstretched, too many steps, and all of
+// Winds above any storm, cameras inside colliders, fillings in open seams, bodies that start overstretched, too many
+// steps, cuts of what does not touch itself, and all of
 // touchDoubts(), each with a remedy. Expects a world that has not ticked.
 std::vector<std::string> startDoubts(World& world);
 

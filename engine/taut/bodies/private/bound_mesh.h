@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "taut/bodies/body.h"
+#include "taut/bodies/private/cut_mesh.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::world {
@@ -41,6 +42,9 @@ class BoundMesh {
     std::vector<Vertex> vertices_;
     std::shared_ptr<const view::Topology> topology_;
 };
+
+// The mesh from which a block is made, before anything moves.
+PlacedMesh placedMesh(const Body& body);
 
 // (points) [m] Where a body is before anything moves, without jitter.
 std::vector<glm::vec3> startOf(const Body& body);

@@ -22,8 +22,11 @@ class BlockFrame {
     const mechanics::Lattice& lattice() const { return *lattice_; }
     // [m] How far a place of the block's mesh in metres and turned has been moved with the body, as a copy of an array.
     dvec3 shift() const;
+    // [m] Where a place of the block's mesh file is.
+    dvec3 placeOf(const dvec3& x) const;
     // A place [m] along the axes of the block, from the low corner of the box around its cells [m].
     dvec3 inside(const dvec3& place) const;
+    dvec3 place(const dvec3& inside) const;  // the reverse
 
   private:
     const BlockSpec* block_;
@@ -39,8 +42,8 @@ struct CarriedSurface {
     std::vector<std::array<int, 3>> triangles;    // of these, counter-clockwise seen from outside
 };
 
-// The mesh from which a block is made, with vertices a third of a cell apart where it is finer; of a block that is cut its
-// cells up to the cut. Empty for other bodies.
+// The mesh from which a block is made, with vertices a third of a cell apart where it is finer; of a block that is
+// cut what is left of it, up to the cut. Empty for other bodies.
 CarriedSurface carriedSurface(const Body& body);
 
 }  // namespace taut::world

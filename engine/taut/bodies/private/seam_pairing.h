@@ -22,6 +22,9 @@ struct Line {
 // with the lower number, or, closed, at the lowest. Empty if they are no such line of two points or more.
 Line lineOf(const mechanics::Model& model, std::span<const int> points);
 
+// (points) Those before and after each on the border of the surface; none inside.
+std::vector<std::vector<int>> borderNeighbours(const mechanics::Model& model);
+
 // What a seam sews: places, and how long the edge is between them. It is closed if its ends are one place.
 struct SewnEdge {
     std::vector<dvec3> places;  // [m]

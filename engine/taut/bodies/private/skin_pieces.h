@@ -21,7 +21,8 @@
 
 namespace taut::world {
 
-// Where a vertex is: a sum of points of the model with weights that add up to 1.
+// Where a vertex is: a sum of points of the model with weights that add up to 1, and `above` the triangle of three of
+// them.
 struct SkinVertex {
     struct Term {
         int point;
@@ -30,6 +31,8 @@ struct SkinVertex {
     std::vector<Term> terms;
     dvec3 rest{0.0};  // [m] where it is in the model
     dvec2 uv{0.0};    // [m] along the material; unused for blocks
+    std::array<int, 3> base{};
+    float above = 0.0F;  // [m]
     glm::vec3 at(std::span<const glm::vec3> positions) const;
 };
 
@@ -45,9 +48,11 @@ struct Skin {
 
 // Expects damage that has been assessed.
 Skin skinOf(const Body& body);
+Skin cutFacesOf(const Body& body);  // what of it cuts through a block have bared
 
 // What of a block meets others where it is cut: the outside of its whole tetrahedra, a closed surface, whose corners at
-// the cut stand out until `back` [m] behind where their edges are severed, nearly.
+// the cut stand out until `back` [m] behind where their edges are severed, nearly. Points at which no tetrahedron is
+// whole are vertices, also where no triangle has them.
 Skin bluntSkinOf(const Body& body, double back);
 
 }  // namespace taut::world

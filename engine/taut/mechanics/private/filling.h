@@ -6,11 +6,12 @@
 //
 //   keeps      Δp                           potential energy
 //   pressure   P                            -P V                                  a pump
-//   amount     (p₀ + P) V₀/V - p₀           p₀ (V - V₀) - (p₀ + P) V₀ ln(V/V₀)    a sealed gas, as warm as the air
+//   amount     (p₁ + P) V₀/V - p₀           p₀ (V - V₀) - (p₁ + P) V₀ ln(V/V₀)    a sealed gas, as warm as the air
 //   volume     P + K (1 - V/V₀)             ½ K (V - V₀)²/V₀ - P V                a liquid
 //
-// P is the pressure at the first volume V₀, p₀ that of the air outside, K a bulk modulus. Below V₀/1000 a gas presses
-// as it does there.
+// P is the pressure at the first volume V₀, p₀ that of the air outside, p₁ what that was when the gas was sealed in, K
+// a bulk modulus. Below V₀/1000 a gas presses as it does there. A pump that sucks, P < 0, does so less below V₀/10, in
+// proportion, and not where V <= 0: it turns nothing inside out.
 #pragma once
 
 #include <array>
@@ -27,8 +28,9 @@ enum class FillingKeeps { pressure, amount, volume };
 
 struct FillingLaw {
     FillingKeeps keeps = FillingKeeps::pressure;
-    double outside = 101325.0;  // p₀ [Pa]
-    double bulkModulus = 1e6;   // K [Pa]
+    double outside = 101325.0;   // p₀ [Pa]
+    double sealedIn = 101325.0;  // p₁ [Pa]
+    double bulkModulus = 1e6;    // K [Pa]
     bool operator==(const FillingLaw&) const = default;
 };
 
@@ -36,6 +38,7 @@ struct FillingLaw {
 struct Chamber {
     std::vector<std::array<int, 3>> triangles;  // turned alike
     double firstVolume = 0;                     // V₀ [m³] >= 0
+    int side = 1;                               // as they were given: 1 outwards, -1 inwards, 0 some so, some so
     int openEdges = 0;                          // edges that have not two triangles
     bool isTwisted = false;                     // its triangles cannot be turned alike
     bool isClosed() const { return openEdges == 0 && !isTwisted; }
@@ -43,7 +46,8 @@ struct Chamber {
 
 // The chambers of triangles, whose points are at places (points) [m]. Points that are `one` (points) are the same point
 // to the surface; empty: each its own. Triangles on the same three points, or on two, enclose nothing. The others are
-// turned so that the volume is positive; where it is none, as most of them are.
+// turned so that the volume is positive; where it is none, as most of them are. Gaps between points that are one, which
+// are not in one place yet, are closed by further triangles, so that there is no sum of forces then either.
 std::vector<Chamber> chambersOf(std::span<const std::array<int, 3>> triangles, std::span<const glm::dvec3> places,
                                 std::span<const int> one = {});
 

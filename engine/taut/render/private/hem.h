@@ -1,5 +1,6 @@
 // Cloth that is seen so close that its thickness shows: towards its free edges, and those of tears, its two sides part,
-// and a round rim joins them. Pure geometry, it knows no GL.
+// and a round rim joins them; not where edges of two cloths are in one place, for there they are sewn. Pure geometry,
+// it knows no GL.
 #pragma once
 
 #include <array>
@@ -21,10 +22,6 @@ class Hems {
     // Puts items with rims in place of those without and returns their surfaces, which the items point to.
     std::vector<view::Surface> addTo(std::vector<DrawItem>& items, const PixelScale& scale, MeshCache& meshes);
 
-    // The surface with the rim, in place of the one without; nothing where there is none or it would be seen thinner
-    // than a pixel. From there to a pixel and a half it grows. `bounds` are those of the surface in the world.
-    std::optional<view::Surface> hemmed(const view::Surface& surface, const Bounds& bounds, const PixelScale& scale);
-
   private:
     // What of a rim does not change with the shape.
     struct Plan {
@@ -35,6 +32,16 @@ class Hems {
         std::shared_ptr<const view::Topology> topology;   // of the surface with its rim
     };
 
+    struct Rim {
+        DrawItem* item;
+        const Plan* plan;
+        std::vector<glm::vec3> places;  // (border) [m]
+        std::vector<float> radius;      // (border) [m]
+    };
+
+    // Nothing where there is none or it would be seen thinner than a pixel. From there to a pixel and a half it grows.
+    std::optional<Rim> rimOf(DrawItem& item, const PixelScale& scale);
+    static void leaveOutSeams(std::vector<Rim>& rims);
     static std::shared_ptr<const view::Geometry> shapeOf(const view::Geometry& plain, const Plan& own,
                                                          const std::vector<float>& radius);
     const Plan& plan(const view::Surface& surface);

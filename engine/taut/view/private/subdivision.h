@@ -42,7 +42,8 @@ struct FineMesh {
 
 // The mesh split `levels` times (>= 1), its vertices and normals on the surface itself. The first of its vertices are
 // those of the mesh. rest (vertices) [m] says where the border has corners, if it keeps any: in one face alone, or
-// where it turns by more than 60 degrees; these stay where they are.
-FineMesh subdivided(std::vector<Face> faces, std::span<const glm::dvec3> rest, bool keepsCorners, int levels);
+// where it turns by more than 60 degrees; these stay where they are, as do those in `kept`.
+FineMesh subdivided(std::vector<Face> faces, std::span<const glm::dvec3> rest, bool keepsCorners, int levels,
+                    std::span<const std::uint32_t> kept = {});
 
 }  // namespace taut::view

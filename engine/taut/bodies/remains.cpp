@@ -15,7 +15,8 @@ dvec3 normalThrough(std::span<const dvec3> places, const dvec3& mean, const dvec
     return normal;
 }
 
-Remains::Remains(const Body& body) : model_(body.model), damage_(body.damage), fans_(model_.positions.size()) {
+Remains::Remains(const Body& body)
+    : model_(body.model), damage_(body.damage), fans_(model_.positions.size()), beside_(fans_.size()) {
     for (const mechanics::Spring& s : model_.springs)
         if (s.kind != mechanics::SpringKind::bend && !damage_.isSevered(s.a, s.b))
             held_.insert({std::min(s.a, s.b), std::max(s.a, s.b)});
@@ -25,21 +26,20 @@ Remains::Remains(const Body& body) : model_(body.model), damage_(body.damage), f
             if (!damage_.isTriangleGone(t)) addFan(model_.triangles[t]);
         return;
     }
-    std::map<int, Corners> neighbours;  // (points at which nothing is whole)
-    for (const auto& [a, b] : held_)
-        for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)})
-            if (!isAnyWholeAt(from)) neighbours[from].push_back(to);
+    for (const auto& [a, b] : held_) {
+        beside_[static_cast<std::size_t>(a)].push_back(b);
+        beside_[static_cast<std::size_t>(b)].push_back(a);
+    }
     const auto findCarriers = [&](const auto& canCarry) {
-        for (const auto& [point, others] : neighbours) {
-            if (carriers_.count(point) > 0) continue;
-            const auto other = std::find_if(others.begin(), others.end(), canCarry);
-            if (other != others.end()) carriers_[point] = *other;
+        for (int i = 0; i < model_.pointCount(); ++i) {
+            if (carrierOf(i) >= 0) continue;
+            const auto other = std::find_if(besideOf(i).begin(), besideOf(i).end(), canCarry);
+            if (other != besideOf(i).end()) carriers_[i] = *other;
         }
     };
     findCarriers([this](int i) { return isAnyWholeAt(i); });
-    for (const auto& [point, others] : neighbours)
-        if (carriers_.count(point) == 0) addBase(point, others);
-    for (const auto& base : bases_) carriers_[base.first] = base.first;
+    for (int i = 0; i < model_.pointCount(); ++i)
+        if (carrierOf(i) < 0) addBase(i);
     findCarriers([this](int i) { return bases_.count(i) > 0; });
 }
 
@@ -59,14 +59,15 @@ void Remains::addFan(const std::array<int, N>& corners) {
     }
 }
 
-void Remains::addBase(int point, const Corners& neighbours) {
+void Remains::addBase(int point) {
     double most = 0.0;
-    for (const int b : neighbours)
-        for (const int c : neighbours) {
+    for (const int b : besideOf(point))
+        for (const int c : besideOf(point)) {
             const double area = glm::length(glm::cross(rest(b) - rest(point), rest(c) - rest(point)));
             if (area <= most) continue;
             most = area;
             bases_[point] = {b, c};
+            carriers_[point] = point;
         }
 }
 

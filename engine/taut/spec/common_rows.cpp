@@ -91,7 +91,8 @@ Section finishSection() {
             .colour("back_colour", &FinishSpec::backColour, "Colour of the back; paler than the front if not given.")
             .colour("accent", &FinishSpec::accent, "Second colour of a pattern.")
             .choice("pattern", &FinishSpec::pattern, {"plain", "checker", "stripes", "tartan", "image"}, "Pattern.")
-            .number("repeat_m", &FinishSpec::repeat, "m", lengthRange, "Length after which the pattern repeats.")
+            .number("repeat_m", &FinishSpec::repeat, "m", lengthRange,
+                    "Length after which the pattern repeats; along texture coordinates of a mesh, that much of them.")
             .number("weave", &FinishSpec::weave, "", fields::share,
                     "Depth of the weave: 0 smooth, 1 coarse linen. A mesh without texture coordinates has none.")
             .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")

@@ -61,13 +61,13 @@ class Remains {
     explicit Remains(const Body& body);
 
     bool hold(int a, int b) const { return held_.count({std::min(a, b), std::max(a, b)}) > 0; }
-    const std::set<Damage::Edge>& springs() const { return held_; }  // that are whole
     template <std::size_t N>
     std::vector<Corners> groupsOf(const std::array<int, N>& corners) const {
         return world::groupsOf(
             corners, [this](int a, int b) { return hold(a, b); });
     }
     bool isAnyWholeAt(int point) const { return !fans_[static_cast<std::size_t>(point)].empty(); }
+    const Corners& besideOf(int point) const { return beside_[static_cast<std::size_t>(point)]; }  // by whole springs
     // The point that carries vertices of the skin beyond a point: itself where something is whole, or of a block, in a
     // slice that is one layer of points, two springs across each other; else one of these that a spring holds to it.
     // -1: none, it is a crumb.
@@ -89,12 +89,13 @@ class Remains {
   private:
     template <std::size_t N>
     void addFan(const std::array<int, N>& corners);
-    void addBase(int point, const Corners& neighbours);
+    void addBase(int point);
     std::vector<double> inCorners(int a, const Corners& others, const dvec3& way) const;
 
     const mechanics::Model& model_;
     const Damage& damage_;
     std::vector<std::vector<Corners>> fans_;  // (points) whole triangles or tetrahedra, as their other corners
+    std::vector<Corners> beside_;             // (points of a block)
     std::set<Damage::Edge> held_;
     std::map<int, Corners> bases_;  // (points at which nothing is whole) two others, which springs hold to them
     std::map<int, int> carriers_;   // (points at which nothing is whole)

@@ -731,9 +731,17 @@ bool ContactStage::movesAny() const {
         islands_.begin(), islands_.end(), [](const Island* island) { return !island->isStill(); });
 }
 
+// What presses a block presses corners of its cells, which are light: they swing back until the next instant and hardly
+// slow the body in the meantime, so that what presses them out again would be energy from nothing.
+double ContactStage::longestTurnOf(std::span<const int> surfaces) const {
+    constexpr double longestOfBlocks = 1.0;
+    const auto isBlock = [&](int s) { return isOfBody(s) && !bodyOf(s).model.cells.empty(); };
+    return std::any_of(surfaces.begin(), surfaces.end(), isBlock) ? longestOfBlocks : longestTurn;
+}
+
 // How many instants would follow what contact moved in the last one, see turnOf().
 int ContactStage::instantsToFollow() const {
-    const double wanted = std::ceil(instants_ * turn_ / longestTurn);
+    const double wanted = std::ceil(instants_ * turn_ / longestTurnOf(result_.surfaces));
     const int most = instantsFor(result_.surfaces);
     return wanted < most ? static_cast<int>(wanted) : most;
 }

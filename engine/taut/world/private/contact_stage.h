@@ -154,6 +154,7 @@ class ContactStage {
     void readAll();
     bool areSolid(std::span<const int> surfaces) const;
     int fewestFor(std::span<const int> surfaces) const;
+    double longestTurnOf(std::span<const int> surfaces) const;
     double mostClosingOf(std::span<const int> surfaces) const;  // in an instant, as a share of the thickness
     int mostInstants() const;
     int commonSubsteps() const;  // greatest common divisor over the islands; 1 if all are frozen

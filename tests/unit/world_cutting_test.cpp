@@ -11,6 +11,7 @@
 #include "taut/bodies/rope.h"
 #include "taut/bodies/solid.h"
 #include "taut/forces/wind.h"
+#include "taut/spec/private/rotation.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -165,6 +166,24 @@ TEST(Cutting, ABlockLosesTheCellsThatAreCrossedAndGetsASurfaceThere) {
     EXPECT_NEAR(world.metrics().volume, 0.016, 1e-9);
     // Both halves are drawn up to the cut, closed there.
     EXPECT_NEAR(area(world.view(false).surfaces[0]), 4 * 0.6 * 0.2 + 4 * 0.04, 1e-5);
+}
+
+// Of a turned block two cuts leave a row of points, by which nothing can be carried: it is drawn as that.
+TEST(Cutting, ARowOfPointsIsLeft) {
+    SceneSpec scene;
+    BlockSpec brick;
+    brick.name = "brick";
+    brick.size = dvec3(0.4);
+    brick.cells = {4, 4, 4};
+    brick.rotation = {0.47, 0.51, 0.5};
+    scene.bodies.add(brick);
+    const glm::dquat turn = rotationOf(brick.rotation);
+    for (const dvec3& normal : {rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0})})
+        scene.actions.add(support::cutPlane(0.1, "block.brick", 0.16 * normal, normal));
+    World world(scene);
+    run(world, 12);
+    const view::FrameView view = world.view(false);
+    for (const glm::vec3& x : view.surfaces[0].geometry->positions) EXPECT_LT(glm::length(x), 2.0F);
 }
 
 // A rope of EA = 100 N pulled by a hand: it tears once (l - L)/L is over the break strain, and nowhere else before.

@@ -107,11 +107,11 @@ void doubtCuts(const WorldImpl& world, std::vector<std::string>& doubts) {
 
 // Panels that are still apart give a filling another volume than what is sewn of them.
 void doubtFillings(const WorldImpl& world, std::vector<std::string>& doubts) {
+    const std::vector<Body*> bodies = bodiesOf(world);
     for (const FillingSpec& filling : world.spec.forces.of<FillingSpec>()) {
         const bool keepsPressure = filling.keeps == mechanics::FillingKeeps::pressure;
         if (keepsPressure && filling.pressure == 0.0) continue;
         const auto isIn = [&](const JointSide& side) {
-            const std::vector<Body*> bodies = bodiesOf(world);
             return std::any_of(bodies.begin(), bodies.end(), [&](const Body* body) {
                 return names(side, *body) && std::any_of(filling.in.begin(), filling.in.end(),
                                                          [&](const std::string& in) { return names(in, *body); });

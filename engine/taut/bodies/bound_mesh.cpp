@@ -194,9 +194,11 @@ BoundMesh::BoundMesh(const Body& body, std::span<const std::uint32_t> triangles,
 PlacedMesh placedMesh(const Body& body) {
     const BlockFrame frame(body);
     const MeshData& mesh = *frame.block().meshData;
+    const dvec3 shift = frame.shift() + frame.block().position;
+    const glm::dquat turn = rotationOf(frame.block().rotation);
     PlacedMesh placed{{}, mesh.uv, mesh.triangles};
     for (const dvec3& x : mesh.positions) {
-        placed.places.push_back(frame.placeOf(x));
+        placed.places.push_back(shift + rotated(turn, frame.block().scale * x));
         if (mesh.uv.empty()) placed.uv.emplace_back(frame.inside(placed.places.back()));
     }
     return placed;

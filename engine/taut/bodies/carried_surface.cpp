@@ -25,10 +25,6 @@ dvec3 BlockFrame::shift() const {
     return first_ - (shape.centre + shape.axes * (lattice_->cell * dvec3(lattice_->points.front()) - 0.5 * shape.size));
 }
 
-dvec3 BlockFrame::placeOf(const dvec3& x) const {
-    return shift() + block_->position + rotated(turn_, block_->scale * x);
-}
-
 dvec3 BlockFrame::inside(const dvec3& place) const {
     dvec3 local = lattice_->cell * dvec3(lattice_->points.front());
     for (int axis = 0; axis < 3; ++axis) {
@@ -146,7 +142,9 @@ CarriedSurface carriedSurface(const Body& body) {
         return std::array{x.x, x.y, x.z};
     });
     mesh = thinned(mesh, fineness * block.cell / block.scale);
-    for (dvec3& x : mesh.places) x = frame.placeOf(x);
+    const dvec3 shift = frame.shift() + block.position;
+    const glm::dquat turn = rotationOf(block.rotation);
+    for (dvec3& x : mesh.places) x = shift + rotated(turn, block.scale * x);
     if (isCut) {
         std::vector<dvec2> uv(mesh.places.size());
         return surfaceOf(bluntMesh(body, {std::move(mesh.places), std::move(uv), std::move(mesh.triangles)}, back));

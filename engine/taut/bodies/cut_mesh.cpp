@@ -28,16 +28,24 @@ class MeshCutter {
           sides_(body, frame_, remains_),
           inside_(inCells(mesh.places), mesh.triangles, glm::ivec2(frame_.lattice().counts)),
           mesh_(mesh) {
+        joinPlaces();
         while (refine()) {
         }
-        for (const dvec3& place : mesh_.places) carriers_.push_back(sides_.carrierAt(place));
+        std::vector<bool> isNeeded(mesh_.places.size(), false);
+        for (const Triangle& t : mesh_.triangles) {
+            isBeside_.push_back(isBesideDamage(t));
+            if (isBeside_.back())
+                for (const int v : t) isNeeded[static_cast<std::size_t>(v)] = true;
+        }
+        for (std::size_t v = 0; v < isNeeded.size(); ++v)
+            carriers_.push_back(isNeeded[v] ? sides_.carrierAt(mesh_.places[v]) : -1);
     }
 
     Skin cut() {
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             const auto add = [&](int a, int b, int c) { addTriangle({a, b, c}, static_cast<int>(t)); };
             const Triangle& corners = mesh_.triangles[t];
-            const std::vector<Corners> groups = groupsOf(corners);
+            const std::vector<Corners> groups = groupsOf(t);
             if (groups.size() == 1)
                 add(vertexAt(corners[0]), vertexAt(corners[1]), vertexAt(corners[2]));
             else
@@ -58,11 +66,16 @@ class MeshCutter {
         };
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             const Triangle& corners = mesh_.triangles[t];
-            if (groupsOf(corners).size() == 1 && std::all_of(corners.begin(), corners.end(), isCarried))
+            if (!isBeside_[t] || (groupsOf(t).size() == 1 && std::all_of(corners.begin(), corners.end(), isCarried)))
                 addTriangle({vertexAt(corners[0]), vertexAt(corners[1]), vertexAt(corners[2])}, static_cast<int>(t));
         }
+        // A point in one place with another of the mesh would have no direction in which to press that.
         Skin faces = bluntSkinOf(body_, back);
-        std::erase_if(faces.triangles, [](const SkinTriangle& t) { return t.source >= 0; });
+        std::erase_if(faces.triangles, [&](const SkinTriangle& t) {
+            return t.source >= 0 || std::any_of(t.vertices.begin(), t.vertices.end(), [&](int v) {
+                       return !isDeeper(faces.vertices[static_cast<std::size_t>(v)].rest, back);
+                   });
+        });
         addFaces(faces, [](const std::array<SkinVertex, 3>&) {});
         addLoosePoints();
         return std::move(skin_);
@@ -76,13 +89,29 @@ class MeshCutter {
     }
     bool has(const dvec3& place) const { return inside_.has(sides_.inCells(place)); }
 
+    bool isDeeper(const dvec3& place, double depth) const {
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double way : {-depth, depth}) {
+                dvec3 beside = place;
+                beside[axis] += way;
+                if (!has(beside)) return false;
+            }
+        return true;
+    }
+
     // Of a triangle of the mesh.
-    std::vector<Corners> groupsOf(const Triangle& corners) const {
-        return world::groupsOf(
-            corners,
-            [this](int v, int w) {
-                return sides_.areJoined(carriers_[static_cast<std::size_t>(v)], carriers_[static_cast<std::size_t>(w)]);
-            });
+    std::vector<Corners> groupsOf(std::size_t triangle) const {
+        const Triangle& corners = mesh_.triangles[triangle];
+        if (!isBeside_[triangle]) return {{corners[0], corners[1], corners[2]}};
+        return world::groupsOf(corners, [this](int v, int w) {
+            return sides_.areJoined(carriers_[static_cast<std::size_t>(v)], carriers_[static_cast<std::size_t>(w)]);
+        });
+    }
+
+    void joinPlaces() {
+        std::map<std::array<double, 3>, int> known;
+        for (const dvec3& x : mesh_.places)
+            first_.push_back(known.try_emplace({x.x, x.y, x.z}, static_cast<int>(first_.size())).first->second);
     }
 
     // Halves edges of triangles beside damaged cells. Returns whether there were any.
@@ -91,13 +120,24 @@ class MeshCutter {
         const double most = finest * std::min({cell.x, cell.y, cell.z});
         const auto at = [&](int v) { return mesh_.places[static_cast<std::size_t>(v)]; };
         const auto edge = [](int v, int w) { return std::pair(std::min(v, w), std::max(v, w)); };
-        std::map<std::pair<int, int>, int> middles;
+        const auto inPlace = [&](int v, int w) {
+            return edge(first_[static_cast<std::size_t>(v)], first_[static_cast<std::size_t>(w)]);
+        };
+        std::map<std::pair<int, int>, int> firstMiddles;  // of edges in one place
         for (const Triangle& t : mesh_.triangles)
             for (std::size_t k = 0; k < 3; ++k)
                 if (const int v = t[k], w = t[(k + 1) % 3]; glm::distance(at(v), at(w)) > most && isBesideDamage(t))
+                    firstMiddles.try_emplace(inPlace(v, w), -1);
+        std::map<std::pair<int, int>, int> middles;
+        for (const Triangle& t : mesh_.triangles)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (const int v = t[k], w = t[(k + 1) % 3]; firstMiddles.contains(inPlace(v, w)))
                     middles.try_emplace(edge(v, w), -1);
         for (auto& [ends, middle] : middles) {
             middle = static_cast<int>(mesh_.places.size());
+            int& first = firstMiddles.at(inPlace(ends.first, ends.second));
+            if (first < 0) first = middle;
+            first_.push_back(first);
             mesh_.places.push_back(0.5 * (at(ends.first) + at(ends.second)));
             mesh_.uv.push_back(0.5 * (mesh_.uv[static_cast<std::size_t>(ends.first)] +
                                       mesh_.uv[static_cast<std::size_t>(ends.second)]));
@@ -151,8 +191,7 @@ class MeshCutter {
     // A vertex of the mesh: as part of its cell, or of what is left there. -1: of crumbs.
     int vertexAt(int v) {
         const auto [known, isNew] = known_.try_emplace({v, -1}, -1);
-        const int carrier = carriers_[static_cast<std::size_t>(v)];
-        if (!isNew || carrier < 0) return known->second;
+        if (!isNew) return known->second;
         SkinVertex vertex{{}, mesh_.places[static_cast<std::size_t>(v)], mesh_.uv[static_cast<std::size_t>(v)]};
         const dvec3 x = sides_.inCells(vertex.rest);
         if (const mechanics::LatticeCell& cell = sides_.cellAt(x); sides_.isWhole(cell)) {
@@ -160,6 +199,8 @@ class MeshCutter {
             for (std::size_t k = 0; k < 8; ++k)
                 vertex.terms.push_back({carried.points[k], static_cast<float>(carried.weights[k])});
         } else {
+            const int carrier = carriers_[static_cast<std::size_t>(v)];
+            if (carrier < 0) return -1;
             remains_.carry(vertex, carrier);
         }
         return known->second = add(std::move(vertex));
@@ -316,7 +357,9 @@ class MeshCutter {
     const Sides sides_;
     const Inside inside_;                       // of the mesh
     PlacedMesh mesh_;                           // refined beside damage
-    std::vector<int> carriers_;                 // (vertices)
+    std::vector<int> first_;                    // (vertices) of those in one place; a file may have several
+    std::vector<bool> isBeside_;                // (triangles) damage
+    std::vector<int> carriers_;                 // (vertices of these)
     std::map<std::pair<int, int>, int> known_;  // vertices of the skin, by those of the mesh
     Skin skin_;
 };

@@ -85,9 +85,10 @@ class SkinDrawing final : public BodyDrawing {
         const mechanics::Model& model = body.model;
         const MeshSource* source = body.spec->meshSource();
         const bool isFilled = !twoSided_ && source != nullptr && source->meshData != nullptr;
-        const Skin skin = body.damage.isEmpty() ? wholeSkin(model)
-                          : isFilled            ? cutMesh(body, placedMesh(body))
-                                                : skinOf(body);
+        const bool isCutMesh = isFilled && !body.damage.isEmpty() && !model.cells.empty();
+        const Skin skin = isCutMesh               ? cutMesh(body, placedMesh(body))
+                          : body.damage.isEmpty() ? wholeSkin(model)
+                                                  : skinOf(body);
         const BlockAxes axes = twoSided_ ? BlockAxes{} : BlockAxes(model);
         VertexNumbers vertexOf;
         const auto vertexAt = [&](int v, int side) {
@@ -96,7 +97,7 @@ class SkinDrawing final : public BodyDrawing {
             if (isNew) {
                 if (vertex.terms.size() > 1) beyond_.push_back({points_.size(), vertex});
                 points_.push_back(vertex.terms.front().point);
-                const bool hasOwn = twoSided_ || (isFilled && side < sidesOfBlock);
+                const bool hasOwn = twoSided_ || (isCutMesh && side < sidesOfBlock);
                 topology->uv.push_back(hasOwn ? along(model, vertex.uv)
                                               : axes.across(vertex.rest, side % sidesOfBlock));
             }
@@ -107,10 +108,10 @@ class SkinDrawing final : public BodyDrawing {
         for (const SkinTriangle& triangle : skin.triangles) {
             // The faces of cuts are separate sides.
             const bool isCut = triangle.source < 0;
-            const int side = twoSided_  ? 0
-                             : isCut    ? sidesOfBlock + axes.sideLike(normalOf(skin, triangle))
-                             : isFilled ? 0
-                                        : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
+            const int side = twoSided_   ? 0
+                             : isCut     ? sidesOfBlock + axes.sideLike(normalOf(skin, triangle))
+                             : isCutMesh ? 0
+                                         : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
             for (int v : triangle.vertices) topology->triangles.push_back(vertexAt(v, side));
         }
         topology_ = topology;

@@ -59,12 +59,15 @@ void Remains::addFan(const std::array<int, N>& corners) {
     }
 }
 
+// Not of a row of points.
 void Remains::addBase(int point) {
+    constexpr double leastSine = 1e-3;
     double most = 0.0;
     for (const int b : besideOf(point))
         for (const int c : besideOf(point)) {
-            const double area = glm::length(glm::cross(rest(b) - rest(point), rest(c) - rest(point)));
-            if (area <= most) continue;
+            const dvec3 e = rest(b) - rest(point), f = rest(c) - rest(point);
+            const double area = glm::length(glm::cross(e, f));
+            if (area <= most || area < leastSine * glm::length(e) * glm::length(f)) continue;
             most = area;
             bases_[point] = {b, c};
             carriers_[point] = point;

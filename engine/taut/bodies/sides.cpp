@@ -8,9 +8,9 @@ namespace taut::world {
 
 Sides::Sides(const Body& body, const BlockFrame& frame, const Remains& remains)
     : body_(body), frame_(frame), remains_(remains) {
-    for (const mechanics::LatticeCell& cell : frame_.lattice().cells) {
+    for (std::size_t cell = 0; cell < frame_.lattice().cells.size(); ++cell) {
         int number = static_cast<int>(mechanics::cellTetrahedra.size()) - 1;
-        while (number >= 0 && remains_.groupsOf(cornersOf(cell, number)).size() == 1) --number;
+        while (number >= 0 && !body.damage.isTetrahedronGone(cell, static_cast<std::size_t>(number))) --number;
         firstGone_.push_back(number);
     }
     findStandIns();

@@ -30,13 +30,12 @@ Quantity shadow(const Now& now, std::span<const Expression> arguments) {
     return {glm::dvec3(coveredArea(std::move(flat)), 0, 0)};
 }
 
-// Closed parts count whichever way they are turned, but for a hollow that looks inwards in others that look outwards.
-// What is left is seen from its middle, as if closed by a cone.
-Quantity enclosed(const Now& now, std::span<const Expression> arguments) {
+// [m³] What closed parts enclose whose sheets do not all look the same way. 0: nothing.
+double enclosedBySewn(std::span<const std::array<glm::dvec3, 3>> all) {
     std::vector<std::array<int, 3>> triangles;
     std::vector<glm::dvec3> places;
     std::map<std::array<double, 3>, int> numbers;
-    for (const auto& t : now.triangles(arguments[0].target)) {
+    for (const auto& t : all) {
         triangles.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [number, isNew] = numbers.try_emplace({t[k].x, t[k].y, t[k].z}, static_cast<int>(places.size()));
@@ -44,19 +43,30 @@ Quantity enclosed(const Now& now, std::span<const Expression> arguments) {
             triangles.back()[k] = number->second;
         }
     }
-    double volume = 0.0, turnedAlike = 0.0;  // [m³]
-    std::vector<std::array<int, 3>> open;
+    double volume = 0.0;
     for (const mechanics::Chamber& chamber : mechanics::chambersOf(triangles, places))
-        if (chamber.isClosed())
-            (chamber.side == 0 ? volume : turnedAlike) += (chamber.side < 0 ? -1 : 1) * chamber.firstVolume;
-        else
-            open.insert(open.end(), chamber.triangles.begin(), chamber.triangles.end());
-    const auto at = [&](int i) { return places[static_cast<std::size_t>(i)]; };
-    glm::dvec3 middle(0.0);
-    for (const auto& t : open) middle += (at(t[0]) + at(t[1]) + at(t[2])) / (3.0 * static_cast<double>(open.size()));
+        if (chamber.isClosed()) volume += chamber.firstVolume;
+    return volume;
+}
+
+// Of triangles that look all outwards, or all inwards, from no matter where it is seen; what looks the other way counts
+// as hollow.
+Quantity enclosed(const Now& now, std::span<const Expression> arguments) {
+    constexpr double closed = 1e-5;  // of the area: what is left of its sum as vectors
+    const auto triangles = now.triangles(arguments[0].target);
+    glm::dvec3 middle(0.0), outwards(0.0);
+    double area = 0.0;
+    for (const auto& t : triangles) {
+        const glm::dvec3 across = glm::cross(t[1] - t[0], t[2] - t[0]);
+        middle += (t[0] + t[1] + t[2]) / (3.0 * static_cast<double>(triangles.size()));
+        outwards += across;
+        area += glm::length(across);
+    }
     double sixfold = 0.0;
-    for (const auto& t : open) sixfold += glm::dot(at(t[0]) - middle, glm::cross(at(t[1]) - middle, at(t[2]) - middle));
-    return {glm::dvec3(volume + std::abs(turnedAlike) + sixfold / 6.0, 0, 0)};
+    for (const auto& t : triangles) sixfold += glm::dot(t[0] - middle, glm::cross(t[1] - middle, t[2] - middle));
+    if (glm::length(outwards) < closed * area) return {glm::dvec3(std::abs(sixfold) / 6.0, 0, 0)};
+    const double sewn = enclosedBySewn(triangles);
+    return {glm::dvec3(sewn > 0.0 ? sewn : sixfold / 6.0, 0, 0)};
 }
 
 std::string bodiesOf(std::span<const Expression> arguments) {
@@ -102,7 +112,7 @@ std::vector<Function> bodyFunctions() {
          false,
          false,
          "m³",
-         "Volume that the bodies' surfaces enclose, also several that are sewn together; one that is open is closed by "
+         "Volume that the bodies' surfaces enclose, also several that are sewn together; what is open is closed by "
          "a cone to its middle.",
          enclosed,
          {}});

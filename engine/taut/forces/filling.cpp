@@ -97,6 +97,7 @@ class FillingForce final : public ForceOf<FillingForce> {
     void visit(StateBytes& bytes) override {
         bytes(pressure_);
         bytes.notNegative(law_.outside);
+        bytes.notNegative(law_.sealedIn);
         bytes.notNegative(law_.bulkModulus);
     }
 

@@ -172,10 +172,8 @@ std::vector<Chamber> chambersOf(std::span<const Triangle> all, std::span<const d
                                        places[static_cast<std::size_t>(t[2])]));
         size = std::sqrt(size / 6.0) * size / 6.0;
         const bool isFlat = !(std::abs(volume) > 1e-9 * size);
-        const bool isInward = isFlat ? 2 * turned > found.size() : volume < 0;
-        if (isInward)
+        if (isFlat ? 2 * turned > found.size() : volume < 0)
             for (Triangle& t : chamber.triangles) std::swap(t[1], t[2]);
-        chamber.side = turned > 0 && turned < found.size() ? 0 : isInward == (turned > 0) ? 1 : -1;
         chamber.firstVolume = isFlat ? 0.0 : std::abs(volume);
     }
     for (const auto& [edge, sides] : edges)
@@ -256,8 +254,11 @@ double Filling<Real>::potentialEnergy(const Motion<Real>& motion, const std::vec
         const double v = volumeOf(chamber, motion), v0 = chamber.firstVolume;
         switch (law_.keeps) {
             case FillingKeeps::pressure: {
-                const double soft = pressure < 0 ? softShare * v0 : 0.0;
-                energy -= pressure * (v >= soft ? v - 0.5 * soft : v > 0 ? 0.5 * v * v / soft : 0.0);
+                const double soft = softShare * v0;
+                if (pressure >= 0)
+                    energy -= pressure * v;
+                else
+                    energy -= pressure * (v >= soft ? v - 0.5 * soft : v > 0 ? 0.5 * v * v / soft : 0.0);
                 break;
             }
             case FillingKeeps::amount: {
@@ -344,9 +345,10 @@ void Filling<Real>::addStability(const Motion<Real>& motion, StabilityShare& sha
         const double smallest = isGas ? workingShare * chamber.firstVolume : chamber.firstVolume;
         const double pressure = std::max(std::abs(pressure_.from), std::abs(pressure_.to));
         State most = stateOf(chamber, smallest, motion.t);
-        if (isGas) most.slope *= (law_.sealedIn + pressure) / (law_.sealedIn + pressure_.at(motion.t));
-        if (law_.keeps == FillingKeeps::pressure && std::min(pressure_.from, pressure_.to) < 0 && smallest > 0)
-            most.slope = pressure / (softShare * chamber.firstVolume);
+        if (isGas) most.slope = (law_.sealedIn + pressure) * chamber.firstVolume / (smallest * smallest);
+        if (const double least = std::min(pressure_.from, pressure_.to);
+            law_.keeps == FillingKeeps::pressure && least < 0 && smallest > 0)
+            most.slope = -least / (softShare * smallest);
         most.excess = std::max(std::abs(most.excess), pressure);
         std::map<int, double> areas;
         for (const auto& t : chamber.triangles) {

@@ -209,18 +209,21 @@ std::optional<Hems::Rim> Hems::rimOf(DrawItem& item, const PixelScale& scale) {
 
 // Where two borders are in one place they are sewn, and no free edges.
 void Hems::leaveOutSeams(std::vector<Rim>& rims) {
-    constexpr float samePlace = 2e-5F;  // [m]
+    constexpr float samePlace = 2e-5F;         // [m]
+    const glm::vec3 way(0.57F, 0.71F, 0.41F);  // along which few are side by side
     struct Vertex {
+        float along;
         glm::vec3 place;
         float* radius;
     };
     std::vector<Vertex> vertices;
     for (Rim& rim : rims)
-        for (std::size_t i = 0; i < rim.places.size(); ++i) vertices.push_back({rim.places[i], &rim.radius[i]});
+        for (std::size_t i = 0; i < rim.places.size(); ++i)
+            vertices.push_back({glm::dot(way, rim.places[i]), rim.places[i], &rim.radius[i]});
     std::stable_sort(vertices.begin(), vertices.end(),
-                     [](const Vertex& a, const Vertex& b) { return a.place.x < b.place.x; });
+                     [](const Vertex& a, const Vertex& b) { return a.along < b.along; });
     for (std::size_t i = 0; i < vertices.size(); ++i)
-        for (std::size_t j = i + 1; j < vertices.size() && vertices[j].place.x - vertices[i].place.x < samePlace; ++j)
+        for (std::size_t j = i + 1; j < vertices.size() && vertices[j].along - vertices[i].along < samePlace; ++j)
             if (glm::distance(vertices[i].place, vertices[j].place) < samePlace)
                 *vertices[i].radius = *vertices[j].radius = 0.0F;
 }

@@ -233,9 +233,10 @@ class Timeline {
         std::map<std::array<std::string, 2>, std::string> known;  // where each is
         std::size_t number = 0;
         for (const JointSpec& joint : scene_.spec.joints) {
+            if (!joint.isSeam()) continue;
+            const Node& item = list->items[number++];
             const auto* seam = dynamic_cast<const world::SeamJoint*>(&joint);
             if (seam == nullptr) continue;
-            const Node& item = list->items[number++];
             const std::array sides{std::min(seam->a.text(), seam->b.text()), std::max(seam->a.text(), seam->b.text())};
             const auto [before, isNew] = known.emplace(sides, fmt::format("line {}", item.place.line));
             if (!isNew)

@@ -21,7 +21,8 @@ using Corners = std::array<glm::dvec3, 3>;
 
 // Of a rigid body what touches may be points, of a block what carries the surface.
 bool isWhatIsDrawn(const Body& body) {
-    return body.spec->isRigid() || body.spec->hasCarriedSurface() || body.damage.goneTetrahedra() > 0;
+    const bool isMesh = body.spec->hasCarriedSurface() && body.spec->finish.skinData == nullptr;
+    return body.spec->isRigid() || isMesh || body.damage.goneTetrahedra() > 0;
 }
 
 void addDrawn(const WorldImpl& w, const Body& body, std::vector<Corners>& triangles) {

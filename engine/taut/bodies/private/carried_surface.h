@@ -22,8 +22,6 @@ class BlockFrame {
     const mechanics::Lattice& lattice() const { return *lattice_; }
     // [m] How far a place of the block's mesh in metres and turned has been moved with the body, as a copy of an array.
     dvec3 shift() const;
-    // [m] Where a place of the block's mesh file is.
-    dvec3 placeOf(const dvec3& x) const;
     // A place [m] along the axes of the block, from the low corner of the box around its cells [m].
     dvec3 inside(const dvec3& place) const;
     dvec3 place(const dvec3& inside) const;  // the reverse

@@ -38,7 +38,6 @@ struct FillingLaw {
 struct Chamber {
     std::vector<std::array<int, 3>> triangles;  // turned alike
     double firstVolume = 0;                     // V₀ [m³] >= 0
-    int side = 1;                               // as they were given: 1 outwards, -1 inwards, 0 some so, some so
     int openEdges = 0;                          // edges that have not two triangles
     bool isTwisted = false;                     // its triangles cannot be turned alike
     bool isClosed() const { return openEdges == 0 && !isTwisted; }

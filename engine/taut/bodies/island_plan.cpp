@@ -321,7 +321,8 @@ class Planner {
                 if (std::none_of(own.begin(), own.end(), [&](const PointRef& o) { return global(o) == global(p); }))
                     own.push_back(p);
             }
-        for (const auto& [number, own] : members) {
+        for (const auto& entry : members) {
+            const std::vector<PointRef>& own = entry.second;
             const bool isCorner = own.size() > 2 || std::any_of(own.begin(), own.end(), [&](const PointRef& p) {
                                       return turns(p) || ways(p) != ways(own.front());
                                   });

@@ -128,7 +128,7 @@ CarriedSurface surfaceOf(const Skin& skin) {
 }  // namespace
 
 CarriedSurface carriedSurface(const Body& body) {
-    constexpr double fineness = 1.0 / 3.0;  // of a cell
+    constexpr double fineness = 1.0 / 3.0, coarseness = 1.5;  // of a cell
     const bool isCut = body.damage.goneTetrahedra() > 0;
     // At a cut its thickness behind it, so that what is drawn of a body ends where what it touches begins.
     const double back = body.spec->thickness;
@@ -145,17 +145,17 @@ CarriedSurface carriedSurface(const Body& body) {
     const dvec3 shift = frame.shift() + block.position;
     const glm::dquat turn = rotationOf(block.rotation);
     for (dvec3& x : mesh.places) x = shift + rotated(turn, block.scale * x);
-    if (isCut) {
-        std::vector<dvec2> uv(mesh.places.size());
-        return surfaceOf(bluntMesh(body, {std::move(mesh.places), std::move(uv), std::move(mesh.triangles)}, back));
-    }
+    std::vector<dvec2> uv(mesh.places.size());
+    PlacedMesh placed{std::move(mesh.places), std::move(uv), std::move(mesh.triangles)};
+    refine(placed, coarseness * block.cell, [](const Triangle&) { return true; });
+    if (isCut) return surfaceOf(bluntMesh(body, placed, back));
     CarriedSurface surface;
-    for (const dvec3& x : mesh.places) {
+    for (const dvec3& x : placed.places) {
         const dvec3 local = frame.inside(x) / frame.lattice().cell;
         surface.points.push_back(mechanics::carriedBy(frame.lattice().carrierOf(local), local));
     }
-    surface.rest = std::move(mesh.places);
-    surface.triangles = std::move(mesh.triangles);
+    surface.rest = std::move(placed.places);
+    surface.triangles = std::move(placed.triangles);
     return surface;
 }
 

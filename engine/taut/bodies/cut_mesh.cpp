@@ -28,9 +28,9 @@ class MeshCutter {
           sides_(body, frame_, remains_),
           inside_(inCells(mesh.places), mesh.triangles, glm::ivec2(frame_.lattice().counts)),
           mesh_(mesh) {
-        joinPlaces();
-        while (refine()) {
-        }
+        const dvec3& cell = frame_.lattice().cell;
+        refine(mesh_, finest * std::min({cell.x, cell.y, cell.z}),
+               [this](const Triangle& t) { return isBesideDamage(t); });
         std::vector<bool> isNeeded(mesh_.places.size(), false);
         for (const Triangle& t : mesh_.triangles) {
             isBeside_.push_back(isBesideDamage(t));
@@ -106,65 +106,6 @@ class MeshCutter {
         return world::groupsOf(corners, [this](int v, int w) {
             return sides_.areJoined(carriers_[static_cast<std::size_t>(v)], carriers_[static_cast<std::size_t>(w)]);
         });
-    }
-
-    void joinPlaces() {
-        std::map<std::array<double, 3>, int> known;
-        for (const dvec3& x : mesh_.places)
-            first_.push_back(known.try_emplace({x.x, x.y, x.z}, static_cast<int>(first_.size())).first->second);
-    }
-
-    // Halves edges of triangles beside damaged cells. Returns whether there were any.
-    bool refine() {
-        const dvec3& cell = frame_.lattice().cell;
-        const double most = finest * std::min({cell.x, cell.y, cell.z});
-        const auto at = [&](int v) { return mesh_.places[static_cast<std::size_t>(v)]; };
-        const auto edge = [](int v, int w) { return std::pair(std::min(v, w), std::max(v, w)); };
-        const auto inPlace = [&](int v, int w) {
-            return edge(first_[static_cast<std::size_t>(v)], first_[static_cast<std::size_t>(w)]);
-        };
-        std::map<std::pair<int, int>, int> firstMiddles;  // of edges in one place
-        for (const Triangle& t : mesh_.triangles)
-            for (std::size_t k = 0; k < 3; ++k)
-                if (const int v = t[k], w = t[(k + 1) % 3]; glm::distance(at(v), at(w)) > most && isBesideDamage(t))
-                    firstMiddles.try_emplace(inPlace(v, w), -1);
-        std::map<std::pair<int, int>, int> middles;
-        for (const Triangle& t : mesh_.triangles)
-            for (std::size_t k = 0; k < 3; ++k)
-                if (const int v = t[k], w = t[(k + 1) % 3]; firstMiddles.contains(inPlace(v, w)))
-                    middles.try_emplace(edge(v, w), -1);
-        for (auto& [ends, middle] : middles) {
-            middle = static_cast<int>(mesh_.places.size());
-            int& first = firstMiddles.at(inPlace(ends.first, ends.second));
-            if (first < 0) first = middle;
-            first_.push_back(first);
-            mesh_.places.push_back(0.5 * (at(ends.first) + at(ends.second)));
-            mesh_.uv.push_back(0.5 * (mesh_.uv[static_cast<std::size_t>(ends.first)] +
-                                      mesh_.uv[static_cast<std::size_t>(ends.second)]));
-        }
-        std::vector<Triangle> parts;
-        for (const Triangle& t : mesh_.triangles) {
-            std::array<int, 3> middle{-1, -1, -1};  // of the edge from corner k
-            for (std::size_t k = 0; k < 3; ++k)
-                if (const auto found = middles.find(edge(t[k], t[(k + 1) % 3])); found != middles.end())
-                    middle[k] = found->second;
-            // From a halved edge before which there is one that is not, if there is such.
-            std::size_t first = 0;
-            while (first < 3 && (middle[first] < 0 || middle[(first + 2) % 3] >= 0)) ++first;
-            first %= 3;
-            const int a = t[first], b = t[(first + 1) % 3], c = t[(first + 2) % 3];
-            const int ab = middle[first], bc = middle[(first + 1) % 3], ca = middle[(first + 2) % 3];
-            if (ab < 0)
-                parts.push_back(t);
-            else if (bc < 0)
-                parts.insert(parts.end(), {{a, ab, c}, {ab, b, c}});
-            else if (ca < 0)
-                parts.insert(parts.end(), {{ab, b, bc}, {a, ab, c}, {ab, bc, c}});
-            else
-                parts.insert(parts.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        }
-        mesh_.triangles = std::move(parts);
-        return !middles.empty();
     }
 
     bool isBesideDamage(const Triangle& t) const {
@@ -357,7 +298,6 @@ class MeshCutter {
     const Sides sides_;
     const Inside inside_;                       // of the mesh
     PlacedMesh mesh_;                           // refined beside damage
-    std::vector<int> first_;                    // (vertices) of those in one place; a file may have several
     std::vector<bool> isBeside_;                // (triangles) damage
     std::vector<int> carriers_;                 // (vertices of these)
     std::map<std::pair<int, int>, int> known_;  // vertices of the skin, by those of the mesh

@@ -40,8 +40,8 @@ struct CarriedSurface {
     std::vector<std::array<int, 3>> triangles;    // of these, counter-clockwise seen from outside
 };
 
-// The mesh from which a block is made, with vertices a third of a cell apart where it is finer; of a block that is
-// cut what is left of it, up to the cut. Empty for other bodies.
+// The mesh from which a block is made, with vertices a third of a cell apart where it is finer, and no edge longer than
+// one and a half; of a block that is cut what is left of it, up to the cut. Empty for other bodies.
 CarriedSurface carriedSurface(const Body& body);
 
 }  // namespace taut::world

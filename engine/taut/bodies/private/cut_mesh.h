@@ -8,18 +8,10 @@
 //       . . / . . . .
 #pragma once
 
-#include <array>
-#include <vector>
-
+#include "taut/bodies/private/placed_mesh.h"
 #include "taut/bodies/private/skin_pieces.h"
 
 namespace taut::world {
-
-struct PlacedMesh {
-    std::vector<dvec3> places;  // (vertices) [m] before anything moves
-    std::vector<dvec2> uv;      // (vertices)
-    std::vector<std::array<int, 3>> triangles;
-};
 
 // What is drawn of it. Expects a block of a mesh, with damage that has been assessed.
 Skin cutMesh(const Body& body, const PlacedMesh& mesh);

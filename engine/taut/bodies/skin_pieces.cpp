@@ -22,11 +22,12 @@ class Cutter {
         return carried();
     }
 
-    // None beside crumbs.
+    // None of crumbs.
     Skin carriedFaces() {
-        remains_.eachTetrahedron(true, [this](const std::array<int, 4>& corners) {
-            if (std::all_of(corners.begin(), corners.end(), [this](int i) { return remains_.carrierOf(i) >= 0; }))
-                addCutFaces(corners);
+        const auto isCarried = [this](int corner) { return remains_.carrierOf(corner) >= 0; };
+        remains_.eachTetrahedron(true, [&](const std::array<int, 4>& corners) {
+            for (const Corners& group : remains_.groupsOf(corners))
+                if (std::all_of(group.begin(), group.end(), isCarried)) addCutFace(corners, group);
         });
         return carried();
     }
@@ -157,30 +158,31 @@ class Cutter {
     // Adds the faces that a cut through a tetrahedron bares on each part: a triangle, or a quadrangle between two
     // pairs.
     void addCutFaces(const std::array<int, 4>& corners) {
-        for (const Corners& group : remains_.groupsOf(corners)) {
-            Corners others;
-            for (int corner : corners)
-                if (std::find(group.begin(), group.end(), corner) == group.end()) others.push_back(corner);
-            std::vector<int> face;
-            if (group.size() == 2)
-                face = {vertexBeyond(group[0], others[0]), vertexBeyond(group[0], others[1]),
-                        vertexBeyond(group[1], others[1]), vertexBeyond(group[1], others[0])};
-            else
-                for (int a : group)
-                    for (int b : others) face.push_back(vertexBeyond(a, b));
-            // Where nothing whole is left at a corner its vertices are one.
-            face.erase(std::unique(face.begin(), face.end()), face.end());
-            if (face.size() > 1 && face.front() == face.back()) face.pop_back();
-            if (face.size() < 3) continue;
-            const auto at = [&](std::size_t i) { return skin_.vertices[static_cast<std::size_t>(face[i])].rest; };
-            dvec3 inside(0.0);
-            for (int a : group) inside += rest(a) / static_cast<double>(group.size());
-            dvec3 normal(0.0);  // some of its triangles may have no area
-            for (std::size_t i = 2; i < face.size(); ++i) normal += glm::cross(at(i - 1) - at(0), at(i) - at(0));
-            const bool isOutward = glm::dot(normal, at(0) - inside) > 0;
-            for (std::size_t i = 2; i < face.size(); ++i)
-                isOutward ? add(face[0], face[i - 1], face[i], -1) : add(face[0], face[i], face[i - 1], -1);
-        }
+        for (const Corners& group : remains_.groupsOf(corners)) addCutFace(corners, group);
+    }
+    void addCutFace(const std::array<int, 4>& corners, const Corners& group) {
+        Corners others;
+        for (int corner : corners)
+            if (std::find(group.begin(), group.end(), corner) == group.end()) others.push_back(corner);
+        std::vector<int> face;
+        if (group.size() == 2)
+            face = {vertexBeyond(group[0], others[0]), vertexBeyond(group[0], others[1]),
+                    vertexBeyond(group[1], others[1]), vertexBeyond(group[1], others[0])};
+        else
+            for (int a : group)
+                for (int b : others) face.push_back(vertexBeyond(a, b));
+        // Where nothing whole is left at a corner its vertices are one.
+        face.erase(std::unique(face.begin(), face.end()), face.end());
+        if (face.size() > 1 && face.front() == face.back()) face.pop_back();
+        if (face.size() < 3) return;
+        const auto at = [&](std::size_t i) { return skin_.vertices[static_cast<std::size_t>(face[i])].rest; };
+        dvec3 inside(0.0);
+        for (int a : group) inside += rest(a) / static_cast<double>(group.size());
+        dvec3 normal(0.0);  // some of its triangles may have no area
+        for (std::size_t i = 2; i < face.size(); ++i) normal += glm::cross(at(i - 1) - at(0), at(i) - at(0));
+        const bool isOutward = glm::dot(normal, at(0) - inside) > 0;
+        for (std::size_t i = 2; i < face.size(); ++i)
+            isOutward ? add(face[0], face[i - 1], face[i], -1) : add(face[0], face[i], face[i - 1], -1);
     }
 
     const mechanics::Model& model_;

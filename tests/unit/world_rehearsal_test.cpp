@@ -76,7 +76,8 @@ TEST(Rehearsal, WarnsOfACutWhosePlayingWouldBeDear) {
     const Rehearsal rehearsal = rehearse(scene);
     EXPECT_TRUE(rehearsal.faults.empty());
     ASSERT_EQ(rehearsal.warnings.size(), 1U);
-    EXPECT_TRUE(rehearsal.warnings[0].starts_with("timeline.toml:7:3: warning: there is nothing whole of \"rope.line\""))
+    EXPECT_TRUE(
+        rehearsal.warnings[0].starts_with("timeline.toml:7:3: warning: there is nothing whole of \"rope.line\""))
         << rehearsal.warnings[0];
 }
 

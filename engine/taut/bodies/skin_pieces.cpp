@@ -14,22 +14,21 @@ class Cutter {
 
     Skin cut() {
         for (std::size_t t = 0; t < model_.triangles.size(); ++t) addTriangle(static_cast<int>(t));
-        return faces();
+        return faces(true);
     }
 
-    Skin faces() {
-        remains_.eachTetrahedron(true, [this](const std::array<int, 4>& corners) { addCutFaces(corners); });
-        return carried();
-    }
-
-    // None of crumbs.
-    Skin carriedFaces() {
+    // What cuts have bared.
+    Skin faces(bool ofCrumbsToo) {
         const auto isCarried = [this](int corner) { return remains_.carrierOf(corner) >= 0; };
         remains_.eachTetrahedron(true, [&](const std::array<int, 4>& corners) {
             for (const Corners& group : remains_.groupsOf(corners))
-                if (std::all_of(group.begin(), group.end(), isCarried)) addCutFace(corners, group);
+                if (ofCrumbsToo || std::all_of(group.begin(), group.end(), isCarried)) addCutFace(corners, group);
         });
-        return carried();
+        for (const auto& [ends, number] : known_) {
+            SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
+            if (ends.second >= 0) remains_.carry(vertex, ends.first);
+        }
+        return std::move(skin_);
     }
 
     Skin blunt(double back) {
@@ -59,14 +58,6 @@ class Cutter {
     }
 
   private:
-    Skin carried() {
-        for (const auto& [ends, number] : known_) {
-            SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
-            if (ends.second >= 0) remains_.carry(vertex, ends.first);
-        }
-        return std::move(skin_);
-    }
-
     struct CutEdge {
         dvec3 along, cut;  // [m] from a point: to its other end, and to where it is severed
     };
@@ -155,11 +146,7 @@ class Cutter {
             [&](int a, int b, int c) { add(a, b, c, number); });
     }
 
-    // Adds the faces that a cut through a tetrahedron bares on each part: a triangle, or a quadrangle between two
-    // pairs.
-    void addCutFaces(const std::array<int, 4>& corners) {
-        for (const Corners& group : remains_.groupsOf(corners)) addCutFace(corners, group);
-    }
+    // Adds the face that a cut through a tetrahedron bares on a part: a triangle, or a quadrangle between two pairs.
     void addCutFace(const std::array<int, 4>& corners, const Corners& group) {
         Corners others;
         for (int corner : corners)
@@ -213,7 +200,7 @@ Skin skinOf(const Body& body) {
 }
 
 Skin cutFacesOf(const Body& body) {
-    return Cutter(body).carriedFaces();
+    return Cutter(body).faces(false);
 }
 
 }  // namespace taut::world

@@ -48,7 +48,7 @@ struct Skin {
 
 // Expects damage that has been assessed.
 Skin skinOf(const Body& body);
-Skin cutFacesOf(const Body& body);  // what of it cuts through a block have bared
+Skin cutFacesOf(const Body& body);  // what of it cuts through a block have bared, but of crumbs (remains.h)
 
 // What of a block meets others where it is cut: the outside of its whole tetrahedra, a closed surface, whose corners at
 // the cut stand out until `back` [m] behind where their edges are severed, nearly. Points at which no tetrahedron is

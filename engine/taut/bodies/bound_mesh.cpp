@@ -194,13 +194,9 @@ BoundMesh::BoundMesh(const Body& body, std::span<const std::uint32_t> triangles,
 PlacedMesh placedMesh(const Body& body) {
     const BlockFrame frame(body);
     const MeshData& mesh = *frame.block().meshData;
-    const dvec3 shift = frame.shift() + frame.block().position;
-    const glm::dquat turn = rotationOf(frame.block().rotation);
-    PlacedMesh placed{{}, mesh.uv, mesh.triangles};
-    for (const dvec3& x : mesh.positions) {
-        placed.places.push_back(shift + rotated(turn, frame.block().scale * x));
-        if (mesh.uv.empty()) placed.uv.emplace_back(frame.inside(placed.places.back()));
-    }
+    PlacedMesh placed{frame.placesOf(mesh.positions), mesh.uv, mesh.triangles};
+    if (mesh.uv.empty())
+        for (const dvec3& x : placed.places) placed.uv.emplace_back(frame.inside(x));
     return placed;
 }
 

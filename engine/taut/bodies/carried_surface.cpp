@@ -25,6 +25,13 @@ dvec3 BlockFrame::shift() const {
     return first_ - (shape.centre + shape.axes * (lattice_->cell * dvec3(lattice_->points.front()) - 0.5 * shape.size));
 }
 
+std::vector<dvec3> BlockFrame::placesOf(std::span<const dvec3> file) const {
+    const dvec3 from = shift() + block_->position;
+    std::vector<dvec3> places;
+    for (const dvec3& x : file) places.push_back(from + rotated(turn_, block_->scale * x));
+    return places;
+}
+
 dvec3 BlockFrame::inside(const dvec3& place) const {
     dvec3 local = lattice_->cell * dvec3(lattice_->points.front());
     for (int axis = 0; axis < 3; ++axis) {
@@ -142,11 +149,7 @@ CarriedSurface carriedSurface(const Body& body) {
         return std::array{x.x, x.y, x.z};
     });
     mesh = thinned(mesh, fineness * block.cell / block.scale);
-    const dvec3 shift = frame.shift() + block.position;
-    const glm::dquat turn = rotationOf(block.rotation);
-    for (dvec3& x : mesh.places) x = shift + rotated(turn, block.scale * x);
-    std::vector<dvec2> uv(mesh.places.size());
-    PlacedMesh placed{std::move(mesh.places), std::move(uv), std::move(mesh.triangles)};
+    PlacedMesh placed{frame.placesOf(mesh.places), std::vector<dvec2>(mesh.places.size()), std::move(mesh.triangles)};
     refine(placed, coarseness * block.cell, [](const Triangle&) { return true; });
     if (isCut) return surfaceOf(bluntMesh(body, placed, back));
     CarriedSurface surface;

@@ -22,6 +22,8 @@ class BlockFrame {
     const mechanics::Lattice& lattice() const { return *lattice_; }
     // [m] How far a place of the block's mesh in metres and turned has been moved with the body, as a copy of an array.
     dvec3 shift() const;
+    // [m] Where places of the block's mesh file are.
+    std::vector<dvec3> placesOf(std::span<const dvec3> file) const;
     // A place [m] along the axes of the block, from the low corner of the box around its cells [m].
     dvec3 inside(const dvec3& place) const;
     dvec3 place(const dvec3& inside) const;  // the reverse

@@ -1,8 +1,5 @@
 list(APPEND TAUT_UNIT_TESTS
-  scene_action_errors_test.cpp
   scene_action_reader_test.cpp
-  scene_check_errors_test.cpp
-  scene_contradiction_errors_test.cpp
   scene_fabrics_test.cpp
   scene_field_table_test.cpp
   scene_fields_test.cpp
@@ -14,13 +11,11 @@ list(APPEND TAUT_UNIT_TESTS
   scene_merge_test.cpp
   scene_obj_test.cpp
   scene_overrides_test.cpp
-  scene_reference_errors_test.cpp
+  scene_refusals_test.cpp
   scene_robustness_test.cpp
   scene_splice_test.cpp
   scene_state_keys_test.cpp
   scene_syntax_errors_test.cpp
   scene_ties_test.cpp
-  scene_timeline_errors_test.cpp
-  scene_timeline_fields_test.cpp
-  scene_value_errors_test.cpp)
+  scene_timeline_fields_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::scene)

@@ -143,6 +143,18 @@ TEST(SceneFiles, AssetsAreLookedForBesideTheSceneFirst) {
               "         ^ looked for none.obj, none.obj, models/none.obj, textures/none.obj");
 }
 
+TEST(SceneFiles, KeysOfPicturesChangeWithWhatIsInThem) {
+    const AssetFolder folder;
+    const std::string text =
+        "schema = 1\nenvironment = { image = \"square.png\" }\n[rope.r]\n"
+        "ends = [[0, 0, 0], [1, 0, 0]]\nfinish = { pattern = \"image\", texture = \"square.png\" }\n";
+    const world::SceneSpec scene = folder.load(text).spec;
+    const std::vector<UsedFile> before = pictureFiles(scene);
+    ASSERT_EQ(before.size(), 1U);
+    folder.write("square.png", "another");
+    EXPECT_NE(pictureFiles(scene)[0].content, before[0].content);
+}
+
 // At 1 s, or 60 ticks of 60 frames and 120 of 30.
 TEST(SceneFiles, AKeptStateIsReadWhereARunStarts) {
     const AssetFolder folder;

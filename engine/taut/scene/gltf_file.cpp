@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
@@ -94,13 +95,7 @@ class GltfReader {
         loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                                  void*) { return true; },
                               nullptr);
-        loader.SetFsCallbacks(
-            {[](const std::string& name, void*) { return core::isThere(name); },
-             [](const std::string& name, void*) { return name; },
-             [](std::vector<unsigned char>* content, std::string* error, const std::string& name, void* self) {
-                 return static_cast<GltfReader*>(self)->readNamed(name, *content, *error);
-             },
-             [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, this});
+        loader.SetFsCallbacks(fileCallbacks<tinygltf::FsCallbacks>());
         std::string errors, warnings;
         const std::string folder = path_.parent_path().empty() ? "." : path_.parent_path().string();
         bool isRead = false;
@@ -125,6 +120,28 @@ class GltfReader {
                              [&](std::string_view known) { return extension.starts_with(known); }))
                 fail(fmt::format("it cannot be read without {}: export it without that extension", extension));
         hash_ = hash;
+    }
+
+    // A template, so that `requires` finds the callback that tinygltf has only since 2.9.
+    template <class Callbacks>
+    Callbacks fileCallbacks() {
+        Callbacks all{};
+        all.FileExists = [](const std::string& name, void*) { return core::isThere(name); };
+        all.ExpandFilePath = [](const std::string& name, void*) { return name; };
+        all.ReadWholeFile = [](std::vector<unsigned char>* content, std::string* error, const std::string& name,
+                               void* self) {
+            return static_cast<GltfReader*>(self)->readNamed(name, *content, *error);
+        };
+        all.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+            return false;
+        };
+        if constexpr (requires { all.GetFileSizeInBytes; })
+            all.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+                *size = 0;  // readNamed() reports files that are too large
+                return true;
+            };
+        all.user_data = this;
+        return all;
     }
 
     bool readNamed(const std::string& name, std::vector<unsigned char>& content, std::string& error) {
@@ -207,8 +224,10 @@ class GltfReader {
         }
         if (!accessor.sparse.isSparse) return all;
         const auto& sparse = accessor.sparse;
-        if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count ||
-            sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
+        // Offsets are signed in older versions of tinygltf.
+        if (!std::in_range<std::size_t>(sparse.count) || static_cast<std::size_t>(sparse.count) > accessor.count ||
+            !std::in_range<std::size_t>(sparse.indices.byteOffset) ||
+            !std::in_range<std::size_t>(sparse.values.byteOffset))
             fail(fmt::format("accessor {} replaces {} of {} elements", accessorNumber, sparse.count, accessor.count));
         const auto count = static_cast<std::size_t>(sparse.count);
         std::vector<std::size_t> places(count);

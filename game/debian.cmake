@@ -41,12 +41,16 @@ taut_deb(program NAME taut SECTION graphics
     "pictures can be tested against recorded ones."
   RECOMMENDS ffmpeg fonts-dejavu-core libgl1-mesa-dri
   SUGGESTS gnuplot-nox libjs-three xvfb)
+set(osmesa)
+if(TARGET PkgConfig::OSMESA)
+  set(osmesa libosmesa6-dev)
+endif()
 taut_deb(engine NAME libtaut-dev SECTION libdevel
   SUMMARY "mass-spring engine, for C++ programs"
   TEXT "The static libraries of taut, an engine for ropes, cloth, blocks and nets, with"
     "their headers and what CMake and pkg-config need to find them: taut::engine,"
     "which simulates, and taut::render, which draws without a display."
-  DEPENDS "taut (= ${PROJECT_VERSION})" libbullet-dev libdeflate-dev libegl-dev libfmt-dev libglm-dev libosmesa6-dev
+  DEPENDS "taut (= ${PROJECT_VERSION})" libbullet-dev libdeflate-dev libegl-dev libfmt-dev libglm-dev ${osmesa}
     libspng-dev libtbb-dev libturbojpeg0-dev
   SUGGESTS cmake g++ pkg-config)
 if(TAUT_PYTHON)

@@ -156,11 +156,14 @@ bool printEgl(const image::Image& right) {
 
 // Whether anything draws.
 bool printRenderers(Packages& packages) {
-    const image::Image right = printRenderer("osmesa", render::Backend::osmesa, std::nullopt, {});
+    const bool hasOsmesa = render::backends().front() == render::Backend::osmesa;
+    if (!hasOsmesa) printFact("osmesa", "not in this build: OSMesa was not found; EGL is the default");
+    const image::Image right =
+        hasOsmesa ? printRenderer("osmesa", render::Backend::osmesa, std::nullopt, {}) : image::Image{};
     const bool draws = printEgl(right);
     if (!draws)
         for (const char* package : {"libegl-mesa0", "libgl1-mesa-dri"}) packages.add(package);
-    if (!right.isWhole()) packages.add("libosmesa6");
+    if (hasOsmesa && !right.isWhole()) packages.add("libosmesa6");
     if (!draws && right.isWhole()) printFact("--gl egl", "MISSING: no graphics card draws; all else does without");
     if (draws || right.isWhole()) return true;
     printFact("pictures", "MISSING: none without osmesa or egl; taut render --no-pictures needs neither");

@@ -21,7 +21,7 @@ namespace taut::game {
 
 GlChoice glNamed(const std::string& gl) {
     using render::Backend;
-    if (gl.empty()) return {{Backend::osmesa, Backend::egl}};
+    if (gl.empty()) return {render::backends()};
     for (const Backend backend : {Backend::osmesa, Backend::egl})
         if (gl == pipeline::nameOf(backend)) return {{backend}};
     const std::string_view view = gl;

@@ -44,7 +44,7 @@ image::Image Painter::draw(const view::FrameView& view, const world::PictureSpec
         options.shaders = shaderFolder();
         if (const char* font = std::getenv("TAUT_FONT"); font != nullptr) options.font = font;
         renderer_.reset();
-        renderer_ = pipeline::workingRenderer(options, {render::Backend::osmesa, render::Backend::egl});
+        renderer_ = pipeline::workingRenderer(options, render::backends());
         picture_ = picture;
     }
     return renderer_->draw(view);

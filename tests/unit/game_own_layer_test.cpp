@@ -97,8 +97,8 @@ target = [0.0, 0.5, 0.0]
 TEST(OwnLayer, IsDrawnIntoFilesOfItsNameAndStandsInTheRecord) {
     const TemporaryFolder folder;
     const std::string output = (folder / "out").string();
-    const Outcome outcome = runWithNormals(
-        folder, {"render", boxScene(folder), "-o", output, "--normals", "--mask", "--quiet", "--gl", "osmesa"});
+    const Outcome outcome =
+        runWithNormals(folder, {"render", boxScene(folder), "-o", output, "--normals", "--mask", "--quiet"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const image::Image picture = image::readImage(folder / "out" / "frame_000000.normals.png");
     const auto at = [&](int x) {

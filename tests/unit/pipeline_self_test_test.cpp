@@ -21,7 +21,7 @@ render::RendererOptions optionsWith(const std::filesystem::path& folder) {
 }
 
 TEST(SelfTest, BothLibrariesPass) {
-    for (render::Backend backend : {render::Backend::osmesa, render::Backend::egl})
+    for (render::Backend backend : render::backends())
         EXPECT_EQ(workingRenderer(optionsWith(shaders), {backend})->info().backend, nameOf(backend));
 }
 
@@ -35,12 +35,13 @@ TEST(SelfTest, ABlankPictureIsNoRendererAndSaysWhatWasTried) {
     text.insert(body + 1, " if (gl_FragCoord.x > -1.0) discard; ");
     test::writeText(folder / "surface.frag", text);
     try {
-        workingRenderer(optionsWith(folder.path()), {render::Backend::osmesa, render::Backend::egl});
+        workingRenderer(optionsWith(folder.path()), render::backends());
         FAIL() << "a blank picture passed";
     } catch (const core::Error& error) {
         EXPECT_EQ(error.kind(), core::ErrorKind::noRenderer) << error.what();
-        for (const char* word : {"osmesa", "egl", "llvmpipe"})
-            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("llvmpipe"), std::string::npos) << error.what();
+        for (const render::Backend backend : render::backends())
+            EXPECT_NE(std::string(error.what()).find(nameOf(backend)), std::string::npos) << error.what();
     }
 }
 

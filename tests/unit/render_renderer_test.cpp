@@ -76,14 +76,22 @@ TEST(RenderRenderer, ChangedItDrawsAsOneMadeSo) {
 
 TEST(RenderRenderer, BothLibrariesDrawTheSamePixels) {
     RendererOptions options = smallOptions();
-    const image::Image osmesa = pictureOf(someView(), options);
+    const image::Image first = pictureOf(someView(), options);
     options.backend = Backend::egl;
-    EXPECT_EQ(pictureOf(someView(), options).rgb, osmesa.rgb);
+    EXPECT_EQ(pictureOf(someView(), options).rgb, first.rgb);
+}
+
+TEST(RenderRenderer, OsmesaThatTheBuildDidNotFindIsRefused) {
+    if (backends().front() == Backend::osmesa) GTEST_SKIP() << "OSMesa is here";
+    RendererOptions options = smallOptions();
+    options.backend = Backend::osmesa;
+    const std::string message = messageOf([&] { Renderer renderer(options); }, core::ErrorKind::noRenderer);
+    EXPECT_NE(message.find("use --gl egl"), std::string::npos) << message;
 }
 
 TEST(RenderRenderer, TellsWhatDraws) {
     RendererOptions options = smallOptions();
-    for (const Backend backend : {Backend::osmesa, Backend::egl}) {
+    for (const Backend backend : backends()) {
         options.backend = backend;
         const RendererInfo info = Renderer(options).info();
         EXPECT_EQ(info.backend, backend == Backend::osmesa ? "osmesa" : "egl");
@@ -111,7 +119,7 @@ TEST(RenderRenderer, EglTakesTheDeviceWithTheNumber) {
 
 TEST(RenderRenderer, DrawsOnAnotherThreadThanItWasMadeOn) {
     RendererOptions options = smallOptions();
-    for (const Backend backend : {Backend::osmesa, Backend::egl}) {
+    for (const Backend backend : backends()) {
         options.backend = backend;
         Renderer renderer(options);
         const image::Image here = renderer.draw(someView());
@@ -137,7 +145,7 @@ TEST(RenderRenderer, SeveralDrawAtTheSameTimeAsOneDoes) {
 }
 
 TEST(RenderRenderer, MeshesThatAreGoneAreForgotten) {
-    const std::unique_ptr<Context> context = makeContext(Backend::osmesa);
+    const std::unique_ptr<Context> context = makeContext(backends().front());
     const CurrentContext current(*context);
     MeshCache meshes(context->gl());
     view::Surface moving = surface(view::sphereMesh(0.4F), glm::vec3(0.0F), glm::vec3(0.5F));

@@ -108,9 +108,12 @@ std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions option
             tried += fmt::format("\n  {}: {}", nameOf(backend), error.what());
         }
     }
-    throw core::Error(core::ErrorKind::noRenderer,
-                      "nothing here can draw. Tried:" + tried +
-                          "\nInstall the packages libosmesa6-dev and libgl1-mesa-dri, or choose another with --gl.");
+    const bool hasOsmesa = render::backends().front() == render::Backend::osmesa;
+    throw core::Error(
+        core::ErrorKind::noRenderer,
+        fmt::format("nothing here can draw. Tried:{}\nInstall the packages {} and libgl1-mesa-dri, or choose another "
+                    "with --gl.",
+                    tried, hasOsmesa ? "libosmesa6-dev" : "libegl-mesa0"));
 }
 
 }  // namespace taut::pipeline

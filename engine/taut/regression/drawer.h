@@ -22,8 +22,8 @@ struct PictureSpec;
 namespace taut::regression {
 
 struct DrawingOptions {
-    std::vector<render::Backend> backends = {render::Backend::osmesa, render::Backend::egl};  // the first that works
-    std::optional<int> device{};  // of EGL; none: the best that works
+    std::vector<render::Backend> backends = render::backends();  // the first that works
+    std::optional<int> device{};                                 // of EGL; none: the best that works
     std::filesystem::path shaders;
     std::filesystem::path font;
     bool shadows = true;

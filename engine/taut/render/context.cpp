@@ -77,9 +77,11 @@ void Context::connect() {
     const auto load = [](void* self, const char* name) { return static_cast<Context*>(self)->functionNamed(name); };
     const int version = gladLoadGLContextUserPtr(gl_.get(), load, this);
     if (version < GLAD_MAKE_VERSION(3, 3)) {
-        throw core::Error(core::ErrorKind::noRenderer,
-                          "no renderer: the GL library offers less than OpenGL 3.3; Mesa's llvmpipe does, on Debian in "
-                          "the package libosmesa6 (or libegl-mesa0 and libgl1-mesa-dri with --gl egl)");
+        throw core::Error(
+            core::ErrorKind::noRenderer,
+            fmt::format("no renderer: the GL library offers less than OpenGL 3.3; Mesa's llvmpipe offers it, on Debian "
+                        "in {}",
+                        info_.backend == "osmesa" ? "the package libosmesa6" : "libegl-mesa0 and libgl1-mesa-dri"));
     }
     const auto text = [&](GLenum name) {
         const auto* bytes = gl().GetString(name);

@@ -83,9 +83,8 @@ class EglContext final : public Context {
         const std::string what = info_.device ? fmt::format("EGL's device {}", *info_.device) : "EGL without a surface";
         throw core::Error(
             core::ErrorKind::noRenderer,
-            fmt::format("no renderer: {} failed at {}; install Debian's libegl-mesa0 and libgl1-mesa-dri, or try "
-                        "--gl osmesa",
-                        what, step));
+            fmt::format("no renderer: {} failed at {}; install Debian's libegl-mesa0 and libgl1-mesa-dri{}", what, step,
+                        backends().front() == Backend::osmesa ? ", or try --gl osmesa" : ""));
     }
 
     EGLDisplay display_ = EGL_NO_DISPLAY;

@@ -1,6 +1,7 @@
 #include <GL/osmesa.h>
 
 #include <array>
+#include <vector>
 
 #include "taut/core/error.h"
 #include "taut/render/private/context.h"
@@ -53,6 +54,10 @@ class OsmesaContext final : public Context {
 };
 
 }  // namespace
+
+std::vector<Backend> backends() {
+    return {Backend::osmesa, Backend::egl};
+}
 
 std::unique_ptr<Context> makeOsmesaContext() {
     return std::make_unique<OsmesaContext>();

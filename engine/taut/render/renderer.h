@@ -20,6 +20,9 @@ namespace taut::render {
 // it finds.
 enum class Backend { osmesa, egl };
 
+// The backends of this build, the default first. OSMesa is one of them only if the build found it.
+std::vector<Backend> backends();
+
 struct RendererOptions {
     int width = 1280;  // [px]
     int height = 720;
@@ -31,7 +34,7 @@ struct RendererOptions {
     bool alpha = false;      // no sky, and of the ground its shadows alone; the picture has alpha then
     std::vector<std::shared_ptr<const Layer>> layers{};  // Image::layers, in that order
 
-    Backend backend = Backend::osmesa;
+    Backend backend = backends().front();
     std::optional<int> device;      // of EGL, a number of eglDevices(); none: the best that works
     std::filesystem::path shaders;  // folder of the shader files
     std::filesystem::path font;     // TrueType file for labels; empty: the one that Debian installs

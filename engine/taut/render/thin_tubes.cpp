@@ -29,10 +29,10 @@ struct DepthScale {
 };
 
 // Light, as the square of bytes, times what it covers.
-struct Light {
+struct CoveredLight {
     float red = 0.0F, green = 0.0F, blue = 0.0F, cover = 0.0F;
 
-    void add(const Light& mean, float part) {
+    void add(const CoveredLight& mean, float part) {
         red += part * mean.red / mean.cover;
         green += part * mean.green / mean.cover;
         blue += part * mean.blue / mean.cover;
@@ -57,9 +57,9 @@ struct Light {
 
 // What the layer shows at a pixel and around it of a tube, by its mark; of the others there where there is nothing of
 // it. As far as a tube is thin that is all of its sides, else only what lies at about this depth.
-Light lightOf(const ShadedPixels& shaded, int x, int y, std::uint32_t mark, float depth, bool isThin) {
+CoveredLight lightOf(const ShadedPixels& shaded, int x, int y, std::uint32_t mark, float depth, bool isThin) {
     const PixelBox& box = shaded.box;
-    Light own, any, best;
+    CoveredLight own, any, best;
     float least = INFINITY;
     for (int row = std::max(y - 1, 0); row <= std::min(y + 1, box.height - 1); ++row) {
         for (int column = std::max(x - 1, 0); column <= std::min(x + 1, box.width - 1); ++column) {
@@ -86,7 +86,7 @@ void layTile(const PixelBox& tile, const CoveredTile& covered, const ThinLayer& 
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
             const auto pixel = static_cast<std::size_t>((y - tile.y) * edgeTileSize + x - tile.x);
             if (!isAny(covered.mark[pixel])) continue;
-            Light light;
+            CoveredLight light;
             for (int sample = 0; sample < 4; ++sample) {
                 const auto number = static_cast<std::size_t>(covered.mark[pixel][sample]);
                 if (number == 0) continue;
@@ -94,7 +94,7 @@ void layTile(const PixelBox& tile, const CoveredTile& covered, const ThinLayer& 
                 const float depth = covered.depth[pixel][sample];
                 const float ahead = depths.ahead(covered.nearest[pixel][sample]);
                 const float radius = layer.scale.pixels(layer.tubes[number - 1].surface->tubeRadius, ahead);
-                const Light seen = lightOf(layer.shaded, x - box.x, y - box.y, mark, depth, radius < shadedRadius);
+                const CoveredLight seen = lightOf(layer.shaded, x - box.x, y - box.y, mark, depth, radius < shadedRadius);
                 if (seen.cover > 0.0F) light.add(seen, 0.25F * std::min(radius / coveringRadius, 1.0F));
             }
             const auto to = static_cast<std::size_t>(y * width + x);

@@ -49,13 +49,20 @@ TEST(Scenarios, FaultsAreSaidOfEachAndKeepNoneOfTheOthersOut) {
     EXPECT_EQ(read.scenarios[0].name, "c");
 }
 
+world::GoldenSpec golden(std::vector<int> frames, bool restart, bool debug, const std::string& camera) {
+    world::GoldenSpec spec;
+    spec.frames = std::move(frames);
+    spec.restart = restart;
+    spec.debug = debug;
+    spec.camera = camera;
+    return spec;
+}
+
 TEST(GoldenRequests, AreByFrameWithANameForEach) {
     world::SceneSpec spec;
     spec.run = {20.0, 1.0};
-    spec.cameras.push_back({.name = "side", .source = {}, .keys = {}, .orbitPeriod = {}});
-    spec.goldens.push_back({{}, {7, 3}, false, false, "", {64, 36}});
-    spec.goldens.push_back({{}, {3}, false, true, "", {64, 36}});
-    spec.goldens.push_back({{}, {3}, true, true, "side", {64, 36}});
+    spec.cameras.emplace_back().name = "side";
+    spec.goldens = {golden({7, 3}, false, false, ""), golden({3}, false, true, ""), golden({3}, true, true, "side")};
     std::vector<std::string> keys;
     for (const GoldenRequest& request : goldenRequests(spec)) keys.push_back(request.key());
     EXPECT_EQ(keys, (std::vector<std::string>{"000003", "000003-debug", "000003-side-debug", "000007"}));
@@ -65,7 +72,8 @@ TEST(GoldenRequests, ThatCannotBeMeantAreRefused) {
     world::SceneSpec spec;
     spec.run = {20.0, 1.0};
     const auto said = [&](std::vector<int> frames, const std::string& camera = "") {
-        spec.goldens = {{{"s.toml", 9, 1}, std::move(frames), false, false, camera, {64, 36}}};
+        spec.goldens = {golden(std::move(frames), false, false, camera)};
+        spec.goldens[0].source = {"s.toml", 9, 1};
         return test::messageOf(core::ErrorKind::badContent, [&] { goldenRequests(spec); });
     };
     EXPECT_TRUE(has(said({20}), "s.toml:9:1: error: there is no frame 20: the run has frames 0 to 19"));

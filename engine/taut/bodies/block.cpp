@@ -14,6 +14,8 @@
 
 namespace taut::world {
 
+TAUT_VALUE_MEMBERS(BlockSpec);
+
 using fields::Affects;
 using fields::FieldList;
 using fields::notNegative;

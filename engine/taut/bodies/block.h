@@ -1,6 +1,7 @@
 // A deformable block: a box, or what a closed mesh from a file fills.
 #pragma once
 
+#include "taut/core/value.h"
 #include "taut/mechanics/builders.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
@@ -8,6 +9,7 @@
 namespace taut::world {
 
 struct BlockSpec final : SpecOf<BlockSpec, BodySpec>, MeshSource {
+    TAUT_VALUE(BlockSpec);
     static constexpr const char* kindName = "block";
     // A box …
     dvec3 size{0.5, 0.5, 0.5};  // [m]

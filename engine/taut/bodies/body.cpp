@@ -10,6 +10,9 @@
 #include "taut/spec/targets.h"
 
 namespace taut::world {
+
+TAUT_VALUE_MEMBERS(Body);
+TAUT_BASE_MEMBERS(BodySpec);
 namespace {
 
 using core::Error;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/bodies/damage.h"
 #include "taut/mechanics/model.h"
 #include "taut/spec/body_spec.h"
@@ -18,6 +19,7 @@ namespace taut::world {
 class Island;
 
 struct Body {
+    TAUT_VALUE(Body);
     std::shared_ptr<const BodySpec> spec;  // what it was made from; all copies of an array share it
     std::string name;                      // "flag", or "flag.2" in an array
     std::int64_t seed = 1;                 // of its jitter

@@ -14,6 +14,8 @@
 
 namespace taut::world {
 
+TAUT_VALUE_MEMBERS(ClothSpec);
+
 using fields::FieldList;
 using fields::Role;
 using fields::Section;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
 
@@ -20,6 +21,7 @@ struct ClothEdgeSpec {
 };
 
 struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
+    TAUT_VALUE(ClothSpec);
     static constexpr const char* kindName = "cloth";
     // A grid …
     dvec2 size{1.0, 1.0};  // [m]

@@ -20,6 +20,10 @@
 #include "taut/spec/targets.h"
 
 namespace taut::world {
+
+TAUT_VALUE_MEMBERS(Grip);
+TAUT_VALUE_MEMBERS(IslandPlan);
+TAUT_VALUE_MEMBERS(JointReport);
 namespace {
 
 using core::Error;

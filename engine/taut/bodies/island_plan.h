@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/bodies/body.h"
 #include "taut/mechanics/bending_elements.h"
 #include "taut/mechanics/mass_spring_system.h"
@@ -29,6 +30,7 @@ struct SpringOrigin {
 
 // The points that a hand or a collider holds. They keep their places relative to it and turn with it.
 struct Grip {
+    TAUT_VALUE(Grip);
     std::string holder;                      // the hand, or "collider.pole"
     bool ofCollider = false;                 // whether the holder is a collider
     bool rigid = false;                      // points follow exactly; else springs draw them
@@ -65,6 +67,7 @@ struct JointTie {
 
 // Points have the island's own numbers: body by body, welded points once.
 struct IslandPlan {
+    TAUT_VALUE(IslandPlan);
     std::vector<Body*> bodies;
     SolverSpec solver;
     std::vector<dvec3> positions, velocities;  // (points)
@@ -82,6 +85,7 @@ struct IslandPlan {
 
 // What a joint of the scene has become.
 struct JointReport {
+    TAUT_VALUE(JointReport);
     const JointSpec* spec = nullptr;
     struct Pair {
         const Body *a, *b;  // bodies of its two sides

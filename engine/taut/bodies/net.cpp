@@ -11,6 +11,12 @@
 
 namespace taut::world {
 
+NetSpec::NetSpec() {
+    thickness = radius;
+}
+TAUT_VALUE_COPIES(NetSpec);
+
+
 using fields::FieldList;
 using fields::notNegative;
 using fields::positive;

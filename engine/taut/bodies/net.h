@@ -1,6 +1,7 @@
 // Points and springs listed one by one.
 #pragma once
 
+#include "taut/core/value.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
 
@@ -30,7 +31,7 @@ struct NetSpec final : SpecOf<NetSpec, BodySpec> {
     double ball = 0.06;        // [m] radius of a drawn point with a mass of 1 kg
     PlasticitySpec plasticity{};
 
-    NetSpec() { thickness = radius; }
+    TAUT_VALUE(NetSpec);
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     PlasticitySpec plasticityIn(const SceneSpec&) const override { return plasticity; }

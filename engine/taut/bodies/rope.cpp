@@ -12,6 +12,12 @@
 
 namespace taut::world {
 
+RopeSpec::RopeSpec() {
+    thickness = radius;
+}
+TAUT_VALUE_COPIES(RopeSpec);
+
+
 using fields::Affects;
 using fields::FieldList;
 using fields::notNegative;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "taut/core/value.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
 
@@ -30,7 +31,7 @@ struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
 
-    RopeSpec() { thickness = radius; }
+    TAUT_VALUE(RopeSpec);
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     PlasticitySpec plasticityIn(const SceneSpec&) const override { return plasticity; }

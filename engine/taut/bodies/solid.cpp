@@ -19,6 +19,11 @@
 
 namespace taut::world {
 
+SolidSpec::SolidSpec() {
+    touch = Touch::others, thickness = 0.002;
+}
+TAUT_VALUE_COPIES(SolidSpec);
+
 using fields::FieldList;
 using fields::notNegative;
 using fields::positive;
@@ -52,21 +57,21 @@ void addBox(const dvec3& half, mechanics::RigidShape& shape) {
     }
 }
 
-// A prism of `sides` with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is 0.
+// A prism of `prismSides` with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is 0.
 void addPrism(double radius, double radiusAbove, double low, double high, mechanics::RigidShape& shape) {
-    constexpr int sides = 24;
+    constexpr int prismSides = 24;
     const auto add = [&](double r, double y, int k) {
-        const double angle = 2.0 * core::pi * k / sides;
+        const double angle = 2.0 * core::pi * k / prismSides;
         shape.positions.emplace_back(r * core::cosine(angle), y, r * core::sine(angle));
     };
     const bool hasTip = !(radiusAbove > 0);
     add(0.0, low, 0);
-    for (int k = 0; k < sides; ++k) add(radius, low, k);
+    for (int k = 0; k < prismSides; ++k) add(radius, low, k);
     const int top = static_cast<int>(shape.positions.size());
     add(0.0, high, 0);
-    for (int k = 0; k < sides && !hasTip; ++k) add(radiusAbove, high, k);
-    for (int k = 0; k < sides; ++k) {
-        const int a = 1 + k, b = 1 + (k + 1) % sides;
+    for (int k = 0; k < prismSides && !hasTip; ++k) add(radiusAbove, high, k);
+    for (int k = 0; k < prismSides; ++k) {
+        const int a = 1 + k, b = 1 + (k + 1) % prismSides;
         shape.triangles.push_back({0, a, b});
         if (hasTip) {
             shape.triangles.push_back({top, b, a});
@@ -76,7 +81,7 @@ void addPrism(double radius, double radiusAbove, double low, double high, mechan
         shape.triangles.push_back({b, top + a, top + b});
         shape.triangles.push_back({top, top + b, top + a});
     }
-    shape.parts.back().revolution = {{0, top}, {radius, radiusAbove}, radius * (1.0 - core::cosine(core::pi / sides))};
+    shape.parts.back().revolution = {{0, top}, {radius, radiusAbove}, radius * (1.0 - core::cosine(core::pi / prismSides))};
 }
 
 // The least convex body around the points.
@@ -182,7 +187,7 @@ FieldList<SolidSpec> shapeFields(In where) {
     return list;
 }
 
-std::string shapeOf(const fields::Node& table) {
+std::string shapeNameOf(const fields::Node& table) {
     return table.textAt("shape");
 }
 
@@ -205,7 +210,7 @@ void checkThickness(const fields::CheckInput& input, SolidSpec& solid, const std
 
 Section partSection() {
     Section section;
-    section.variant = shapeOf;
+    section.variant = shapeNameOf;
     section.variantKey = "shape";
     section.fields =
         shapeFields(In::compound)
@@ -242,7 +247,7 @@ void checkParts(const fields::CheckInput& input, SolidSpec& compound) {
 Section SolidSpec::section() {
     Section section;
     section.help = "A rigid body.";
-    section.variant = shapeOf;
+    section.variant = shapeNameOf;
     section.variantKey = "shape";
     section.fields = shapeFields(In::solid)
                          .tables("parts", &SolidSpec::parts, partSection(), "Shapes joined into one.")

@@ -1,6 +1,7 @@
 // A rigid body.
 #pragma once
 
+#include "taut/core/value.h"
 #include "taut/mechanics/rigid.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
@@ -26,7 +27,7 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     // density says nothing, and its mass is theirs if it has none.
     std::vector<SolidSpec> parts;
 
-    SolidSpec() { touch = Touch::others, thickness = 0.002; }
+    TAUT_VALUE(SolidSpec);
     bool isRound() const { return shape == "sphere" || shape == "capsule"; }
     // [m] Radius of the largest ball in a shape that has sharp edges; of others without bound.
     double mostThickness() const;

@@ -8,6 +8,9 @@
 
 namespace taut::fields {
 
+TAUT_VALUE_MEMBERS(Field);
+TAUT_VALUE_MEMBERS(Section);
+
 bool isName(const std::string& name) {
     return !name.empty() && name.size() <= 100 &&
            std::all_of(

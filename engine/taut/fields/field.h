@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/core/source.h"
 #include "taut/fields/node.h"
 
@@ -78,6 +79,7 @@ enum class Affects { picture, forces, colliders, springs };  // springs: of bodi
 struct Section;
 
 struct Field {
+    TAUT_VALUE(Field);
     std::string key;
     FieldKind kind = FieldKind::number;
     int components = 1;  // of vectors
@@ -122,6 +124,7 @@ enum class Layout {
 };
 
 struct Section {
+    TAUT_VALUE(Section);
     std::string name;
     Layout layout = Layout::table;
     std::string help;

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/value.h"
+
 namespace taut::mechanics {
 
 // How the mass is shared among points: by the length, area or volume around a point, or equally, m = M/n, as in the
@@ -128,6 +130,7 @@ struct RigidPart {
 };
 
 struct Model {
+    TAUT_VALUE(Model);
     // (points)
     std::vector<glm::dvec3> positions;   // [m]
     std::vector<glm::dvec3> velocities;  // [m/s]

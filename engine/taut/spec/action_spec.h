@@ -21,10 +21,10 @@ struct ActionSpec {
     Source source;
     double t = 0.0;  // [s]
 
-    ActionSpec() = default;
-    ActionSpec(const ActionSpec&) = default;
-    ActionSpec& operator=(const ActionSpec&) = default;
-    virtual ~ActionSpec() = default;
+    ActionSpec();
+    ActionSpec(const ActionSpec&);
+    ActionSpec& operator=(const ActionSpec&);
+    virtual ~ActionSpec();
     virtual std::string_view kind() const = 0;  // "push"
     virtual std::unique_ptr<ActionSpec> copy() const = 0;
 

@@ -102,10 +102,10 @@ struct BodySpec {
     SolverOverride solver;
     ArraySpec array;
 
-    BodySpec() = default;
-    BodySpec(const BodySpec&) = default;
-    BodySpec& operator=(const BodySpec&) = default;
-    virtual ~BodySpec() = default;
+    BodySpec();
+    BodySpec(const BodySpec&);
+    BodySpec& operator=(const BodySpec&);
+    virtual ~BodySpec();
     virtual std::string_view kind() const = 0;  // "cloth"
     virtual std::unique_ptr<BodySpec> copy() const = 0;
     std::string fullName() const { return std::string(kind()) + "." + name; }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/spec/source.h"
 
 namespace taut::check {
@@ -24,6 +25,7 @@ struct NeedSpec {                       // what "accurate enough" means for the 
 
 // A claim about the state, e.g. "max_strain(cloth.*) < 0.1". Without at, from and upTo it must always hold.
 struct CheckSpec {
+    TAUT_VALUE(CheckSpec);
     Source source;  // of the text's first character
     std::string that;
     std::shared_ptr<const check::Check> parsed;  // set by the loader; none: whoever needs it parses the text
@@ -33,6 +35,7 @@ struct CheckSpec {
 
 // What was measured of a quantity, such as "lowest(cloth.strip)": one value at a moment, or a curve.
 struct FitTarget {
+    TAUT_VALUE(FitTarget);
     struct Point {
         double time = 0;   // [s]
         double value = 0;  // in the unit of the quantity, as sigma
@@ -48,6 +51,7 @@ struct FitTarget {
 
 // Numbers of the scene that are sought, so that it does what was measured.
 struct FitSpec {
+    TAUT_VALUE(FitSpec);
     std::vector<std::string> keys;  // dotted paths, as of --set
     std::vector<double> low, high;  // (keys)
     std::vector<double> start;      // (keys) set by the loader: their values in the scene
@@ -56,6 +60,7 @@ struct FitSpec {
 
 // Pictures to compare with recorded ones.
 struct GoldenSpec {
+    TAUT_VALUE(GoldenSpec);
     Source source;
     std::vector<int> frames;  // numbers, from 0
     bool restart = false;     // draws the state stored with the picture instead of the computed one

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/spec/finish_spec.h"
 #include "taut/spec/mesh_data.h"
 #include "taut/spec/source.h"
@@ -21,6 +22,7 @@ struct PoseKey {
 };
 
 struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh, a figure
+    TAUT_VALUE(ColliderSpec);
     std::string name;
     Source source;
     std::string shape = "sphere";  // a name from the table of shapes (collision/shape_table.h), or compound

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "taut/core/value.h"
 #include "taut/spec/source.h"
 #include "taut/view/frame_view.h"
 
@@ -14,6 +15,7 @@ struct MeshData;
 
 // How a thing looks; see view::Finish.
 struct FinishSpec {
+    TAUT_VALUE(FinishSpec);
     dvec3 colour{0.75, 0.72, 0.68};
     std::optional<dvec3> backColour;  // none: a paler colour
     dvec3 accent{0.95, 0.93, 0.88};

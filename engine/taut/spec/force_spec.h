@@ -19,10 +19,10 @@ struct ForceSpec {
     std::string name;  // without the kind: "breeze"
     Source source;
 
-    ForceSpec() = default;
-    ForceSpec(const ForceSpec&) = default;
-    ForceSpec& operator=(const ForceSpec&) = default;
-    virtual ~ForceSpec() = default;
+    ForceSpec();
+    ForceSpec(const ForceSpec&);
+    ForceSpec& operator=(const ForceSpec&);
+    virtual ~ForceSpec();
     virtual std::string_view kind() const = 0;  // "wind"
     virtual std::unique_ptr<ForceSpec> copy() const = 0;
     std::string fullName() const { return std::string(kind()) + "." + name; }

@@ -53,12 +53,12 @@ struct JointSpec {
     JointLook look;
     Source source;
 
-    JointSpec() = default;
+    JointSpec();
     JointSpec(JointSide first, JointSide second, Source where = {})
         : a(std::move(first)), b(std::move(second)), source(std::move(where)) {}
-    JointSpec(const JointSpec&) = default;
-    JointSpec& operator=(const JointSpec&) = default;
-    virtual ~JointSpec() = default;
+    JointSpec(const JointSpec&);
+    JointSpec& operator=(const JointSpec&);
+    virtual ~JointSpec();
     virtual std::string_view kind() const = 0;   // "spring"
     virtual std::string_view title() const = 0;  // "a spring joint", as messages call it
     virtual std::unique_ptr<JointSpec> copy() const = 0;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/figure/figure.h"
 #include "taut/spec/source.h"
 
@@ -15,6 +16,7 @@ namespace taut::world {
 
 // Contents of a mesh file, before scale, rotation and position. Vertices are welded by position; a triangle uses each.
 struct MeshData {
+    TAUT_VALUE(MeshData);
     std::vector<dvec3> positions;                    // (vertices) in the file's unit
     std::vector<dvec2> uv;                           // (vertices) as in the file, or empty if a corner has none
     std::vector<std::array<int, 3>> triangles;       // (triangles) indices of vertices, oriented as in the file

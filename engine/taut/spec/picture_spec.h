@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/spec/source.h"
 #include "taut/view/frame_view.h"
 
@@ -20,6 +21,7 @@ struct CameraKey {
 };
 
 struct CameraSpec {
+    TAUT_VALUE(CameraSpec);
     std::string name;
     Source source;
     dvec3 eye{0.0, 1.5, 5.0}, target{0.0, 1.0, 0.0};  // [m]
@@ -47,6 +49,7 @@ struct EnvironmentSpec {
 
 // A further light, as far away as the sun.
 struct LampSpec {
+    TAUT_VALUE(LampSpec);
     std::string name;
     Source source;
     dvec3 direction{0.5, -1.0, 0.4};  // the way the light travels
@@ -68,6 +71,7 @@ struct BackgroundSpec {
 // A line of text in the picture. It hangs above the body, unless a place is given. Once the body is frozen, a second
 // line says so.
 struct LabelSpec {
+    TAUT_VALUE(LabelSpec);
     std::string name;
     Source source;
     std::optional<std::string> text;  // none: the method of the body

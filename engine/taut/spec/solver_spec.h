@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "taut/core/value.h"
+
 namespace taut::ode {
 class Methods;
 }
@@ -19,6 +21,7 @@ enum class OnDivergence { stop, freeze };
 enum class Dashpots { automatic, extrapolated, split };
 
 struct SolverSpec {
+    TAUT_VALUE(SolverSpec);
     std::string integrator = "leapfrog";
     std::optional<double> dt;  // [s] largest step; none: found from the stability bound ("auto")
     double safety = 0.9;       // share of the stability limit that "auto" uses
@@ -35,6 +38,7 @@ struct SolverSpec {
 
 // The parts of [solver] that a body may override; none: as in the scene.
 struct SolverOverride {
+    TAUT_VALUE(SolverOverride);
     std::optional<std::string> integrator;
     std::optional<double> dt;
     std::optional<double> safety;

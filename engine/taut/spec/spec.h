@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/value.h"
 #include "taut/spec/action_spec.h"
 #include "taut/spec/body_spec.h"
 #include "taut/spec/claim_spec.h"
@@ -59,6 +60,7 @@ struct MassSpec {  // mass added to points
 };
 
 struct SceneSpec {
+    TAUT_VALUE(SceneSpec);
     std::string file;
     std::vector<std::string> bases;    // the files on which it builds, the nearest first
     std::vector<std::string> fabrics;  // the files of the library from which it takes materials

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/value.h"
+
 namespace taut::view {
 
 // All colours are linear RGB, 1 is white paper in full light. Lengths in metres, angles in radians, y up.
@@ -140,6 +142,7 @@ struct Label {
 
 // Expects of every surface topology, geometry and finish, and as many uv, positions and normals; mostLamps at most.
 struct FrameView {
+    TAUT_VALUE(FrameView);
     std::int64_t frame = 0;
     double time = 0.0;  // [s]
     Camera camera;

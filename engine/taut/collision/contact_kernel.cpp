@@ -1,4 +1,4 @@
-// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+// Compiled once for each instruction set; see taut_kernels in engine/taut.cmake.
 //
 // The kernel does what resolve.cpp does to one point, with the same order of operations, in loops over a batch: where
 // the path ends, its distance there, then the response (response.h). It finds out whether a path may have come through

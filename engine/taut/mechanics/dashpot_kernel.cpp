@@ -1,4 +1,4 @@
-// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+// Compiled once for each instruction set; see taut_kernels in engine/taut.cmake.
 #include "taut/mechanics/dashpot_kernel.h"
 
 #include "taut/core/private/vectorise.h"
@@ -7,13 +7,13 @@ namespace taut::mechanics::TAUT_ISA {
 namespace {
 
 // Dashpots at once, so that data between the loops stays in the first-level cache.
-constexpr int slice = 256;
+constexpr int dashpotSlice = 256;
 
 template <class Real>
 struct Slice {
     // Impulses over lengths. There is room on both sides for missing neighbours, whose impulse is 0.
-    alignas(64) Real p[3 * slice], again[3 * slice];
-    alignas(64) Real dx[slice], dy[slice], dz[slice], half[slice], up[slice], down[slice];
+    alignas(64) Real p[3 * dashpotSlice], again[3 * dashpotSlice];
+    alignas(64) Real dx[dashpotSlice], dy[dashpotSlice], dz[dashpotSlice], half[dashpotSlice], up[dashpotSlice], down[dashpotSlice];
 };
 
 // Planes at both ends of dashpots.
@@ -57,7 +57,7 @@ inline void impulses(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b
         const Real dx = x.bx[i] - x.ax[i], dy = x.by[i] - x.ay[i], dz = x.bz[i] - x.az[i];
         const Real square = dx * dx + dy * dy + dz * dz;
         const Real factor = square > Real(0) ? g[i] / square : Real(0);
-        b.p[slice + i] = factor * ((u.bx[i] - u.ax[i]) * dx + (u.by[i] - u.ay[i]) * dy + (u.bz[i] - u.az[i]) * dz);
+        b.p[dashpotSlice + i] = factor * ((u.bx[i] - u.ax[i]) * dx + (u.by[i] - u.ay[i]) * dy + (u.bz[i] - u.az[i]) * dz);
         b.half[i] = Real(0.5) * factor;
         b.dx[i] = dx;
         b.dy[i] = dy;
@@ -84,7 +84,7 @@ inline void couplings(const DashpotRun<Real>& s, int first, int n, Slice<Real>& 
 template <class Real>
 inline void coupleLoosely(int offset, int n, Slice<Real>& b) {
     constexpr int times = 4;
-    Real *alone = b.half, *p = b.p + slice, *next = b.again + slice;
+    Real *alone = b.half, *p = b.p + dashpotSlice, *next = b.again + dashpotSlice;
     for (int i = 0; i < n; ++i) alone[i] = p[i];
     for (int i = 1; i <= offset; ++i) p[-i] = p[n + i - 1] = next[-i] = next[n + i - 1] = Real(0);
     for (int time = 0; time < times; ++time) {
@@ -100,7 +100,7 @@ inline void coupleLoosely(int offset, int n, Slice<Real>& b) {
 // Solves the couplings by elimination along each chain of springs.
 template <class Real>
 inline void coupleStiffly(int offset, int n, Slice<Real>& b) {
-    Real *p = b.p + slice, *pivot = b.again + slice;
+    Real *p = b.p + dashpotSlice, *pivot = b.again + dashpotSlice;
     for (int i = 0; i < n; ++i) {
         const Real factor = i < offset ? Real(0) : b.down[i] / pivot[i - offset];
         pivot[i] = i < offset ? Real(1) : Real(1) - factor * b.up[i - offset];
@@ -112,7 +112,7 @@ inline void coupleStiffly(int offset, int n, Slice<Real>& b) {
 template <class Real>
 inline void apply(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b) {
     const long stride = s.stride, offset = s.offset;
-    const Real *wa = s.w + first, *wb = wa + offset, *p = b.p + slice;
+    const Real *wa = s.w + first, *wb = wa + offset, *p = b.p + dashpotSlice;
     const Real* const ways[3] = {b.dx, b.dy, b.dz};
     for (int axis = 0; axis < 3; ++axis) {
         Real *va = s.v + first + axis * stride, *vb = va + offset;
@@ -141,10 +141,10 @@ inline void dampSlice(const DashpotRun<Real>& s, int first, int n, Slice<Real>& 
 template <class Real>
 void dampRun(const DashpotRun<Real>& s) {
     Slice<Real> b;
-    const int count = (s.n + slice - 1) / slice;
+    const int count = (s.n + dashpotSlice - 1) / dashpotSlice;
     for (int i = 0; i < count; ++i) {
-        const int first = (s.isForwards ? i : count - 1 - i) * slice;
-        dampSlice(s, first, s.n - first < slice ? s.n - first : slice, b);
+        const int first = (s.isForwards ? i : count - 1 - i) * dashpotSlice;
+        dampSlice(s, first, s.n - first < dashpotSlice ? s.n - first : dashpotSlice, b);
     }
 }
 template void dampRun(const DashpotRun<float>&);

@@ -1,4 +1,4 @@
-// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+// Compiled once for each instruction set; see taut_kernels in engine/taut.cmake.
 #include "taut/mechanics/product_kernel.h"
 
 #include "taut/core/private/vectorise.h"
@@ -6,7 +6,7 @@
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-constexpr int slice = 128;  // springs at once; their ends a and b do not overlap, unless the offset is shorter
+constexpr int productSlice = 128;  // springs at once; their ends a and b do not overlap, unless the offset is shorter
 
 template <class Real, bool apart>
 inline void addSlice(const ProductRun<Real>& s, int first, int n) {
@@ -16,7 +16,7 @@ inline void addSlice(const ProductRun<Real>& s, int first, int n) {
     Real *oxa = s.out + first, *oya = oxa + stride, *oza = oya + stride;
     Real *oxb = oxa + offset, *oyb = oya + offset, *ozb = oza + offset;
     const Real *qx = s.q[0] + first, *qy = s.q[1] + first, *qz = s.q[2] + first, *beta = s.beta + first;
-    alignas(64) Real gx[slice], gy[slice], gz[slice];
+    alignas(64) Real gx[productSlice], gy[productSlice], gz[productSlice];
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const Real dx = xb[i] - xa[i], dy = yb[i] - ya[i], dz = zb[i] - za[i];
@@ -49,8 +49,8 @@ inline void addSlice(const ProductRun<Real>& s, int first, int n) {
 
 template <class Real>
 void addProducts(const ProductRun<Real>& s) {
-    for (int first = 0; first < s.n; first += slice) {
-        const int n = s.n - first < slice ? s.n - first : slice;
+    for (int first = 0; first < s.n; first += productSlice) {
+        const int n = s.n - first < productSlice ? s.n - first : productSlice;
         if (s.offset >= n)
             addSlice<Real, true>(s, first, n);
         else

@@ -1,4 +1,4 @@
-// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+// Compiled once for each instruction set; see taut_kernels in engine/taut.cmake.
 //
 // Hooke's law with a dashpot along the spring, d = x_b - x_a, l = |d|, n = d/l:
 //   F_a = k [l - L + τ u·n] n = k [1 - (L - τ u·d/l)/l] d,   u = v_b - v_a,   F_b = -F_a
@@ -41,7 +41,7 @@ inline V factor(V cx, V cy, V cz, V uc, V k, V rest, V tau) {
 // Springs of each run that are computed at once. Their pulls wait until all are done, because end a of one spring may
 // be end b of another. Meanwhile the pulls stay in the first-level cache.
 template <class Real>
-constexpr int slice = 1024 / static_cast<int>(sizeof(Real));
+constexpr int springSlice = 1024 / static_cast<int>(sizeof(Real));
 
 // Runs whose offsets differ by no more than this are taken off the forces together. So each force is loaded and stored
 // once for all of them, and is not loaded while its last store is still on its way to the cache.
@@ -52,7 +52,7 @@ constexpr int margin = 4;
 template <class Real>
 struct Pulls {
     static constexpr int line = 64 / static_cast<int>(sizeof(Real));
-    static constexpr int plane = line + slice<Real> + line;
+    static constexpr int plane = line + springSlice<Real> + line;
     alignas(64) Real of[1 + mostTogether][3][plane];
     // The values of each run, repeated for every lane.
     alignas(64) Real rest[mostTogether][line], tau[mostTogether][line];
@@ -179,8 +179,8 @@ inline void bundle(const SpringBundleArgs<Real>& s) {
             pulls.rest[r][i] = s.runs[r].restLength;
             pulls.tau[r][i] = s.runs[r].tau;
         }
-    for (int first = 0; first < s.runs->count; first += slice<Real>) {
-        const int n = s.runs->count - first < slice<Real> ? s.runs->count - first : slice<Real>;
+    for (int first = 0; first < s.runs->count; first += springSlice<Real>) {
+        const int n = s.runs->count - first < springSlice<Real> ? s.runs->count - first : springSlice<Real>;
         if (n >= wide)
             pullAll<WideVector<Real>, Real, damped, mixed>(s, first, n, pulls);
         else if (n >= narrow)

@@ -10,7 +10,7 @@ namespace {
 
 // Planes of the eight corners' positions: [corner][axis].
 template <class Real>
-struct Corners {
+struct CellCorners {
     const Real* of[8][3];
 };
 
@@ -61,7 +61,7 @@ inline void store(const Triple<Real>& u, int l, Real (&of)[3][kernelBlock]) {
 // Each of a, a', b, b', c, c' ends at corner 0 or 7, and at one of the others. So the derivatives by them are the
 // forces on the others, and their sums those on 0 and 7.
 template <class Real>
-inline void findPressure(const Corners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold,
+inline void findPressure(const CellCorners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold,
                          int count, Forces<Real>& forces) {
     TAUT_INDEPENDENT
     for (int l = 0; l < count; ++l) {
@@ -92,7 +92,7 @@ inline void findPressure(const Corners<Real>& x, const Real* twelfthOfBulk, cons
 constexpr int around[7] = {1, 3, 2, 6, 4, 5, 1};
 
 template <class Real>
-inline void findLeast(const Corners<Real>& x, int count, Forces<Real>& forces) {
+inline void findLeast(const CellCorners<Real>& x, int count, Forces<Real>& forces) {
     TAUT_INDEPENDENT
     for (int l = 0; l < count; ++l) {
         const Triple<Real> p0 = at(x.of[0], l), d = at(x.of[7], l) - p0;
@@ -112,7 +112,7 @@ inline void findLeast(const Corners<Real>& x, int count, Forces<Real>& forces) {
 
 // F_i = -K (V_t/V0_t) ∂V_t/∂p_i of each tetrahedron of the cell in lane l that is turned inside out.
 template <class Real>
-inline void addFolds(const Corners<Real>& x, Real twelfthOfBulk, Real inverseRestTwelvefold, int l,
+inline void addFolds(const CellCorners<Real>& x, Real twelfthOfBulk, Real inverseRestTwelvefold, int l,
                      Forces<Real>& forces) {
     const Triple<Real> p0 = at(x.of[0], l), d = at(x.of[7], l) - p0;
     for (int k = 0; k < 6; ++k) {
@@ -133,7 +133,7 @@ inline void addFolds(const Corners<Real>& x, Real twelfthOfBulk, Real inverseRes
 }
 
 template <class Real>
-inline void findForces(const Corners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold, int count,
+inline void findForces(const CellCorners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold, int count,
                        Forces<Real>& forces) {
     findPressure(x, twelfthOfBulk, inverseRestTwelvefold, count, forces);
     findLeast(x, count, forces);
@@ -146,7 +146,7 @@ void addRun(const VolumeBatch<Real>& batch, const CornerRun<8>& run) {
     Forces<Real> forces;
     for (int start = 0; start < run.count; start += kernelBlock) {
         const int count = run.count - start < kernelBlock ? run.count - start : kernelBlock;
-        Corners<Real> x;
+        CellCorners<Real> x;
         for (int corner = 0; corner < 8; ++corner)
             for (int axis = 0; axis < 3; ++axis)
                 x.of[corner][axis] = batch.x + static_cast<long>(axis) * batch.stride + run.first[corner] + start;
@@ -173,7 +173,7 @@ void addLoose(const VolumeBatch<Real>& batch) {
 
     Forces<Real> forces;
     alignas(64) Real places[8][3][kernelBlock];
-    Corners<Real> x;
+    CellCorners<Real> x;
     for (int corner = 0; corner < 8; ++corner)
         for (int axis = 0; axis < 3; ++axis) x.of[corner][axis] = places[corner][axis];
     for (int start = 0; start < lanes.looseCount; start += kernelBlock) {

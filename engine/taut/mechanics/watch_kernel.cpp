@@ -1,4 +1,4 @@
-// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+// Compiled once for each instruction set; see taut_kernels in engine/taut.cmake.
 #include "taut/mechanics/private/watch_kernel.h"
 
 #include <cstdint>

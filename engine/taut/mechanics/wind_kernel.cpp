@@ -26,7 +26,7 @@ struct Block {
 
 // Planes of a vector at the three corners: [corner][axis].
 template <class Real>
-struct Corners {
+struct TriangleCorners {
     const Real* of[3][3];
 };
 
@@ -72,7 +72,7 @@ inline void findSlip(const WindBatch<Real>& batch) {
 }
 
 template <class Real>
-inline void findRelativeAir(const Corners<Real>& slip, const Real* flow, int count, Block<Real>& block) {
+inline void findRelativeAir(const TriangleCorners<Real>& slip, const Real* flow, int count, Block<Real>& block) {
     const Real third = Real(1.0 / 3.0);
     for (int axis = 0; axis < 3; ++axis) {
         const Real *a = slip.of[0][axis], *b = slip.of[1][axis], *c = slip.of[2][axis];
@@ -87,7 +87,7 @@ inline void findRelativeAir(const Corners<Real>& slip, const Real* flow, int cou
 //   ¼ρ (C_D |q| u + C_L c (|u|² N - q u)).
 // A tiny number added to |u||N| makes 0/0 a 0: without area or wind there is no force.
 template <class Real>
-inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Real lift, int count,
+inline void findForces(const TriangleCorners<Real>& x, const Real* weight, Real drag, Real lift, int count,
                        Block<Real>& block) {
     const Real *xa = x.of[0][0], *ya = x.of[0][1], *za = x.of[0][2];
     const Real *xb = x.of[1][0], *yb = x.of[1][1], *zb = x.of[1][2];
@@ -113,7 +113,7 @@ inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Re
 }
 
 template <class Real>
-inline void findBlock(const WindBatch<Real>& batch, const Corners<Real>& x, const Corners<Real>& slip, int lane,
+inline void findBlock(const WindBatch<Real>& batch, const TriangleCorners<Real>& x, const TriangleCorners<Real>& slip, int lane,
                       int count, Block<Real>& block) {
     findRelativeAir(slip, batch.flow, count, block);
     findForces(x, batch.weight + lane, batch.drag, batch.lift, count, block);
@@ -131,7 +131,7 @@ void addRun(const WindBatch<Real>& batch, const Planes<Real>& slip, const Corner
     Block<Real> block;
     for (int start = 0; start < run.count; start += kernelBlock) {
         const int count = run.count - start < kernelBlock ? run.count - start : kernelBlock;
-        Corners<Real> x, u;
+        TriangleCorners<Real> x, u;
         for (int corner = 0; corner < 3; ++corner)
             for (int axis = 0; axis < 3; ++axis) {
                 const long first = run.first[corner] + start;
@@ -162,7 +162,7 @@ void addLoose(const WindBatch<Real>& batch, const Planes<Real>& slip) {
 
     Block<Real> block;
     alignas(64) Real zero[kernelBlock] = {}, b[3][kernelBlock], c[3][kernelBlock], sum[3][kernelBlock];
-    Corners<Real> x, u;
+    TriangleCorners<Real> x, u;
     for (int axis = 0; axis < 3; ++axis) {
         x.of[0][axis] = u.of[1][axis] = u.of[2][axis] = zero;
         x.of[1][axis] = b[axis];

@@ -20,7 +20,7 @@ constexpr double longestRun = 0.5;       // [s] of motion in each run unless ask
 constexpr double mostStep = 1.0 / 60;    // [s] no tick is longer
 constexpr double stir = 1e-9;            // [m]
 constexpr double apart = 1.01;           // at which bisection ends
-constexpr double leastShare = 1.0 / 32;  // of leap-frog's limit: the shortest step tried, or
+constexpr double leastShareOfLimit = 1.0 / 32;  // of leap-frog's limit: the shortest step tried, or
 constexpr double belowTheory = 0.5;      // of the predicted limit where that is less, but
 constexpr double mostRunSteps = 1e6;     // in a run, however short that limit
 constexpr double beyondTheory = 1.05;    // of the predicted limit: from there on what stands only fails later
@@ -43,9 +43,9 @@ double smaller(double a, double b) {
     return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::min(a, b);
 }
 
-class Search {
+class ThresholdSearch {
   public:
-    Search(const world::SceneSpec& spec, const ThresholdSettings& settings, SceneThresholds& result)
+    ThresholdSearch(const world::SceneSpec& spec, const ThresholdSettings& settings, SceneThresholds& result)
         : spec_(spec), settings_(settings), result_(result) {}
 
     void run() {
@@ -147,7 +147,7 @@ class Search {
         const double leapfrog = predictedFor(*ode::findMethod("leapfrog")).lanczos;
         const double base = std::min(std::isfinite(leapfrog) ? leapfrog : mostStep, mostStep);
         const double predicted = threshold.predicted.lanczos;
-        double least = leastShare * base;
+        double least = leastShareOfLimit * base;
         if (predicted > 0) least = std::min(least, std::max(belowTheory * predicted, result_.seconds / mostRunSteps));
         double h = predicted;
         if (!(h > least) || !std::isfinite(h)) h = base;
@@ -231,7 +231,7 @@ SceneThresholds findThresholds(const world::SceneSpec& spec, const std::string& 
     result.title = spec.title.empty() ? name : spec.title;
     result.seconds = settings.seconds > 0 ? settings.seconds : std::min(spec.run.seconds, longestRun);
     result.mostStep = mostStep;
-    Search(spec, settings, result).run();
+    ThresholdSearch(spec, settings, result).run();
     return result;
 }
 

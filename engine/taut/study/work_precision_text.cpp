@@ -74,7 +74,7 @@ const RunPoint* cheapest(const WorkPrecision& study, const std::string& method, 
     return best;
 }
 
-std::string limitText(double limit) {
+std::string largestStepText(double limit) {
     return limit == 0 ? "none" : std::isfinite(limit) ? fmt::format("{:.3g}", 1e3 * limit) : "any";
 }
 
@@ -146,7 +146,7 @@ std::string workPrecisionSummary(const WorkPrecision& study) {
             if (all == 0) continue;
             const double extent = study.reference.extent;
             table.rows.push_back(
-                {method.name, std::string(nameOf(precision)), limitText(method.stepLimit),
+                {method.name, std::string(nameOf(precision)), largestStepText(method.stepLimit),
                  measuredOrder(study, method.name, precision), best == nullptr ? RunPoint::unset : best->rmsError,
                  best == nullptr ? RunPoint::unset : 1e3 * best->step, cost(1e-2 * extent, method, precision),
                  cost(1e-3 * extent, method, precision), failed});

@@ -9,7 +9,7 @@
 
 namespace taut::core {
 
-// The sets that kernels are compiled for (taut_kernel in engine/taut.cmake), from the narrowest on: each with its name
+// The sets that kernels are compiled for (taut_kernels in engine/taut.cmake), from the narrowest on: each with its name
 // and whether this processor has it. The first is what every processor has.
 #if defined(__wasm__)
 #define TAUT_SETS(each, ...) each(wasm128, true, __VA_ARGS__)

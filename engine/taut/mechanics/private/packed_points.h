@@ -1,5 +1,5 @@
 // Points packed as x y z 0 in one vector, for elements that jump between points. Include it only in files of
-// taut_kernel, because everything in it belongs to TAUT_ISA.
+// taut_kernels, because everything in it belongs to TAUT_ISA.
 #pragma once
 
 #include "taut/core/private/vectors.h"

@@ -10,7 +10,9 @@ case ${1-film} in
     *) echo "Usage: sh game/film.sh [film | demo | stills]" >&2; exit 2 ;;
 esac
 . "$root/game/build.sh"
+start=$(date +%s)
 taut_build
+built=$(date +%s)
 
 out=$root/out/film
 size=${TAUT_SIZE:-1920x1080}
@@ -100,7 +102,15 @@ while read -r scene first last title; do
 done <<END
 $shots
 END
-ffmpeg -v error -y $inputs -filter_complex "$graph${joined}concat=n=$n[v]" -map "[v]" -c:v libx264 -preset fast -crf 18 \
-    -pix_fmt yuv420p -movflags +faststart taut.mp4
-[ "${1-film}" != demo ] || echo "Frames: $out/0-show/frame_000010.png and so on"
-echo "Film:   $out/taut.mp4"
+drawn=$(date +%s)
+ffmpeg -v error -y $inputs -filter_complex "$graph${joined}concat=n=$n[v]" -map "[v]" \
+    -c:v libx264 -preset veryfast -crf 18 -pix_fmt yuv420p -movflags +faststart taut.mp4
+echo "Film:     $out/taut.mp4"
+[ "${1-film}" = demo ] || exit 0
+end=$(date +%s)
+cat <<END
+Frames:   $out/0-show/frame_000010.png and so on
+Took:     packages and build $((built - start)) s, pictures $((drawn - built)) s, titles $((end - drawn)) s
+Try next: $taut render flag -o flag.mp4
+On PATH:  export PATH="$build/game:\$PATH"
+END

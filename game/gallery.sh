@@ -6,7 +6,7 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/game/build.sh"
 taut_build
-taut_install test # three.js
+taut_install all # three.js
 sh "$root/game/web.sh"
 
 out=$root/out/gallery

@@ -4,7 +4,7 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/game/build.sh"
 . "$root/game/install.sh"
-taut_install package
+taut_install python package
 taut_build -DTAUT_PYTHON=ON
 
 mkdir -p "$root/out/packages"

@@ -4,6 +4,7 @@
 # into build-web.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
+. "$root/game/build.sh"
 . "$root/game/install.sh"
 taut_install run web
 build=$root/build-web
@@ -41,10 +42,8 @@ deflate=$(source_of libdeflate)
 # emscripten's own scripts need packages of Debian's node, which another node does not look for.
 NODE_PATH=/usr/share/nodejs${NODE_PATH:+:$NODE_PATH}
 export NODE_PATH
-cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTAUT_UNITY=24 \
+taut_cmake "$root" "$build" all -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake \
     -DTAUT_RENDER=OFF -DTAUT_PROGRAM=OFF -DTAUT_TESTS=OFF -DTAUT_PYTHON=OFF -DTAUT_INSTALL=OFF -DTAUT_THREADS=OFF \
-    -DTAUT_BULLET_SOURCE="$bullet/src" -DTAUT_DEFLATE_SOURCE="$deflate" >"$build.log" 2>&1 ||
-    { tail -n 30 "$build.log" >&2; exit 1; }
-cmake --build "$build" >>"$build.log" 2>&1 || { grep -A 12 -E 'error|FAILED' "$build.log" | head -n 60 >&2; exit 1; }
+    -DTAUT_BULLET_SOURCE="$bullet/src" -DTAUT_DEFLATE_SOURCE="$deflate"
 echo "$build/game/web/taut: $(wc -c <"$build/game/web/taut/taut.wasm.gz") bytes of WebAssembly, compressed"

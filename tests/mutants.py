@@ -281,7 +281,7 @@ def run(copy, options):
     copy_to(copy)
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     subprocess.run(["cmake", "-G", "Ninja", "-S", str(copy), "-B", str(copy / "build"), "-DCMAKE_BUILD_TYPE=Release",
-                    "-DTAUT_UNITY=24", "-DTAUT_PYTHON=OFF"] + launcher, check=True, stdout=subprocess.DEVNULL)
+                    "-DTAUT_PYTHON=OFF"] + launcher, check=True, stdout=subprocess.DEVNULL)
     broken = build(copy, options.jobs)
     if broken:
         refuse("without a mistake it is not built:\n" + broken)

@@ -1,49 +1,69 @@
 #!/bin/sh
-# Builds everything and passes every test: g++ all of them, clang the determinism tests (its hashes against those of
-# g++) in a project that has taut as a subproject, and under AddressSanitizer and UndefinedBehaviorSanitizer the unit
-# tests. With --peers also what other programs make of strips of cloth, Blender among them. With --long also the physics
-# tests under sanitizers, the fuzzer for ten seconds a reader, the engine as WebAssembly, and those labelled long, which
-# take minutes and rarely break.
+# Builds with g++ and passes the tests that decide whether taut works: unit, physics, determinism, goldens, documents,
+# Python. tests/README.md says what runs where.
+#   --all    also clang's determinism tests (in a project that has taut as a subproject; its hashes against those of
+#            g++), the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, every file compiled by itself,
+#            and the tests labelled `all`: every golden, installation, what other programs read, a browser
+#   --long   also the physics tests under sanitizers, the fuzzer for ten seconds a reader, the engine as WebAssembly, and
+#            the tests labelled `long`, which take minutes and rarely break
+#   --peers  also what Blender and Bullet make of strips of cloth
+# --all and --long do not repeat tests that have passed since the last change.
 set -eu
-case ${1-} in
-    '') without='-LE long|peers' sanitized=unit fuzzed= more= ;;
-    --peers) without='-LE long' sanitized=unit fuzzed= more=peers ;;
-    --long) without='-LE peers' sanitized='unit|physics' fuzzed=yes more='farm web' ;;
-    *) echo "usage: sh tests/run.sh [--long|--peers]" >&2 && exit 2 ;;
-esac
 root=$(cd "$(dirname "$0")/.." && pwd)
+case ${1-} in
+    '') packages= labels= ;;
+    --all) packages=all labels=all ;;
+    --long) packages='all farm web' labels='all|long' ;;
+    --peers) packages=peers labels=peers ;;
+    *) echo "usage: sh tests/run.sh [--all | --long | --peers]" >&2 && exit 2 ;;
+esac
+. "$root/game/build.sh"
 . "$root/game/install.sh"
-# shellcheck disable=SC2086  # a word or none
-taut_install run package test $more
-
-# build NAME SOURCE "TARGETS" CMAKE-ARGUMENTS...: configures and builds into an ignored folder.
-build() {
-    folder=$root/build-$1
-    source=$2
-    targets=$3
-    shift 3
-    cmake -G Ninja -S "$source" -B "$folder" -DTAUT_UNITY=24 "$@" >"$folder.log" 2>&1 || { tail -n 30 "$folder.log" >&2; exit 1; }
-    echo "Building $folder"
-    # shellcheck disable=SC2086  # one word a target
-    cmake --build "$folder" --target $targets >>"$folder.log" 2>&1 || { grep -A 12 -E 'error|FAILED' "$folder.log" | head -n 60 >&2; exit 1; }
-}
+# shellcheck disable=SC2086  # words
+taut_install run python test $packages
 mkdir -p "$root/out"
 jobs=$(nproc 2>/dev/null || echo 2)
+gcc=$root/build-gcc
 
-build gcc "$root" all -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release -DTAUT_BENCH=ON -DTAUT_PYTHON=ON
-build clang "$root/tests/consumer" "taut_determinism consumer_all" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
-    -DCMAKE_BUILD_TYPE=Release -DTAUT_PROGRAM=ON -DTAUT_TESTS=ON -DTAUT_WERROR=ON
-build asan "$root" "taut taut_$(echo "$sanitized" | sed 's/|/ taut_/')" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan \
-    -DTAUT_PYTHON=OFF
-if [ "$fuzzed" ]; then
-    sh "$root/game/web.sh"
-    build fuzz "$root" taut_fuzz -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Asan \
-        -DTAUT_FUZZ=ON -DTAUT_PROGRAM=OFF -DTAUT_TESTS=OFF
-    ctest --test-dir "$root/build-fuzz" --output-on-failure -j "$jobs" -L fuzz
+# build FOLDER SOURCE TARGETS COMPILER CMAKE-ARGUMENT...
+build() {
+    folder=$1 source=$2 targets=$3 compiler=$4
+    shift 4
+    taut_cmake "$source" "$folder" "$targets" -DCMAKE_CXX_COMPILER="${compiler%,*}" -DCMAKE_C_COMPILER="${compiler#*,}" \
+        -DTAUT_WERROR=ON "$@"
+}
+# pass FOLDER CTEST-ARGUMENT...
+pass() {
+    folder=$1
+    shift
+    ctest --test-dir "$folder" --output-on-failure -j "$jobs" "$@"
+}
+
+build "$gcc" "$root" all g++,gcc -DCMAKE_BUILD_TYPE=Release -DTAUT_PYTHON=ON -DTAUT_BENCH=$([ "$labels" ] && echo ON || echo OFF)
+passed=$gcc/passed
+if [ ! "$labels" ] || [ ! -e "$passed" ] || [ "$(cd "$root" && find .ci CMakeLists.txt README.md assets engine game shaders tests -newer "$passed")" ]; then
+    : >"$passed.begun"
+    pass "$gcc" -LE 'all|long|peers'
+    mv "$passed.begun" "$passed"
 fi
+[ "$labels" ] || exit 0
 
-ctest --test-dir "$root/build-clang" --output-on-failure -j "$jobs" -L determinism
-ctest --test-dir "$root/build-asan" --output-on-failure -j "$jobs" -L "$sanitized"
-# Last, so that the closing lines are those of the whole suite.
-# shellcheck disable=SC2086  # two words
-ctest --test-dir "$root/build-gcc" --output-on-failure -j "$jobs" $without
+if [ "$labels" != peers ]; then
+    asan=unit
+    [ "$labels" = all ] || asan='unit|physics'
+    build "$root/build-clang" "$root/tests/consumer" "taut_determinism consumer_all" clang++,clang -DCMAKE_BUILD_TYPE=Release \
+        -DTAUT_PROGRAM=ON -DTAUT_TESTS=ON
+    pass "$root/build-clang" -L determinism
+    build "$root/build-asan" "$root" "taut taut_$(echo $asan | sed 's/|/ taut_/')" g++,gcc -DCMAKE_BUILD_TYPE=Asan -DTAUT_PYTHON=OFF
+    pass "$root/build-asan" -L "$asan" -LE 'all|long'
+    # Units hide missing includes and names that are used twice.
+    build "$root/build-files" "$root" "taut_commit taut_glad" g++,gcc -DTAUT_UNITY=1 -DTAUT_PYTHON=ON -DTAUT_TESTS=OFF
+    python3 "$root/tests/support/syntax.py" "$root/build-files" "$jobs"
+fi
+if [ "$labels" = 'all|long' ]; then
+    sh "$root/game/web.sh"
+    build "$root/build-fuzz" "$root" taut_fuzz clang++,clang -DCMAKE_BUILD_TYPE=Asan -DTAUT_FUZZ=ON -DTAUT_PROGRAM=OFF -DTAUT_TESTS=OFF
+    pass "$root/build-fuzz" -L fuzz
+fi
+# Last, so that the closing lines are those of the longest list.
+pass "$gcc" -L "$labels"

@@ -8,7 +8,7 @@
 #include "taut/bodies/net.h"
 #include "taut/ode/method_table.h"
 
-namespace taut::test::contact {
+namespace taut::test::colliders {
 namespace {
 
 constexpr double g = 9.81;
@@ -307,4 +307,4 @@ TEST(StiffContact, AddsNoEnergyAtTheLargestStableStep) {
 }
 
 }  // namespace
-}  // namespace taut::test::contact
+}  // namespace taut::test::colliders

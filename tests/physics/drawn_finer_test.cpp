@@ -146,12 +146,17 @@ TEST_P(DrawnFiner, SinksIntoNothing) {
     }
 }
 
+std::string nameOf(const testing::TestParamInfo<Played>& of) {
+    return of.param.name;
+}
 INSTANTIATE_TEST_SUITE_P(Shipped, DrawnFiner,
-                         testing::Values(Played{"drape", 2.0, {"cloth.*.cells=[38, 28]"}},
-                                         Played{"laundry", 2.0, {"cloth.*.cells=[20, 16]"}}, Played{"cape", 1.0, {}},
-                                         Played{"poncho", 1.6, {}}, Played{"twist", 3.0, {"cloth.*.cells=[30, 13]"}},
+                         testing::Values(Played{"drape", 2.0, {"cloth.*.cells=[38, 28]"}}, Played{"poncho", 1.6, {}},
+                                         Played{"twist", 3.0, {"cloth.*.cells=[30, 13]"}},
                                          Played{"hammock", 1.5, {}}, Played{"dance", 1.2, {}}),
-                         [](const auto& of) { return of.param.name; });
+                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Dear, DrawnFiner,
+                         testing::Values(Played{"laundry", 2.0, {"cloth.*.cells=[20, 16]"}}, Played{"cape", 1.0, {}}),
+                         nameOf);
 
 }  // namespace
 }  // namespace taut::test::drawn_finer

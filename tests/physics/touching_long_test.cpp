@@ -7,7 +7,7 @@ namespace {
 using world::World;
 
 // Two opposite edges turned against each other, four turns in and out again.
-TEST(TouchingLong, DISABLED_ATwistOfFourTurnsComesUndone) {
+TEST(TouchingLong, ATwistOfFourTurnsComesUndone) {
     world::SceneSpec spec = scene();
     spec.world.gravity = dvec3(0.0);
     spec.materials["linen"].drag = 0.5;
@@ -41,7 +41,7 @@ TEST(TouchingLong, DISABLED_ATwistOfFourTurnsComesUndone) {
     EXPECT_EQ(world.contact().lastImpulses, 0);
 }
 
-TEST(TouchingLong, DISABLED_AStackOfTenLiesOnABall) {
+TEST(TouchingLong, AStackOfTenLiesOnABall) {
     world::SceneSpec spec = scene();
     world::ColliderSpec ball;
     ball.name = "ball";
@@ -62,7 +62,7 @@ TEST(TouchingLong, DISABLED_AStackOfTenLiesOnABall) {
     }
 }
 
-TEST(TouchingLong, DISABLED_AFineClothFoldsWithoutCrossing) {
+TEST(TouchingLong, AFineClothFoldsWithoutCrossing) {
     world::SceneSpec spec = scene();
     spec.colliders = {ground(0.0)};
     world::ClothSpec cloth = sheet("flag", {0.0, 1.01, 0.0}, {1.0, 0, 0}, {0, -1.0, 0}, 128);

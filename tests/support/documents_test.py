@@ -36,6 +36,7 @@ def files():
 
 
 FILES = sorted(files())
+RUN = (ROOT / "tests/run.sh").read_text()  # its flags stand in documents too
 PAGES = {name: (ROOT / name).read_text() for name in FILES if name.endswith(".md")}
 FENCE = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.M | re.S)
 
@@ -79,7 +80,7 @@ def wrong_names(name, help_of):
         if command and command[1] not in help_of:
             yield f"{name}: there is no command: {span}"
         elif command or re.match("--[a-z]", span):
-            known = help_of[command[1]] if command else " ".join(help_of.values())
+            known = help_of[command[1]] if command else " ".join([*help_of.values(), RUN])
             for flag in re.findall(r"(?<!\S)--[a-z][a-z-]+", span):
                 if not re.search(rf"{flag}\b", known):
                     yield f"{name}: there is no flag {flag}: {span}"

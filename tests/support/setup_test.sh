@@ -17,8 +17,18 @@ answer id 'echo 1000'
 setup
 test ! -s "$folder/said"
 
-# Packages are missing, no root, no sudo: they are named.
+# A release that lacks a package and has another in its place: silent, too.
+answer dpkg-query 'test "$4" != libosmesa6-dev && echo "install ok installed"'
+answer apt-cache 'test "$2" != libosmesa6-dev'
+setup
+test ! -s "$folder/said"
+
+# Packages are missing, no root, no sudo: they are named, of several the first that the release has.
 answer dpkg-query 'exit 1'
+if setup; then echo "a user without rights cannot have succeeded"; exit 1; fi
+expect 'apt-get install .*pkg-config .*libegl-dev'
+if grep -q libosmesa6-dev "$folder/said"; then echo "a package that the release lacks is named"; exit 1; fi
+answer apt-cache 'exit 0'
 if setup; then echo "a user without rights cannot have succeeded"; exit 1; fi
 expect 'apt-get install .*libosmesa6-dev'
 

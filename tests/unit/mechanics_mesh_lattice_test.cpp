@@ -46,17 +46,16 @@ Hanging hang(const Model& model, const Lattice& lattice, const dmat3& axes, cons
     const std::size_t n = model.positions.size();
     const PlanarState<double> state(model);
     VolumePreservation<double> volume(model.cells, model.positions);
-    using Vectors = std::vector<dvec3>;
-    const auto keepFree = [&](Vectors& v) {
+    const auto keepFree = [&](std::vector<dvec3>& v) {
         for (std::size_t i = 0; i < n; ++i)
             if (glm::dot(axes[0], model.positions[i]) < 0.1 + 1e-9) v[i] = dvec3(0.0);
     };
-    const auto product = [](const Vectors& a, const Vectors& b) {
+    const auto product = [](const std::vector<dvec3>& a, const std::vector<dvec3>& b) {
         double sum = 0;
         for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i], b[i]);
         return sum;
     };
-    const auto stiffness = [&](const Vectors& u, Vectors& out) {
+    const auto stiffness = [&](const std::vector<dvec3>& u, std::vector<dvec3>& out) {
         std::fill(out.begin(), out.end(), dvec3(0.0));
         addSpringStiffness(model.springs, model.positions, u, out);
         core::AlignedArray<double> in(state.planes()), sum(state.planes());
@@ -67,10 +66,10 @@ Hanging hang(const Model& model, const Lattice& lattice, const dmat3& axes, cons
             for (int axis = 0; axis < 3; ++axis) out[i][axis] += sum[state.index(static_cast<int>(i), axis)];
     };
     const auto under = [&](const dvec3& gravity) {
-        Vectors u(n, dvec3(0.0)), r(n), q(n);
+        std::vector<dvec3> u(n, dvec3(0.0)), r(n), q(n);
         for (std::size_t i = 0; i < n; ++i) r[i] = model.masses[i] * gravity;
         keepFree(r);
-        Vectors p = r;
+        std::vector<dvec3> p = r;
         double square = product(r, r);
         const double enough = 1e-14 * square;
         while (square > enough) {
@@ -87,14 +86,14 @@ Hanging hang(const Model& model, const Lattice& lattice, const dmat3& axes, cons
         return u;
     };
     // In the middle of the section.
-    const auto at = [&](const Vectors& u, double along) {
+    const auto at = [&](const std::vector<dvec3>& u, double along) {
         const dvec3 x = (along * axes[0] - low) / lattice.cell;
         const CarriedPoint carried = carriedBy(lattice.carrierOf(x), x);
         dvec3 sum(0.0);
         for (std::size_t c = 0; c < 8; ++c) sum += carried.weights[c] * u[static_cast<std::size_t>(carried.points[c])];
         return sum;
     };
-    const Vectors across = under(axes[1]), along = under(axes[0]);
+    const std::vector<dvec3> across = under(axes[1]), along = under(axes[0]);
     const double bent = glm::dot(axes[1], at(across, 0.3) - 2.0 * at(across, 0.6) + at(across, 0.9));
     return {bent, glm::dot(axes[0], at(along, 0.9) - at(along, 0.3))};
 }

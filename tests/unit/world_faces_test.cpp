@@ -16,7 +16,7 @@ namespace {
 using core::pi;
 using support::run;
 
-constexpr double thickness = 0.01;
+constexpr double gap = 0.01;
 
 // A box of the edge a that stands on a corner; the opposite one at `top`.
 ColliderSpec onCorner(const dvec3& top, double a = 0.3) {
@@ -37,7 +37,7 @@ ClothSpec sheetAt(double height, int cells = 6) {
     const double cell = 0.6 / cells;
     cloth.origin = {-0.3 + cell / 3, height, -0.3 + cell / 6};
     cloth.down = {0, 0, 1};
-    cloth.thickness = thickness;
+    cloth.thickness = gap;
     cloth.material = "m";
     cloth.meetsFaces = true;
     return cloth;
@@ -92,9 +92,9 @@ TEST(Faces, ASheetRestsAtItsThicknessOverACorner) {
         }
         EXPECT_LT(world.metrics().penetration, 1e-6);
         if (meets)
-            EXPECT_NEAR(distanceTo(world, top), thickness, 0.05 * thickness);  // the share at which a gap is a contact
+            EXPECT_NEAR(distanceTo(world, top), gap, 0.05 * gap);  // the share at which a gap is a contact
         else
-            EXPECT_GT(distanceTo(world, top), 2 * thickness);  // it hangs below
+            EXPECT_GT(distanceTo(world, top), 2 * gap);  // it hangs below
     }
 }
 
@@ -123,7 +123,7 @@ TEST(Faces, ACornerThatIsThroughAtTheStartComesOut) {
     EXPECT_NEAR(world.metrics().facePenetration, 0.02, 1e-6);  // the scene's, in single precision
     run(world, 30);
     EXPECT_EQ(world.metrics().facePenetration, 0.0);
-    EXPECT_GE(distanceTo(world, {0, 0.5, 0}), 0.95 * thickness);
+    EXPECT_GE(distanceTo(world, {0, 0.5, 0}), 0.95 * gap);
 }
 
 TEST(Faces, ABallSmallerThanACellHoldsATriangleAtItsRadius) {
@@ -131,13 +131,13 @@ TEST(Faces, ABallSmallerThanACellHoldsATriangleAtItsRadius) {
     cloth.hold = {"corners"};
     World world(sceneOf(cloth, support::ball("ball", {0, 0.5, 0}, 0.05)));
     run(world, 120);
-    EXPECT_NEAR(distanceTo(world, {0, 0.5, 0}), 0.05 + thickness, 0.05 * (0.05 + thickness));
+    EXPECT_NEAR(distanceTo(world, {0, 0.5, 0}), 0.05 + gap, 0.05 * (0.05 + gap));
 }
 
 TEST(Faces, ARopeLiesOnAnEdgeBetweenItsPoints) {
     SceneSpec scene;
     RopeSpec rope = support::rope("r", {-0.15, 0.6, 0}, {0.15, 0.6, 0}, 3);
-    rope.thickness = thickness;
+    rope.thickness = gap;
     rope.meetsFaces = true;
     scene.bodies.add(rope);
     ColliderSpec blade;
@@ -150,7 +150,7 @@ TEST(Faces, ARopeLiesOnAnEdgeBetweenItsPoints) {
     World world(scene);
     run(world, 90);
     const std::vector<dvec3> x = world.positions(entityOf(world, "rope"));
-    EXPECT_NEAR(0.5 * (x[1].y + x[2].y), 0.5 + thickness, 0.05 * thickness);
+    EXPECT_NEAR(0.5 * (x[1].y + x[2].y), 0.5 + gap, 0.05 * gap);
 }
 
 SceneSpec moving() {
@@ -218,7 +218,7 @@ TEST(Faces, CollidersThatComeAreMetAndThoseThatGoAreNot) {
     const ecs::Entity entity = world.spawn(box);
     run(world, 30);
     EXPECT_EQ(world.metrics().facePenetration, 0.0);
-    EXPECT_NEAR(distanceTo(world, {0, 0.5, 0}), thickness, 0.1 * thickness);
+    EXPECT_NEAR(distanceTo(world, {0, 0.5, 0}), gap, 0.1 * gap);
     const double before = lowest(world);
     world.destroy(entity);
     run(world, 30);

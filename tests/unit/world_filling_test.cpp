@@ -15,7 +15,7 @@ namespace {
 
 // A box of 0.5 × 0.5 × 0.4 m whose upper face is a piston: rods keep it as it is, all else gives way at once. The
 // diagonals of its sides run to and fro, so that what presses on them does not turn the piston.
-const char* const box = R"(v 0 0 0
+const char* const cubeObj = R"(v 0 0 0
 v 0.5 0 0
 v 0.5 0 0.5
 v 0 0 0.5
@@ -66,7 +66,7 @@ mass_kg = 1
 
 class Fillings : public ::testing::Test {
   protected:
-    Fillings() { folder_.write("box.obj", box); }
+    Fillings() { folder_.write("box.obj", cubeObj); }
     World load(const std::string& text) {
         folder_.write("scene.toml", text);
         return World(scene::loadScene(folder_ / "scene.toml", {}).spec);

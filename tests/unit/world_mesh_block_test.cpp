@@ -20,7 +20,7 @@ std::shared_ptr<MeshData> meshOf(const mechanics::test::Mesh& boxes) {
     return mesh;
 }
 
-std::shared_ptr<MeshData> box(const dvec3& low, const dvec3& high) {
+std::shared_ptr<MeshData> boxMesh(const dvec3& low, const dvec3& high) {
     mechanics::test::Mesh mesh;
     addBox(mesh, low, high);
     return meshOf(mesh);
@@ -36,7 +36,7 @@ BlockSpec toy(std::shared_ptr<const MeshData> mesh) {
 }
 
 TEST(MeshBlock, IsDrawnWhereItsFileLiesAndHeldByAGroupOfIt) {
-    const auto mesh = box({0.0, 0.0, 0.0}, {41.0, 7.0, 6.0});
+    const auto mesh = boxMesh({0.0, 0.0, 0.0}, {41.0, 7.0, 6.0});
     mesh->groups["end"] = {0, 2, 4, 6};  // at low x
     BlockSpec block = toy(mesh);
     block.scale = 0.01;
@@ -66,7 +66,7 @@ TEST(MeshBlock, IsDrawnWhereItsFileLiesAndHeldByAGroupOfIt) {
 // Each of its cells has a pressure of its own.
 TEST(MeshBlock, GoesOnTheSameFromASavedState) {
     SceneSpec scene;
-    BlockSpec block = toy(box({0.0, 0.013, 0.0}, {0.2, 0.1, 0.13}));
+    BlockSpec block = toy(boxMesh({0.0, 0.013, 0.0}, {0.2, 0.1, 0.13}));
     block.rotation = {0.4, 0.0, 0.3};
     scene.bodies.add(block);
     ColliderSpec ground;
@@ -96,7 +96,7 @@ TEST(MeshBlock, WhatCannotBeFilledIsRefused) {
         }
         return "";
     };
-    const auto mesh = box(dvec3(0.0), dvec3(1.0));
+    const auto mesh = boxMesh(dvec3(0.0), dvec3(1.0));
     BlockSpec block = toy(mesh);
     block.cell = 1e-6;
     EXPECT_EQ(refusal(block),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/private/ties.h"
 #include "taut/island/private/island_report.h"
 #include "taut/spec/private/motion.h"

@@ -2,10 +2,10 @@
 # Builds with g++ and passes the tests that decide whether taut works: unit, physics, determinism, goldens, documents,
 # Python. tests/README.md says what runs where.
 #   --all    also clang's determinism tests (in a project that has taut as a subproject; its hashes against those of
-#            g++), the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, every file compiled by itself,
-#            and the tests labelled `all`: every golden, installation, what other programs read, a browser
-#   --long   also the physics tests under sanitizers, the fuzzer for ten seconds a reader, the engine as WebAssembly, and
-#            the tests labelled `long`, which take minutes and rarely break
+#            g++), the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, and the tests labelled `all`:
+#            every golden, installation, what other programs read, a browser
+#   --long   also the physics tests under sanitizers, every file compiled by itself, the fuzzer for ten seconds a reader,
+#            the engine as WebAssembly, and the tests labelled `long`, which take minutes and rarely break
 #   --peers  also what Blender and Bullet make of strips of cloth
 # --all and --long do not repeat tests that have passed since the last change.
 set -eu
@@ -56,11 +56,11 @@ if [ "$labels" != peers ]; then
     pass "$root/build-clang" -L determinism
     build "$root/build-asan" "$root" "taut taut_$(echo $asan | sed 's/|/ taut_/')" g++,gcc -DCMAKE_BUILD_TYPE=Asan -DTAUT_PYTHON=OFF
     pass "$root/build-asan" -L "$asan" -LE 'all|long'
-    # Units hide missing includes and names that are used twice.
-    build "$root/build-files" "$root" "taut_commit taut_glad" g++,gcc -DTAUT_UNITY=1 -DTAUT_PYTHON=ON -DTAUT_TESTS=OFF
-    python3 "$root/tests/support/syntax.py" "$root/build-files" "$jobs"
 fi
 if [ "$labels" = 'all|long' ]; then
+    # Units hide missing includes.
+    build "$root/build-files" "$root" "taut_commit taut_glad" g++,gcc -DTAUT_UNITY=1 -DTAUT_PYTHON=ON -DTAUT_TESTS=OFF
+    python3 "$root/tests/support/syntax.py" "$root/build-files" "$jobs"
     sh "$root/game/web.sh"
     build "$root/build-fuzz" "$root" taut_fuzz clang++,clang -DCMAKE_BUILD_TYPE=Asan -DTAUT_FUZZ=ON -DTAUT_PROGRAM=OFF -DTAUT_TESTS=OFF
     pass "$root/build-fuzz" -L fuzz

@@ -1,4 +1,4 @@
-// What comparisons mean, and which side of them a failure shows. Texts that are no claims: scene_refusals_test.
+// The meaning of comparisons, and the side that a failure shows. Malformed claims: scene_refusals_test.
 #include "unit/check_support.h"
 
 namespace taut::check {

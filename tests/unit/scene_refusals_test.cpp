@@ -8,7 +8,7 @@
 namespace taut::scene::refusals {
 namespace {
 
-// What stands around the texts of the table, below the line of the schema. The gap is where a text goes.
+// Scene files around the texts of the table, below the line of the schema. A text replaces the gap.
 constexpr std::string_view gap = "…";
 constexpr const char* file = "…\n";
 constexpr const char* rope = R"([rope.r]
@@ -78,7 +78,7 @@ struct Row {
     const char* text;
     // A line for each message: LINE:COLUMN: what is wrong ^ remedy.
     const char* messages;
-    // What follows all that.
+    // The output after the messages.
     const char* more = "";
 };
 
@@ -177,7 +177,7 @@ restitution = 1.2)",
      "and 16 GB ^ cloth.c is the largest: give it fewer cells, segments or copies"},
     {"a wide field of view", file, "[camera.c]\nfov_deg = 180",
      "3:11: fov_deg must be between 1 and 170 degrees, not 180"},
-    // Names of what is not there.
+    // Names of missing things.
     {"a material that is not there", file, R"([material.m]
 [cloth.c]
 material = "n")",
@@ -342,7 +342,7 @@ bending_hysteresis_N = 1e-3)",
 bending_rigidity_N_m = 1e-5
 bending_yield_per_m = 5)",
      "4:23: nothing slips without a hysteresis ^ give bending_hysteresis_N too"},
-    {"a hysteresis of what does not bend", file, R"([material.m]
+    {"a hysteresis without bending rigidity", file, R"([material.m]
 bending_hysteresis_N = 1e-3
 bending_yield_per_m = 5)",
      "3:24: a hysteresis is that of a sheet with a rigidity ^ give bending_rigidity_N_m too"},
@@ -361,7 +361,7 @@ size = [1, 1, 1])",
     {"a box with a normal", collider, R"(shape = "box"
 normal = [0, 1, 0])",
      R"(4:1: normal does not go with shape "box" ^ it belongs to plane)"},
-    {"parts of what is no compound", collider, R"(shape = "box"
+    {"parts of a shape that is not a compound", collider, R"(shape = "box"
 parts = [])",
      R"(4:1: parts does not go with shape "box" ^ it belongs to compound)"},
     {"a compound without parts", collider, R"(shape = "compound"
@@ -584,7 +584,7 @@ b = "rope.s@start"
     {"a push before the spawn", ropeAction, R"({ t = 1, do = "push", target = "rope.r@end", impulse_Ns = [1, 0, 0] },
   { t = 2, do = "spawn", target = "rope.r" })",
      "3:34: rope.r@end is not there before it is spawned at 2 s"},
-    // Ramps of what cannot change.
+    // Ramps of keys that cannot change.
     {"an unknown section", ropeAction, R"({ t = 1, do = "ramp", key = "wnid.w.velocity", to = [0, 0, 0] })",
      R"(3:31: there is no "wnid" to change ^ did you mean "wind"?)"},
     {"a section that nothing changes in", ropeAction, R"({ t = 1, do = "ramp", key = "solver.dt", to = 0.1 })",
@@ -799,7 +799,7 @@ std::vector<std::string> messagesOf(const Row& row, const std::string& severity)
 TEST(SceneErrors, AreReportedWithTheirPlaceAndARemedy) {
     const AssetFolder folder;
     LoadOptions options;
-    // What can be used is said by who knows pictures.
+    // The caller decides which pictures can be used.
     options.pictureFault = [](const std::filesystem::path& picture, bool isAround) {
         return isAround ? picture.filename().string() + ": too narrow" : "";
     };

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "taut/core/value.h"
 #include "taut/bodies/damage.h"
+#include "taut/core/value.h"
 #include "taut/mechanics/model.h"
 #include "taut/spec/body_spec.h"
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "taut/core/value.h"
 #include "taut/bodies/body.h"
+#include "taut/core/value.h"
 #include "taut/mechanics/bending_elements.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/mechanics/pose_path.h"

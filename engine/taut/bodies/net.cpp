@@ -16,7 +16,6 @@ NetSpec::NetSpec() {
 }
 TAUT_VALUE_COPIES(NetSpec);
 
-
 using fields::FieldList;
 using fields::notNegative;
 using fields::positive;

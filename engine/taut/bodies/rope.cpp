@@ -17,7 +17,6 @@ RopeSpec::RopeSpec() {
 }
 TAUT_VALUE_COPIES(RopeSpec);
 
-
 using fields::Affects;
 using fields::FieldList;
 using fields::notNegative;

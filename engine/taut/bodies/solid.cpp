@@ -20,7 +20,8 @@
 namespace taut::world {
 
 SolidSpec::SolidSpec() {
-    touch = Touch::others, thickness = 0.002;
+    touch = Touch::others;
+    thickness = 0.002;
 }
 TAUT_VALUE_COPIES(SolidSpec);
 
@@ -57,7 +58,7 @@ void addBox(const dvec3& half, mechanics::RigidShape& shape) {
     }
 }
 
-// A prism of `prismSides` with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is 0.
+// A prism with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is 0.
 void addPrism(double radius, double radiusAbove, double low, double high, mechanics::RigidShape& shape) {
     constexpr int prismSides = 24;
     const auto add = [&](double r, double y, int k) {
@@ -81,7 +82,8 @@ void addPrism(double radius, double radiusAbove, double low, double high, mechan
         shape.triangles.push_back({b, top + a, top + b});
         shape.triangles.push_back({top, top + b, top + a});
     }
-    shape.parts.back().revolution = {{0, top}, {radius, radiusAbove}, radius * (1.0 - core::cosine(core::pi / prismSides))};
+    shape.parts.back().revolution = {
+        {0, top}, {radius, radiusAbove}, radius * (1.0 - core::cosine(core::pi / prismSides))};
 }
 
 // The least convex body around the points.

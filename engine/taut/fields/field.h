@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "taut/core/value.h"
 #include "taut/core/source.h"
+#include "taut/core/value.h"
 #include "taut/fields/node.h"
 
 namespace taut::fields {

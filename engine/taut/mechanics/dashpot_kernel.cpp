@@ -13,7 +13,8 @@ template <class Real>
 struct Slice {
     // Impulses over lengths. There is room on both sides for missing neighbours, whose impulse is 0.
     alignas(64) Real p[3 * dashpotSlice], again[3 * dashpotSlice];
-    alignas(64) Real dx[dashpotSlice], dy[dashpotSlice], dz[dashpotSlice], half[dashpotSlice], up[dashpotSlice], down[dashpotSlice];
+    alignas(64) Real dx[dashpotSlice], dy[dashpotSlice], dz[dashpotSlice], half[dashpotSlice], up[dashpotSlice],
+        down[dashpotSlice];
 };
 
 // Planes at both ends of dashpots.
@@ -57,7 +58,8 @@ inline void impulses(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b
         const Real dx = x.bx[i] - x.ax[i], dy = x.by[i] - x.ay[i], dz = x.bz[i] - x.az[i];
         const Real square = dx * dx + dy * dy + dz * dz;
         const Real factor = square > Real(0) ? g[i] / square : Real(0);
-        b.p[dashpotSlice + i] = factor * ((u.bx[i] - u.ax[i]) * dx + (u.by[i] - u.ay[i]) * dy + (u.bz[i] - u.az[i]) * dz);
+        b.p[dashpotSlice + i] =
+            factor * ((u.bx[i] - u.ax[i]) * dx + (u.by[i] - u.ay[i]) * dy + (u.bz[i] - u.az[i]) * dz);
         b.half[i] = Real(0.5) * factor;
         b.dx[i] = dx;
         b.dy[i] = dy;

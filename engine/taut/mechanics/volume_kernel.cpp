@@ -133,8 +133,8 @@ inline void addFolds(const CellCorners<Real>& x, Real twelfthOfBulk, Real invers
 }
 
 template <class Real>
-inline void findForces(const CellCorners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold, int count,
-                       Forces<Real>& forces) {
+inline void findForces(const CellCorners<Real>& x, const Real* twelfthOfBulk, const Real* inverseRestTwelvefold,
+                       int count, Forces<Real>& forces) {
     findPressure(x, twelfthOfBulk, inverseRestTwelvefold, count, forces);
     findLeast(x, count, forces);
     for (int l = 0; l < count; ++l)

@@ -113,8 +113,8 @@ inline void findForces(const TriangleCorners<Real>& x, const Real* weight, Real 
 }
 
 template <class Real>
-inline void findBlock(const WindBatch<Real>& batch, const TriangleCorners<Real>& x, const TriangleCorners<Real>& slip, int lane,
-                      int count, Block<Real>& block) {
+inline void findBlock(const WindBatch<Real>& batch, const TriangleCorners<Real>& x, const TriangleCorners<Real>& slip,
+                      int lane, int count, Block<Real>& block) {
     findRelativeAir(slip, batch.flow, count, block);
     findForces(x, batch.weight + lane, batch.drag, batch.lift, count, block);
 }

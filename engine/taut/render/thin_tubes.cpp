@@ -94,7 +94,8 @@ void layTile(const PixelBox& tile, const CoveredTile& covered, const ThinLayer& 
                 const float depth = covered.depth[pixel][sample];
                 const float ahead = depths.ahead(covered.nearest[pixel][sample]);
                 const float radius = layer.scale.pixels(layer.tubes[number - 1].surface->tubeRadius, ahead);
-                const CoveredLight seen = lightOf(layer.shaded, x - box.x, y - box.y, mark, depth, radius < shadedRadius);
+                const CoveredLight seen =
+                    lightOf(layer.shaded, x - box.x, y - box.y, mark, depth, radius < shadedRadius);
                 if (seen.cover > 0.0F) light.add(seen, 0.25F * std::min(radius / coveringRadius, 1.0F));
             }
             const auto to = static_cast<std::size_t>(y * width + x);

@@ -16,17 +16,17 @@
 namespace taut::study {
 namespace {
 
-constexpr double longestRun = 0.5;       // [s] of motion in each run unless asked for more
-constexpr double mostStep = 1.0 / 60;    // [s] no tick is longer
-constexpr double stir = 1e-9;            // [m]
-constexpr double apart = 1.01;           // at which bisection ends
+constexpr double longestRun = 0.5;              // [s] of motion in each run unless asked for more
+constexpr double mostStep = 1.0 / 60;           // [s] no tick is longer
+constexpr double stir = 1e-9;                   // [m]
+constexpr double apart = 1.01;                  // at which bisection ends
 constexpr double leastShareOfLimit = 1.0 / 32;  // of leap-frog's limit: the shortest step tried, or
-constexpr double belowTheory = 0.5;      // of the predicted limit where that is less, but
-constexpr double mostRunSteps = 1e6;     // in a run, however short that limit
-constexpr double beyondTheory = 1.05;    // of the predicted limit: from there on what stands only fails later
-constexpr int lookEvery = 16;            // steps between looks at the energy
-constexpr int patience = 1000;           // steps for which a run that has failed is followed to see what breaks
-constexpr double slowSpeed = 0.1;        // [m/s] up to which everything may always move
+constexpr double belowTheory = 0.5;             // of the predicted limit where that is less, but
+constexpr double mostRunSteps = 1e6;            // in a run, however short that limit
+constexpr double beyondTheory = 1.05;           // of the predicted limit: from there on what stands only fails later
+constexpr int lookEvery = 16;                   // steps between looks at the energy
+constexpr int patience = 1000;                  // steps for which a run that has failed is followed to see what breaks
+constexpr double slowSpeed = 0.1;               // [m/s] up to which everything may always move
 
 // The scene with one step a tick of exactly h, or, with h = 0, with the steps that it would choose.
 world::SceneSpec inSteps(const world::SceneSpec& spec, std::string_view method, double h) {

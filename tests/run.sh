@@ -54,7 +54,7 @@ if [ "$labels" != peers ]; then
     build "$root/build-clang" "$root/tests/consumer" "taut_determinism consumer_all" clang++,clang -DCMAKE_BUILD_TYPE=Release \
         -DTAUT_PROGRAM=ON -DTAUT_TESTS=ON
     pass "$root/build-clang" -L determinism
-    build "$root/build-asan" "$root" "taut taut_$(echo $asan | sed 's/|/ taut_/')" g++,gcc -DCMAKE_BUILD_TYPE=Asan -DTAUT_PYTHON=OFF
+    build "$root/build-asan" "$root" "taut taut_$(echo $asan | sed 's/|/ taut_/')" clang++,clang -DCMAKE_BUILD_TYPE=Asan -DTAUT_PYTHON=OFF
     pass "$root/build-asan" -L "$asan" -LE 'all|long'
 fi
 if [ "$labels" = 'all|long' ]; then

@@ -75,12 +75,12 @@ TEST_P(EveryPrecision, HashesOfEveryMethodAreTheSameForThreadsAndInstructionSets
 
 // Pins, rods and springs that break, are released and cut, and a step that follows the pull of rods; sheets and ropes
 // that bend, in several tasks and with scattered points; meshes that bend away from a curve; threads that rub; a
-// figure; seams that close and tear; solids that are round.
+// figure; seams that close and tear; solids that are round; bodies of all kinds that a collider carries.
 TEST_P(EveryPrecision, HashesOfJointsAndBendingAreTheSameForThreadsAndInstructionSets) {
     const auto orDefault = [](core::InstructionSet wanted) {
         return core::isSupported(wanted) ? wanted : core::instructionSet();
     };
-    for (const char* scene : {"joints", "bending", "bent-mesh", "rubbing", "figures", "seams", "solids"}) {
+    for (const char* scene : {"joints", "bending", "bent-mesh", "rubbing", "figures", "seams", "solids", "carried"}) {
         const auto one = hashes(scene, GetParam(), 40, 1, core::InstructionSet::sse2);
         EXPECT_EQ(one, hashes(scene, GetParam(), 40, 2, orDefault(core::InstructionSet::avx2))) << scene;
         EXPECT_EQ(one, hashes(scene, GetParam(), 40, 7, orDefault(core::InstructionSet::avx512))) << scene;

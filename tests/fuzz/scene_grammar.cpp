@@ -104,7 +104,10 @@ class Growing {
         add({"[material.m]\n"});
         if (choices_.oneIn(2)) add({"stretch_N_per_m = {:.6g}\n", choices_.magnitude(1e-1, 1e5)});
         if (choices_.oneIn(2)) add({"density_kg_per_m2 = {:.6g}\n", choices_.magnitude(1e-3, 10)});
-        if (choices_.oneIn(3)) add({"bend_N_per_m = {:.6g}\n", choices_.magnitude(1e-3, 1e4)});
+        if (choices_.oneIn(3))
+            add({"bend_N_per_m = {:.6g}\n", choices_.magnitude(1e-3, 1e4)});
+        else if (choices_.oneIn(2))
+            add({"bending_rigidity_N_m = {:.6g}\n", choices_.magnitude(1e-6, 1)});
         addDamping();
         addGivingWay();
     }
@@ -132,10 +135,12 @@ class Growing {
         const double y = choices_.between(-0.4, 0);
         if (choices_.oneIn(3)) {
             isClosed_ = false;
+            const double turn = choices_.magnitude(0.01, 0.3);  // it begins, turns, and ends
             add(
-                {"keys = [{{ t = 0, position = [0, {:.6g}, 0] }}, {{ t = {:.6g}, position = {}, rotation_deg = {} "
-                 "}}]\n",
-                 y, choices_.magnitude(0.01, 0.5), choices_.vector(0.4), choices_.vector(180)});
+                {"keys = [{{ t = {:.6g}, position = [0, {:.6g}, 0] }}, {{ t = {:.6g}, position = {}, rotation_deg = {} "
+                 "}}, {{ t = {:.6g}, position = {}, ease = \"linear\" }}]\n",
+                 choices_.oneIn(2) ? turn / 3 : 0.0, y, turn, choices_.vector(0.4), choices_.vector(180),
+                 turn + choices_.magnitude(0.01, 0.3), choices_.vector(0.4)});
         } else {
             movable_ = Text{"collider.c{}", number};
             add({"position = [{:.6g}, {:.6g}, {:.6g}]\n", choices_.between(-0.2, 0.2), y, choices_.between(-0.2, 0.2)});
@@ -146,7 +151,7 @@ class Growing {
     }
 
     void addBody(int number, int colliders) {
-        switch (choices_.below(4)) {
+        switch (choices_.below(5)) {
             case 0:
                 bodies_.push_back({Text{"cloth.b{}", number},
                                    {"top", "left", "corners", "top-left", "(0.5,0.5)", "bottom-right", "all"}});
@@ -160,7 +165,10 @@ class Growing {
                 add({"[{}]\nends = [{}, {}]\nsegments = {}\nmass_kg = {:.6g}\nstretch_N = {:.6g}\n",
                      bodies_.back().name, choices_.vector(0.2), choices_.vector(0.2), 1 + choices_.below(7),
                      choices_.magnitude(1e-3, 10), choices_.magnitude(1, 1e5)});
-                if (choices_.oneIn(3)) add({"bend_N = {:.6g}\n", choices_.magnitude(1e-3, 100)});
+                if (choices_.oneIn(3))
+                    add({"bend_N = {:.6g}\n", choices_.magnitude(1e-3, 100)});
+                else if (choices_.oneIn(2))
+                    add({"bending_rigidity_N_m2 = {:.6g}\n", choices_.magnitude(1e-6, 1)});
                 addDamping();
                 addGivingWay();
                 break;
@@ -175,6 +183,11 @@ class Growing {
                 if (choices_.oneIn(2)) add({"density_kg_per_m3 = {:.6g}\n", choices_.magnitude(1, 1e4)});
                 addDamping();
                 addGivingWay();
+                break;
+            case 3:
+                bodies_.push_back({Text{"solid.b{}", number}, {"all", "#0"}});
+                add({"[{}]\n{}\nposition = {}\n", bodies_.back().name, shape("\n"), choices_.vector(0.15)});
+                if (choices_.oneIn(2)) add({"rotation_deg = {}\n", choices_.vector(180)});
                 break;
             default:
                 bodies_.push_back({Text{"net.b{}", number}, {"p0", "p1", "p2", "all"}});
@@ -209,11 +222,21 @@ class Growing {
         return own.name + "@" + choices_.of(own.selectors);
     }
 
+    void addJoint(const Own& a, const Own& b) {
+        const auto isCloth = [](const Own& own) { return own.name.starts_with("cloth"); };
+        if (isCloth(a) && isCloth(b) && choices_.oneIn(2)) {
+            add({"[[seam]]\na = \"{}@right\"\nb = \"{}@left\"\nover_s = {:.6g}\n", a.name, b.name,
+                 choices_.magnitude(0.01, 0.3)});
+            return;
+        }
+        const std::string kind = choices_.of({"spring", "weld", "rod"});
+        add({"[[joint]]\na = \"{}@{}\"\nb = \"{}@{}\"\nkind = \"{}\"\n", a.name, choices_.of(a.selectors), b.name,
+             choices_.of(b.selectors), kind});
+        if (kind == "spring") add({"stiffness_N_per_m = {:.6g}\n", choices_.magnitude(1, 1e5)});
+    }
+
     void addTies(int colliders) {
-        if (isJoined_)
-            add({"[[joint]]\na = \"{}@{}\"\nb = \"{}@{}\"\nkind = \"spring\"\nstiffness_N_per_m = {:.6g}\n",
-                 bodies_[0].name, choices_.of(bodies_[0].selectors), bodies_[1].name, choices_.of(bodies_[1].selectors),
-                 choices_.magnitude(1, 1e5)});
+        if (isJoined_) addJoint(bodies_[0], bodies_[1]);
         if (colliders > 0 && !bodies_[0].isHeld && choices_.oneIn(5))
             add({"[[joint]]\na = \"{}@{}\"\nb = \"collider.c0\"\nkind = \"{}\"\n", bodies_[0].name,
                  choices_.of(bodies_[0].selectors), choices_.of({"weld", "spring"})});

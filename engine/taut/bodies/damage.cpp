@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace taut::world {
 namespace {
@@ -75,9 +74,8 @@ void Damage::sever(int a, int b, double share) {
     if (edges_.try_emplace(edgeOf(a, b), a < b ? share : 1.0 - share).second) fresh_.push_back(edgeOf(a, b));
 }
 
-Damage::Assessed Damage::assess(const mechanics::Model& model) {
-    Assessed assessed;
-    if (fresh_.empty()) return assessed;
+void Damage::assess(const mechanics::Model& model) {
+    if (fresh_.empty()) return;
     if (!index_) index_ = std::make_shared<const Index>(model);
     triangles_.resize(model.triangles.size(), false);
     tetrahedra_.resize(cellTetrahedra * model.cells.size(), false);
@@ -102,7 +100,6 @@ Damage::Assessed Damage::assess(const mechanics::Model& model) {
     const auto look = [&](const auto& corners, std::vector<bool>& gone, std::size_t number, int b) {
         if (gone[number] || std::find(corners.begin(), corners.end(), b) == corners.end()) return;
         gone[number] = !isConnected(corners, holds);
-        assessed.isSurfaceLess = assessed.isSurfaceLess || gone[number];
     };
     for (const auto& [a, b] : fresh_) {
         for (const std::size_t t : index.triangles[static_cast<std::size_t>(a)])
@@ -113,8 +110,7 @@ Damage::Assessed Damage::assess(const mechanics::Model& model) {
     }
     goneTetrahedra_ = static_cast<std::size_t>(std::count(tetrahedra_.begin(), tetrahedra_.end(), true));
     goneTriangles_ = static_cast<std::size_t>(std::count(triangles_.begin(), triangles_.end(), true));
-    assessed.severed = std::exchange(fresh_, {});
-    return assessed;
+    fresh_.clear();
 }
 
 }  // namespace taut::world

@@ -37,14 +37,10 @@ class Damage {
 
     // Severs an edge at a share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
     void sever(int a, int b, double share);
-    struct Assessed {
-        std::vector<Edge> severed;   // since the last time
-        bool isSurfaceLess = false;  // triangles or tetrahedra are gone
-    };
     // Finds what sever() has brought about. Expects the same model in every call. A bending spring goes with the
     // springs along it. Triangles and tetrahedra go when no springs hold their corners together. The cost grows only
     // with new damage.
-    Assessed assess(const mechanics::Model& model);
+    void assess(const mechanics::Model& model);
 
   private:
     struct Index;  // of the model

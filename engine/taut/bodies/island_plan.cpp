@@ -450,9 +450,10 @@ class Planner {
     IslandPlan plan(const std::vector<int>& members, const std::vector<JointPair>& joints, std::vector<int>& numberOf) {
         IslandPlan plan;
         for (int body : members) addBody(plan, body, numberOf);
+        const std::vector<int> solidOf = solidsOf(plan, members);
         for (const bool isWeld : {true, false})  // welds first, as they move points
             for (const JointPair& joint : joints)
-                if (joint.spec->isWeld() == isWeld) tie(plan, joint);
+                if (joint.spec->isWeld() == isWeld) tie(plan, joint, solidOf);
         addSolids(plan, members);
         plan.origins.resize(plan.springs.size());
         plan.broken.resize(plan.springs.size(), false);
@@ -477,8 +478,25 @@ class Planner {
         }
     }
 
-    void tie(IslandPlan& plan, const JointPair& joint) const {
+    // (points) the solid that moves each, -1: none.
+    std::vector<int> solidsOf(const IslandPlan& plan, const std::vector<int>& members) {
+        std::vector<int> solidOf(plan.points.size(), -1);
+        for (const int number : members)
+            if (body(number).spec->isRigid())
+                for (const int point : body(number).pointOf)
+                    solidOf[static_cast<std::size_t>(point)] = solids_.find(number);
+        return solidOf;
+    }
+
+    // Points of one solid do not move against each other: what ties them is left out, as no force could satisfy it.
+    void tie(IslandPlan& plan, const JointPair& joint, const std::vector<int>& solidOf) {
         const int a = pointOf(joint.a), b = pointOf(joint.b);
+        const int solid = solidOf[static_cast<std::size_t>(a)];
+        if (solid >= 0 && solid == solidOf[static_cast<std::size_t>(b)]) {
+            for (JointReport& report : reports_)
+                if (report.spec == joint.spec) ++report.idle;
+            return;
+        }
         addTie(plan,
                {.joint = joint.number,
                 .a = a,

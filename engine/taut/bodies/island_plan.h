@@ -93,6 +93,7 @@ struct JointReport {
     };
     std::vector<Pair> pairs;  // in the order of the bodies
     double jump = 0;          // [m] largest distance of points that were welded
+    int idle = 0;             // number of its ties between points of one solid, which are left out
     struct Sewn {
         std::array<int, 2> points{};      // of its two edges
         std::array<double, 2> lengths{};  // [m]

@@ -108,18 +108,19 @@ CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Bod
 
 void sever(const CutEdges& crossing, IslandPlan& plan) {
     for (const CutEdges::Edge& edge : crossing.edges) edge.body->damage.sever(edge.a, edge.b, edge.share);
-    for (Body* body : plan.bodies) body->damage.assess(body->model);
     for (const std::size_t tie : crossing.ties) letGo(plan, tie);
     breakSevered(plan);
 }
 
-void breakSevered(IslandPlan& plan) {
+void breakSevered(IslandPlan& plan, const std::function<void(int)>& before) {
+    for (Body* body : plan.bodies) body->damage.assess(body->model);
     for (std::size_t s = 0; s < plan.springs.size(); ++s) {
         const SpringOrigin& origin = plan.origins[s];
         if (origin.body < 0 || plan.broken[s]) continue;
         const Body& body = *plan.bodies[static_cast<std::size_t>(origin.body)];
         const mechanics::Spring& spring = body.model.springs[static_cast<std::size_t>(origin.spring)];
         if (!body.damage.isSevered(spring.a, spring.b)) continue;
+        if (before) before(static_cast<int>(s));
         plan.broken[s] = true;
         plan.springs[s].stiffness = 0;
     }

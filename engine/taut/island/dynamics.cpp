@@ -49,15 +49,16 @@ class DynamicsOf final : public Dynamics {
     }
 
     void take(const Changes& changes, const ForceList& forces) override {
-        const bool isMaterial = changes.has(Change::material), isShape = changes.has(Change::shape);
+        const bool isMaterial = changes.has(Change::material), isShape = changes.has(Change::shape),
+                   isDamage = isShape || changes.has(Change::damage);
         bound_.forgetWeights();
-        if (isMaterial || isShape || changes.has(Change::lengths)) system_.setSprings(plan_.springs);
+        if (isMaterial || isDamage || changes.has(Change::lengths)) system_.setSprings(plan_.springs);
         if (isMaterial || isShape || changes.has(Change::points) || changes.has(Change::grips)) {
             system_.setPoints(massesOf(plan_));
             lead();
         }
         if (isShape) constraints_.take();
-        if (isShape) return setForces(forces);
+        if (isDamage) return setForces(forces);
         if (isMaterial) contacts_.rewatch();
         if (isMaterial)
             for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));

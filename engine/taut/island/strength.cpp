@@ -134,22 +134,4 @@ std::vector<int> Strength::firstToBreak(std::vector<Break> over) const {
     return first;
 }
 
-std::vector<int> Strength::between(int a, int b) const {
-    std::vector<int> springs;
-    for (const Way& way : from(a))
-        if (way.to == b) springs.push_back(way.spring);
-    return springs;
-}
-
-std::vector<int> Strength::around(int a, int b) const {
-    std::vector<int> springs;
-    for (const int end : {a, b})
-        for (const Way& near : from(end))
-            for (const Way& way : from(near.to))
-                if (isOwn(way.spring)) springs.push_back(way.spring);
-    std::sort(springs.begin(), springs.end());
-    springs.erase(std::unique(springs.begin(), springs.end()), springs.end());
-    return springs;
-}
-
 }  // namespace taut::world

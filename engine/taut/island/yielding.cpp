@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "taut/island/private/cutting.h"
+
 namespace taut::world {
 
 // Beyond the break strain a spring is gone; that strain counts from the length with which it was made. Beyond the yield
@@ -26,17 +28,17 @@ bool Yielding::giveWay(IslandPlan& plan, Dynamics& dynamics, const ForceList& fo
         plan.springs[static_cast<std::size_t>(s)].restLength = next;
         changed.push_back(s);
     }
-    if (!over.empty()) tear(plan, dynamics, forces, strength_->firstToBreak(std::move(over)), changed);
+    if (!over.empty()) {
+        tear(plan, dynamics, forces, strength_->firstToBreak(std::move(over)));
+        return true;
+    }
     if (changed.empty()) return false;
     dynamics.changeSprings(changed);
     for (const int s : changed) dynamics.watchLength(s, strength_->limitsOf(s));
     return true;
 }
 
-void Yielding::tear(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces, const std::vector<int>& springs,
-                    std::vector<int>& changed) {
-    bool isSurfaceLess = false;
-    std::vector<std::pair<int, int>> ends;
+void Yielding::tear(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces, const std::vector<int>& springs) {
     for (const int s : springs) {
         const SpringOrigin& origin = plan.origins[static_cast<std::size_t>(s)];
         Body& body = *plan.bodies[static_cast<std::size_t>(origin.body)];
@@ -44,25 +46,9 @@ void Yielding::tear(IslandPlan& plan, Dynamics& dynamics, const ForceList& force
         remember(body);
         body.damage.sever(made.a, made.b, 0.5);
     }
-    for (std::size_t number = 0; number < plan.bodies.size(); ++number) {
-        Body& body = *plan.bodies[number];
-        const Damage::Assessed assessed = body.damage.assess(body.model);
-        isSurfaceLess = isSurfaceLess || assessed.isSurfaceLess;
-        for (const auto& [a, b] : assessed.severed) {
-            ends.emplace_back(body.pointOf[static_cast<std::size_t>(a)], body.pointOf[static_cast<std::size_t>(b)]);
-            for (const int s : strength_->between(ends.back().first, ends.back().second)) {
-                if (plan.origins[static_cast<std::size_t>(s)].body != static_cast<int>(number)) continue;
-                if (plan.broken[static_cast<std::size_t>(s)]) continue;
-                remember(plan, s);
-                plan.broken[static_cast<std::size_t>(s)] = true;
-                plan.springs[static_cast<std::size_t>(s)].stiffness = 0;
-                changed.push_back(s);
-            }
-        }
-    }
-    for (const auto& [a, b] : ends)
-        for (const int s : strength_->around(a, b)) dynamics.watchLength(s, strength_->limitsOf(s));
-    if (isSurfaceLess) dynamics.setForces(forces);
+    breakSevered(plan, [&](int s) { remember(plan, s); });
+    dynamics.take(Changes{}.add(Change::damage), forces);
+    watch(plan, dynamics);
     hasTorn_ = true;
 }
 
@@ -95,7 +81,7 @@ void Yielding::undo(IslandPlan& plan, Dynamics& dynamics, const ForceList& force
         plan.broken[s] = was.isBroken;
     }
     for (auto& [body, damage] : damaged_) body->damage = std::move(damage);
-    dynamics.take(Changes{}.add(hasTorn_ ? Change::shape : Change::lengths), forces);
+    dynamics.take(Changes{}.add(hasTorn_ ? Change::damage : Change::lengths), forces);
     keep();
     watch(plan, dynamics);
 }

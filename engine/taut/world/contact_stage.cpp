@@ -363,8 +363,9 @@ int ContactStage::takeInstants(const TickTime& time, int needed, std::span<const
 }
 
 // The number of instants of the tick. Negative: for a trial, in which nothing should touch.
-int ContactStage::chooseInstants(const TickTime& time) {
+int ContactStage::chooseInstants(const TickTime& time, std::span<const ColliderMotion> moving) {
     if (spec_.instants) return takeInstants(time, *spec_.instants);
+    for (Island* island : islands_) island->moveColliders(moving, 0);  // they stand where the last try has left them
     contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
     if (!wholes_.empty()) foreseeWholes(forecast);
     // Doubles instants until a motion of that speed goes at most `way` in one.
@@ -547,7 +548,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
     group_->begin(x1_);
     if (anySleeps()) wakeCrossed(time);
     if (islands_.front()->keepsStep()) takeInstants(time, mostInstants());
-    int instants = chooseInstants(time);
+    int instants = chooseInstants(time, moving);
     total_.seconds += secondsSince(start);
 
     // Tries until one stands.
@@ -591,13 +592,13 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         group_->rewind(x0_, x1_);
         if (!reached_.empty()) {
             wake(time, reached_);
-            instants = chooseInstants(time);
+            instants = chooseInstants(time, moving);
             continue;
         }
         instants = isCoarse
                        ? takeInstants(time, std::max({fewestFor(result_.surfaces), 2 * instants_, instantsToFollow()}),
                                       result_.surfaces)
-                       : chooseInstants(time);
+                       : chooseInstants(time, moving);
     }
 
     // Ends the tick.

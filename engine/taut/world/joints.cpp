@@ -64,6 +64,16 @@ std::string jumpWarning(const JointReport& report) {
            "): move the bodies together, lower reach_m, or use kind = \"spring\"";
 }
 
+// Warns of ties that nothing could move; else empty.
+std::string idleWarning(const JointReport& report) {
+    if (report.idle == 0) return "";
+    const JointSpec& joint = *report.spec;
+    return asWarning(at(joint.source)) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" has " +
+           std::to_string(report.idle) +
+           " ties between points of one solid, which are left out: the solid is rigid already, with what is welded to "
+           "it; name points of another body";
+}
+
 // What a seam cannot do, or only by force.
 std::vector<std::string> seamWarnings(const JointReport& report) {
     constexpr double mostGathered = 2.5;  // times as long: ruffles are twice
@@ -102,8 +112,8 @@ void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
             const JointReport& report = reports[next++];
             w.joints.push_back(infoOf(report, number));
             if (!report.loose.empty()) w.jointWarnings.push_back(warningOf(report));
-            if (std::string warning = jumpWarning(report); !warning.empty())
-                w.jointWarnings.push_back(std::move(warning));
+            for (const std::string& warning : {jumpWarning(report), idleWarning(report)})
+                if (!warning.empty()) w.jointWarnings.push_back(warning);
             if (report.spec->isSeam())
                 for (std::string& warning : seamWarnings(report)) w.jointWarnings.push_back(std::move(warning));
         } else {

@@ -1,6 +1,7 @@
 // Where a cut crosses bodies, and how it changes an island.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,8 @@ CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Bod
 // Severs the edges, the springs along them, and the ties.
 void sever(const CutEdges& crossing, IslandPlan& plan);
 
-// Breaks the springs whose edges the damage of their bodies calls severed. Expects damage that has been assessed.
-void breakSevered(IslandPlan& plan);
+// Assesses the damage of all bodies and breaks the springs whose edges it calls severed, each after calling
+// before(spring). What else damage changes, Dynamics makes anew when it takes Change::damage.
+void breakSevered(IslandPlan& plan, const std::function<void(int)>& before = {});
 
 }  // namespace taut::world

@@ -27,7 +27,8 @@ enum class Change {
     material,  // springs, drag, bulk moduli of cells
     points,    // masses, drag, what is held
     grips,     // their number, and what they hold on to
-    shape,     // springs, cells and triangles that are gone
+    damage,    // springs, cells and triangles that are gone
+    shape,     // damage and constraints
     count
 };
 class Changes : public std::bitset<static_cast<std::size_t>(Change::count)> {

@@ -88,6 +88,8 @@ class Island {
     void beginTick(const TickTime& time);
     void beginTry();
     std::optional<Fault> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);
+    // Moves colliders as in one substep of the tick.
+    void moveColliders(std::span<const ColliderMotion> moving, int substep);
     TickVerdict judge(const TickTime& time, std::optional<Fault>& fault);
     void tryAgain(const TickTime& time, TickVerdict verdict);
     void endTick(const TickTime& time);
@@ -226,7 +228,6 @@ class Island {
     std::optional<Fault> overstrained(double t);
     Fault giveUp(double t) const;
     void findInside(std::span<const std::string> names);
-    void moveColliders(std::span<const ColliderMotion> moving, int substep);
     void watchVolumes(double t);
     void watchLimit(double t);
     void setPath(std::size_t grip, const mechanics::PosePath& path);

@@ -51,11 +51,6 @@ class Strength {
     // springs are in reach if they share a point or have neighbouring points.
     std::vector<int> firstToBreak(std::vector<Break> over) const;
 
-    // The springs of the plan between two points.
-    std::vector<int> between(int a, int b) const;
-    // The springs whose limits may change when a spring between these two points breaks.
-    std::vector<int> around(int a, int b) const;
-
   private:
     struct Way {
         int to;      // point

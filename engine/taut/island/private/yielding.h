@@ -28,9 +28,7 @@ class Yielding {
     void undo(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces);
 
   private:
-    // Appends the springs that it changes.
-    void tear(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces, const std::vector<int>& springs,
-              std::vector<int>& changed);
+    void tear(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces, const std::vector<int>& springs);
     void remember(const IslandPlan& plan, int spring);
     void remember(Body& body);
 

@@ -160,7 +160,7 @@ class ContactStage {
     int commonSubsteps() const;  // greatest common divisor over the islands; 1 if all are frozen
     bool movesAny() const;
     int instantsFor(std::span<const int> surfaces) const;
-    int chooseInstants(const TickTime& time);
+    int chooseInstants(const TickTime& time, std::span<const ColliderMotion> moving);
     int takeInstants(const TickTime& time, int needed, std::span<const int> pressed = {});
     int instantsToFollow() const;
     void resolveInstant(double h);

@@ -124,7 +124,7 @@ class SavingOnColliders : public testing::TestWithParam<std::tuple<const char*, 
 TEST_P(SavingOnColliders, EveryTickGoesOnTheSame) {
     const auto& [body, motion] = GetParam();
     const std::string text =
-        std::string("[collider.tray]\nshape = \"box\"\nsize = [1, 0.1, 1]\nkeys = [") + motion + "]\n" + body;
+        std::string("schema = 1\n[collider.tray]\nshape = \"box\"\nsize = [1, 0.1, 1]\nkeys = [") + motion + "]\n" + body;
     const SceneSpec scene = scene::loadSceneText(text, TAUT_SOURCE_DIR "/assets/scenes/tray.toml", {}).spec;
     World through(scene);
     for (int i = 0; i < 30; ++i) {
@@ -157,7 +157,8 @@ INSTANTIATE_TEST_SUITE_P(
 // Across a tear nothing bends any more, whether the world goes on or is restored: the loose end of a rope without
 // weight keeps its momentum.
 TEST(SavingWhole, WhatIsTornBendsNoMore) {
-    const SceneSpec scene = scene::loadSceneText(R"([world]
+    const SceneSpec scene = scene::loadSceneText(R"(schema = 1
+[world]
 gravity = [0, 0, 0]
 [rope.r]
 ends = [[0, 0, 0], [0.4, 0, 0]]

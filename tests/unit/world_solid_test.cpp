@@ -115,6 +115,43 @@ TEST_F(Solids, AreDrawnWhereTheyAre) {
     }
 }
 
+// A solid keeps its shape where a weld jerks points to it, and a rod between two points of it is none.
+TEST_F(Solids, WhatIsWeldedToOneComesToItAndNothingTiesOneToItself) {
+    const std::string box = R"([world]
+gravity = [0, 0, 0]
+[solid.box]
+shape = "box"
+size = [0.1, 0.15, 0.1]
+position = [0, 0.8, 0]
+)";
+    World alone = load(box), world = load(box + R"([rope.line]
+ends = [[0, 1, 0], [0.4, 1, 0]]
+segments = 4
+mass_kg = 0.05
+stretch_N = 5
+[[joint]]
+a = "rope.line@start"
+b = "solid.box@all"
+reach_m = 1
+[[joint]]
+a = "solid.box@#0"
+b = "solid.box@#7"
+kind = "rod"
+)");
+    ASSERT_EQ(world.warnings().size(), 2U);
+    EXPECT_NE(world.warnings().back().find("has 1 ties between points of one solid"), std::string::npos);
+    const auto expectShape = [&] {
+        const std::vector<glm::dvec3> own = alone.positions(alone.select("solid.box")),
+                                      at = world.positions(world.select("solid.box"));
+        ASSERT_EQ(at.size(), own.size());
+        for (std::size_t i = 1; i < at.size(); ++i)
+            EXPECT_NEAR(glm::distance(at[i], at[0]), glm::distance(own[i], own[0]), 1e-6) << i;
+    };
+    expectShape();
+    support::run(world, 10);
+    expectShape();
+}
+
 TEST_F(Solids, WhatCannotBeOneIsRefused) {
     EXPECT_EQ(complaint("[solid.ball]\nshape = \"sphere\"\nthickness = 0.1\n"),
               "s.toml:4:1: error: thickness does not go with shape \"sphere\"\n  thickness = 0.1\n  ^ it belongs to "

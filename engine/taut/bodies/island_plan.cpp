@@ -527,6 +527,8 @@ class Planner {
                 plan.velocities.push_back(model.velocities[k]);
             } else {
                 weldOnto(plan, island, model, k);
+                // What is welded to a solid comes to it: the solid keeps its shape.
+                if (b.spec->isRigid()) plan.positions[static_cast<std::size_t>(island)] = model.positions[k];
                 whole = false;
             }
             b.pointOf[k] = island;
@@ -639,8 +641,9 @@ std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSp
                                     std::vector<JointReport>* joints) {
     if (bodies.empty()) return {};
     Planner planner(bodies, spec);
+    std::vector<IslandPlan> plans = planner.plans();
     if (joints != nullptr) *joints = planner.reports();
-    return planner.plans();
+    return plans;
 }
 
 void addTie(IslandPlan& plan, JointTie tie, const std::function<void()>& add) {

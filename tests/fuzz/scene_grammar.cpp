@@ -202,7 +202,8 @@ class Growing {
                 addGivingWay();
         }
         add({"touch = \"{}\"\n", choices_.of({"others", "all", "nothing"})});
-        if (choices_.oneIn(2)) add({"thickness = {:.6g}\n", choices_.magnitude(1e-4, 3e-2)});
+        if (!bodies_.back().name.starts_with("solid") && choices_.oneIn(2))
+            add({"thickness = {:.6g}\n", choices_.magnitude(1e-4, 3e-2)});
         if (choices_.oneIn(3)) add({"collide = {}\n", choices_.of({"\"faces\"", "false"})});
         if (choices_.oneIn(3)) add({"velocity = {}\n", choices_.vector(10)});
         if (choices_.oneIn(4)) add({"spin_rad_per_s = {}\n", choices_.vector(30)});
@@ -233,6 +234,7 @@ class Growing {
         add({"[[joint]]\na = \"{}@{}\"\nb = \"{}@{}\"\nkind = \"{}\"\n", a.name, choices_.of(a.selectors), b.name,
              choices_.of(b.selectors), kind});
         if (kind == "spring") add({"stiffness_N_per_m = {:.6g}\n", choices_.magnitude(1, 1e5)});
+        if (kind == "weld") add({"reach_m = 2\n"});
     }
 
     void addTies(int colliders) {

@@ -104,8 +104,9 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
 
     way_.resize(count);
     for (std::size_t k = 0; k < count; ++k) way_[k] = ease_[k] > 0 ? left_[k] / ease_[k] : dvec3(0.0);
-    double size = sumOf(left_, left_, ease_);
+    double size = sumOf(left_, left_, ease_), least = size;
     const double wanted = exactly * exactly * size;
+    best_ = p_;
     for (std::size_t round = 0; round < 3 * count + 10 && size > wanted; ++round) {
         respond(at, inverseMass);
         double along = 0;
@@ -122,7 +123,11 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
         for (std::size_t k = 0; k < count; ++k)
             way_[k] = (ease_[k] > 0 ? left_[k] / ease_[k] : dvec3(0.0)) + next / size * way_[k];
         size = next;
+        if (size >= least) continue;
+        least = size;
+        best_ = p_;
     }
+    p_ = best_;  // what redundant pairs ask for in vain drives later ones away
     return true;
 }
 

@@ -132,7 +132,9 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
 }
 
 double JoinedBodies::turning(std::span<const dvec3> at, std::span<const double> forces) const {
-    constexpr double mostTurn = 0.25, mostSwing = 1.5;  // [rad] in a step, of a body and of a spring
+    // [rad] in a step: of a body that turns, of one that swings on what it is joined to, and of a spring.
+    constexpr double mostTurn = 0.25, mostJoined = 0.025, mostSwing = 1.5;
+    constexpr double joined = mostSwing * mostSwing / (mostJoined * mostJoined);
     std::vector<double> sum(bodies_.size(), 0.0);
     for (std::size_t k = 0; k < pairs_.size(); ++k)
         for (const std::size_t point : {pairs_[k].a, pairs_[k].b}) {
@@ -148,7 +150,7 @@ double JoinedBodies::turning(std::span<const dvec3> at, std::span<const double> 
     double most = 0;
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
         const dvec3 rate = (mostSwing / mostTurn) * bodies_[k].spin;
-        most = std::max({most, sum[k], glm::dot(rate, rate)});
+        most = std::max({most, joined * sum[k], glm::dot(rate, rate)});
     }
     return most;
 }

@@ -57,12 +57,20 @@ class RestingBlock {
         return u;
     }
 
-    // Shares out what acts on the right face by the area around its points, which their masses tell.
+    // Shares out what acts on the right face by the area around its points: half at its edges, a quarter at its
+    // corners.
     void spread(const dvec3& whole, Vectors& onPoints) const {
-        double sum = 0.0;
-        for (int i : model_.groups.at("right")) sum += model_.masses[static_cast<std::size_t>(i)];
-        for (int i : model_.groups.at("right"))
-            onPoints[static_cast<std::size_t>(i)] = model_.masses[static_cast<std::size_t>(i)] / sum * whole;
+        const std::vector<int>& face = model_.groups.at("right");
+        const dvec3 corner = model_.positions[static_cast<std::size_t>(face.back())];
+        std::vector<double> areas;
+        for (int i : face) {
+            const dvec3& at = model_.positions[static_cast<std::size_t>(i)];
+            const auto part = [&](int axis) { return std::abs(at[axis]) > 0.999 * std::abs(corner[axis]) ? 0.5 : 1.0; };
+            areas.push_back(part(1) * part(2));
+        }
+        const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
+        for (std::size_t k = 0; k < face.size(); ++k)
+            onPoints[static_cast<std::size_t>(face[k])] = areas[k] / sum * whole;
     }
     // Mean over the right face.
     dvec3 tip(const Vectors& u) const {

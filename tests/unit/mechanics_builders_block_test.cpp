@@ -35,6 +35,19 @@ TEST(BlockBuilder, MassAndCentreAreTheMaterials) {
         }
 }
 
+// A box has M (a² + b²)/12 about each axis, from two cells on; masses in the corners of one have three times as much.
+TEST(BlockBuilder, InertiaIsTheBoxsFromTwoCellsOn) {
+    for (const glm::ivec3& cells : {glm::ivec3(2, 2, 2), glm::ivec3(5, 2, 3), glm::ivec3(1, 1, 1)}) {
+        BlockShape shape = cubes(1);
+        shape.cells = cells;
+        const Model model = buildBlock(shape);
+        const glm::dvec3 square = meanSquares(model);
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(square[axis], shape.size[axis] * shape.size[axis] * (cells[axis] == 1 ? 1.0 / 4 : 1.0 / 12),
+                        1e-12);
+    }
+}
+
 // k = 0.4 E ℓ on edges and face diagonals: C11 = 1.2 E, C12 = C44 = 0.4 E, which is E with ν = 1/4.
 TEST(BlockBuilder, CubicCellsHaveTheMaterialsStiffnessAtEveryResolution) {
     for (int n : {1, 2, 3}) {

@@ -27,6 +27,17 @@ inline glm::dvec3 centreOfMass(const Model& model) {
     return sum / totalMass(model);
 }
 
+// Of the distances of its mass from the centre along each axis [m²].
+inline glm::dvec3 meanSquares(const Model& model) {
+    const glm::dvec3 centre = centreOfMass(model);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < model.positions.size(); ++i) {
+        const glm::dvec3 way = model.positions[i] - centre;
+        sum += model.masses[i] * way * way;
+    }
+    return sum / totalMass(model);
+}
+
 // Σ k (n·ε d)²: twice the energy that a small uniform strain ε stores in the springs [J].
 inline double strainEnergy(const Model& model, const glm::dmat3& strain) {
     double sum = 0.0;

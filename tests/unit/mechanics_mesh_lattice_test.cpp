@@ -7,6 +7,7 @@
 #include "mechanics_box_mesh.h"
 #include "mechanics_lattice_facts.h"
 #include "mechanics_planar_state.h"
+#include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/private/stability.h"
 #include "taut/mechanics/private/volume.h"
@@ -162,6 +163,33 @@ TEST(MeshLattice, WeighsWhatIsInsideOfTheMesh) {
     EXPECT_NEAR(totalMass(model), mass, 1e-12);
     EXPECT_NEAR(glm::distance(centreOfMass(model), turned(0.3, 0.5) * moment / mass), 0.0, 3e-3);
     EXPECT_EQ(brokenRule(model), "");
+}
+
+// An ellipsoid, 6 cells along its shortest axis, has a²/5 of its mass along each axis. Its faces are chords, 0.4 %
+// less.
+TEST(MeshLattice, AnEllipsoidTurnsAsOne) {
+    const glm::dvec3 half(0.45, 0.3, 0.36);
+    Mesh mesh;
+    constexpr int rings = 24, around = 48;
+    const auto at = [&](int ring, int step) {
+        const double theta = core::pi * ring / rings, phi = 2.0 * core::pi * (step % around) / around;
+        return half * glm::dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+    };
+    const auto number = [](int ring, int step) {
+        return ring == 0 ? 0 : ring == rings ? 1 : 2 + (ring - 1) * around + step % around;
+    };
+    mesh.positions = {at(0, 0), at(rings, 0)};
+    for (int ring = 1; ring < rings; ++ring)
+        for (int step = 0; step < around; ++step) mesh.positions.push_back(at(ring, step));
+    for (int ring = 0; ring < rings; ++ring)
+        for (int step = 0; step < around; ++step) {
+            const int a = number(ring, step), b = number(ring + 1, step), c = number(ring + 1, step + 1),
+                      d = number(ring, step + 1);
+            if (ring + 1 < rings) mesh.triangles.push_back({a, b, c});
+            if (ring > 0) mesh.triangles.push_back({a, c, d});
+        }
+    const glm::dvec3 square = meanSquares(buildBlock(shapeIn(meshLattice(mesh.positions, mesh.triangles, 0.1))));
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(square[axis] / (half[axis] * half[axis] / 5.0), 1.0, 0.02) << axis;
 }
 
 // Forces at the vertices of a mesh, handed to the points that carry them, have the same sum and torque; vertices beyond

@@ -378,11 +378,34 @@ class Planner {
         }
     }
 
+    // Solids carry the points of a side where they are, each that which has the nearest point.
+    void carryBySolids(const JointSpec& weld, const JointSide& side, const std::vector<int>& solids) {
+        JointReport& report = reports_.emplace_back();
+        report.spec = &weld;
+        std::map<std::pair<int, int>, int> pairs;  // by bodies: number of carried points
+        for (const PointRef& point : points(side, weld.source)) {
+            int nearest = -1;
+            double least = HUGE_VAL;
+            for (const int solid : solids)
+                for (const dvec3& corner : body(solid).model.positions)
+                    if (const double away = glm::distance(position(point), corner); away < least)
+                        nearest = solid, least = away;
+            islands_.unite(point.body, nearest);
+            carried_.push_back({point, nearest});
+            ++pairs[{point.body, nearest}];
+        }
+        for (const auto& [numbers, count] : pairs)
+            report.pairs.push_back({&body(numbers.first), &body(numbers.second), count});
+    }
+
     // Over 60 lines: it ties each point of one side to the nearest of the other, and reports what it did not tie.
     void addJoint(const JointSpec& joint, int ofScene) {
         if (joint.isWeld()) {
             const std::vector<int> solidsOfA = wholeSolids(joint.a), solidsOfB = wholeSolids(joint.b);
             if (!solidsOfA.empty() && !solidsOfB.empty()) return uniteSolids(joint, solidsOfA, solidsOfB);
+            if (!joint.hasOwnTies() && solidsOfA.empty() != solidsOfB.empty())
+                return carryBySolids(joint, solidsOfA.empty() ? joint.a : joint.b,
+                                     solidsOfA.empty() ? solidsOfB : solidsOfA);
         }
         const std::vector<PointRef> as = points(joint.a, joint.source);
         std::vector<PointRef> bs = points(joint.b, joint.source);
@@ -473,6 +496,12 @@ class Planner {
                 for (int i = 0; i < part->model.pointCount(); ++i)
                     rest.push_back(part->model.positions[static_cast<std::size_t>(i)] - jitterOf(*part, i));
             }
+            for (const auto& [point, solid] : carried_) {
+                const int carried = solids_.find(solid) == number ? pointOf(point) : -1;
+                if (carried < 0 || std::find(points.begin(), points.end(), carried) != points.end()) continue;
+                points.push_back(carried);
+                rest.push_back(position(point) - jitterOf(body(point.body), point.point));
+            }
             plan.constraints.push_back(std::make_shared<RigidConstraint>(std::move(points), std::move(rest)));
             plan.solids.push_back(std::move(parts));
         }
@@ -485,6 +514,9 @@ class Planner {
             if (body(number).spec->isRigid())
                 for (const int point : body(number).pointOf)
                     solidOf[static_cast<std::size_t>(point)] = solids_.find(number);
+        for (const auto& [point, solid] : carried_)
+            if (std::find(members.begin(), members.end(), solid) != members.end())
+                solidOf[static_cast<std::size_t>(pointOf(point))] = solids_.find(solid);
         return solidOf;
     }
 
@@ -631,8 +663,9 @@ class Planner {
     std::vector<int> firstGlobal_;  // (bodies)
     Sets welds_;                    // (points of all bodies)
     std::vector<JointPair> joints_;
-    std::vector<JointReport> reports_;           // (joints of the scene)
-    std::vector<std::array<PointRef, 2>> sewn_;  // pairs of all seams
+    std::vector<std::pair<PointRef, int>> carried_;  // points, and the solids that carry them
+    std::vector<JointReport> reports_;               // (joints of the scene)
+    std::vector<std::array<PointRef, 2>> sewn_;      // pairs of all seams
 };
 
 }  // namespace

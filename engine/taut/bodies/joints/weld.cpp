@@ -36,7 +36,8 @@ Kind<JointSpec> weldKind() {
     return jointKind<WeldJoint>(
         "A weld makes points one; a collider carries all points that are welded to it as they lie when the scene "
         "starts. Of one body, or with a name, break_N or a finish, it keeps points in one place, and they stay two. "
-        "Of all points of solids, it makes each of a one rigid body with the nearest of b, as far as that is.",
+        "A whole solid (solid.NAME@all) carries points as they lie, like a collider; two whole solids become one rigid "
+        "body, each of a with the nearest of b, as far as that is.",
         fields::FieldList<WeldJoint>()
             .number("reach_m", &WeldJoint::furthest, "m", fields::Range{0.0, 1e3},
                     "Largest distance of two points that a weld makes one.")

@@ -161,6 +161,11 @@ bool printRenderers(Packages& packages) {
     const image::Image right =
         hasOsmesa ? printRenderer("osmesa", render::Backend::osmesa, std::nullopt, {}) : image::Image{};
     const bool draws = printEgl(right);
+    const std::string shortage = draws || right.isWhole() ? "" : pipeline::memoryShortage();
+    if (!shortage.empty()) {
+        printFact("pictures", "MISSING: " + shortage);
+        return false;
+    }
     if (!draws)
         for (const char* package : {"libegl-mesa0", "libgl1-mesa-dri"}) packages.add(package);
     if (hasOsmesa && !right.isWhole()) packages.add("libosmesa6");

@@ -100,7 +100,8 @@ scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<s
 }
 
 std::string preparationText(const world::SceneSpec& spec) {
-    constexpr std::size_t many = 40'000;  // triangles, of which a processor prepares some 150 000 in a second
+    constexpr std::size_t many = 40'000;   // triangles, of which a processor prepares some 150 000 in a second
+    constexpr double manyPoints = 50'000;  // of a block, of which it prepares some 20 000
     std::vector<std::string> large;
     const auto look = [&](const world::ColliderSpec& collider, const std::string& name, const auto& self) -> void {
         for (const world::ColliderSpec& part : collider.parts) self(part, name, self);
@@ -108,6 +109,9 @@ std::string preparationText(const world::SceneSpec& spec) {
             large.push_back(fmt::format("{}: {} triangles", name, collider.meshData->triangles.size()));
     };
     for (const world::ColliderSpec& collider : spec.colliders) look(collider, "collider." + collider.name, look);
+    for (const world::BodySpec& body : spec.bodies)
+        if (const double points = body.outline(spec).points; points >= manyPoints)
+            large.push_back(fmt::format("{}: {:.0f} points", body.fullName(), points));
     return large.empty() ? "" : fmt::format("preparing {}", fmt::join(large, ", "));
 }
 

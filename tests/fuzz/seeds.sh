@@ -23,6 +23,8 @@ for file in "$assets"/scenes/*.toml; do
         "$file" | sed -E "$sed_names" | split -l 4 - "overrides/$(basename "$file" .toml)-"
 done
 cp "$1/tests/support/arm.gltf" gltf
+awk 'BEGIN { printf "{\"asset\":{\"version\":\"2.0\"},\"extras\":"; for (i = 0; i < 30000; ++i) printf "["
+    for (i = 0; i < 30000; ++i) printf "]"; printf "}" }' >gltf/deep
 
 for file in "$assets"/models/*.obj; do
     name=$(basename "$file" .obj)

@@ -22,7 +22,13 @@ TEST(Base64, IsThatOfTheStandardHoweverItComes) {
         for (std::size_t i = 0; i < length; ++i) writer.append(out, bytes(text.substr(i, 1)));
         writer.finish(out);
         EXPECT_EQ(out, expected[length]);
+        std::vector<unsigned char> back;
+        EXPECT_TRUE(fromBase64(out, back));
+        EXPECT_EQ(std::string(back.begin(), back.end()), text.substr(0, length));
     }
+    std::vector<unsigned char> back;
+    for (const std::string_view wrong : {"Zg=v", "Zm 9", "Z", "Zm9vY", "===="})
+        EXPECT_FALSE(fromBase64(wrong, back)) << wrong;
 }
 
 }  // namespace

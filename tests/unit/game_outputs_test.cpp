@@ -4,6 +4,7 @@
 
 #include "game/scene_file.h"
 #include "image_support.h"
+#include "taut/bodies/block.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/image/private/video_writer.h"
 
@@ -55,7 +56,7 @@ TEST(Outputs, VeryManyPicturesAreSaidAndLookedForAtOnce) {
               "360000 pictures of 1000 x 1000 pixels: about 180 GB of PNG files, and 1 hours at 100 pictures a second");
 }
 
-TEST(Outputs, CollidersThatTakeLongToPrepareAreSaid) {
+TEST(Outputs, CollidersAndBlocksThatTakeLongToPrepareAreSaid) {
     const auto meshOf = [](std::size_t triangles) {
         world::MeshData data;
         data.triangles.resize(triangles);
@@ -69,7 +70,12 @@ TEST(Outputs, CollidersThatTakeLongToPrepareAreSaid) {
     scene.colliders.push_back({});
     scene.colliders.back().name = "hares";
     scene.colliders.back().parts = {meshOf(70'000), meshOf(12), meshOf(40'000)};
-    EXPECT_EQ(preparationText(scene), "preparing collider.hares: 70000 triangles, collider.hares: 40000 triangles");
+    world::BlockSpec block;
+    block.name = "jelly";
+    block.cells = {99, 99, 4};
+    scene.bodies.add(block);
+    EXPECT_EQ(preparationText(scene),
+              "preparing collider.hares: 70000 triangles, collider.hares: 40000 triangles, block.jelly: 50000 points");
 }
 
 TEST(Outputs, ExistingVideoIsNotOverwrittenUnasked) {

@@ -1,6 +1,7 @@
 // Blocks of what a mesh fills: cells by their share, and a bar that lies askew in them as stiff as one that does not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -312,6 +313,29 @@ TEST(MeshLattice, FaultsOfAMeshAreToldApart) {
     Mesh twice = box;
     addBox(twice, dvec3(0.25), dvec3(1.5));
     EXPECT_EQ(faultOf(twice), "filled twice");
+}
+
+// Of a plate in the slant of its box, by all cells, the first of the nearest; also at equal distances from several.
+TEST(MeshLattice, WhatIsInNoCellGoesWithTheNearest) {
+    Mesh plate;
+    addBox(plate, dvec3(0.0), dvec3(3.0, 3.0, 0.3));
+    turn(plate, turned(0.6, 0.4));
+    const Lattice lattice = meshLattice(plate.positions, plate.triangles, 0.15);
+    for (int z = -2; z <= 2 * lattice.counts.z; ++z)
+        for (int y = -2; y <= 2 * lattice.counts.y; y += 3)
+            for (int x = -2; x <= 2 * lattice.counts.x; x += 3) {
+                const dvec3 place = 0.5 * dvec3(x, y, z) + 0.25 * static_cast<double>((x + y) % 2);
+                const dvec3 inside = glm::clamp(glm::floor(place), dvec3(0.0), dvec3(lattice.counts - 1));
+                if (lattice.carriers[lattice.indexOf(glm::ivec3(inside))] >= 0) continue;
+                const auto away = [&](const LatticeCell& cell) {
+                    const dvec3 way = place - glm::clamp(place, dvec3(cell.at), dvec3(cell.at + 1));
+                    return glm::dot(way, way);
+                };
+                const auto nearest =
+                    std::min_element(lattice.cells.begin(), lattice.cells.end(),
+                                     [&](const LatticeCell& a, const LatticeCell& b) { return away(a) < away(b); });
+                EXPECT_EQ(lattice.carrierOf(place).at, nearest->at) << x << " " << y << " " << z;
+            }
 }
 
 }  // namespace

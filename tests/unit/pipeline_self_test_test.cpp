@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <fstream>
@@ -25,24 +26,44 @@ TEST(SelfTest, BothLibrariesPass) {
         EXPECT_EQ(workingRenderer(optionsWith(shaders), {backend})->info().backend, nameOf(backend));
 }
 
-// A surface shader that throws every fragment away: what a broken driver would show.
-TEST(SelfTest, ABlankPictureIsNoRendererAndSaysWhatWasTried) {
+// Why there is no renderer with a surface shader that throws every fragment away: what a broken driver would show.
+std::string messageOfBlankPicture() {
     const test::TemporaryFolder folder;
     std::filesystem::copy(shaders, folder.path(), std::filesystem::copy_options::recursive);
     std::string text = test::contentOf(folder / "surface.frag");
     const std::size_t body = text.find('{', text.find("void main("));
-    ASSERT_NE(body, std::string::npos);
+    EXPECT_NE(body, std::string::npos);
     text.insert(body + 1, " if (gl_FragCoord.x > -1.0) discard; ");
     test::writeText(folder / "surface.frag", text);
     try {
         workingRenderer(optionsWith(folder.path()), render::backends());
-        FAIL() << "a blank picture passed";
     } catch (const core::Error& error) {
         EXPECT_EQ(error.kind(), core::ErrorKind::noRenderer) << error.what();
-        EXPECT_NE(std::string(error.what()).find("llvmpipe"), std::string::npos) << error.what();
-        for (const render::Backend backend : render::backends())
-            EXPECT_NE(std::string(error.what()).find(nameOf(backend)), std::string::npos) << error.what();
+        return error.what();
     }
+    return "a blank picture passed";
+}
+
+TEST(SelfTest, ABlankPictureIsNoRendererAndSaysWhatWasTried) {
+    const std::string message = messageOfBlankPicture();
+    EXPECT_NE(message.find("llvmpipe"), std::string::npos) << message;
+    for (const render::Backend backend : render::backends())
+        EXPECT_NE(message.find(nameOf(backend)), std::string::npos) << message;
+}
+
+// Memory for the blank picture, but not for what a renderer may take.
+TEST(SelfTest, TooLittleMemoryIsWhyNothingDraws) {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    rlimit before{};
+    ::getrlimit(RLIMIT_AS, &before);
+    const rlimit limit{pages * 4096 + (400U << 20U), before.rlim_max};
+    ::setrlimit(RLIMIT_AS, &limit);
+    const std::string message = messageOfBlankPicture();
+    ::setrlimit(RLIMIT_AS, &before);
+    EXPECT_EQ(message,
+              "nothing here can draw: a renderer takes 500 MB of memory, and there is less; raise the limit (ulimit "
+              "-v)");
 }
 
 }  // namespace

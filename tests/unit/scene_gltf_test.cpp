@@ -1,5 +1,8 @@
 // Figures from glTF files. support/arm.gltf is a strip of two joints, one unit apart, with a morph target.
+#include <sys/resource.h>
+
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -85,9 +88,70 @@ TEST(SceneGltf, SaysWhatIsWrong) {
     EXPECT_EQ(wrong("\"mesh\": 0, \"skin\": 0", "\"skin\": 0"), intro + "there are no triangles");
     EXPECT_EQ(wrong("\"path\": \"weights\"", "\"path\": \"scale\""),
               intro + "accessor 7: a key needs 3 numbers an element");
+    EXPECT_EQ(wrong("base64,A", "base64,*"), intro + "a data URI of it is not base64");
+    EXPECT_EQ(wrong("\"indices\": 3", "\"indices\": 8"), intro + "accessor[8] invalid bufferView");
+    // Compressed parts have accessors without one.
+    EXPECT_EQ(wrong("\"indices\": 3",
+                    "\"indices\": 8}]}],\n\"extensionsRequired\": [\"KHR_draco_mesh_compression\"],\n\"extras\": "
+                    "[{\"a\": [{\"a\": 0"),
+              intro + "it cannot be read without KHR_draco_mesh_compression: export it without that extension");
     EXPECT_EQ(wrong("{\n", "{\n\"extensionsRequired\": [\"KHR_draco_mesh_compression\"],\n"),
               intro + "it cannot be read without KHR_draco_mesh_compression: export it without that extension");
     EXPECT_NE(wrong("{\n", "{\n{").find(intro), std::string::npos);
+}
+
+std::string binary(const std::string& text) {
+    const auto number = [](std::size_t value) {
+        const auto n = static_cast<std::uint32_t>(value);
+        return std::string(reinterpret_cast<const char*>(&n), 4);
+    };
+    return "glTF" + number(2) + number(20 + text.size()) + number(text.size()) + "JSON" + text;
+}
+
+TEST(SceneGltf, TextIsRefusedBeforeItIsTooDeepForTheStack) {
+    const auto deep = [](int levels) {
+        const auto count = static_cast<std::size_t>(levels - 1);  // the whole is one
+        return armWith("{\n",
+                       "{\n\"extras\": " + std::string(count, '[') + "\"]]{\\\"[\"" + std::string(count, ']') + ",\n");
+    };
+    EXPECT_EQ(gltfMeshText(deep(64), "arm.gltf", {}).positions.size(), 10U);
+    for (const int levels : {65, 1'000'000})
+        for (const std::string& text : {deep(levels), binary(deep(levels))}) try {
+                gltfMeshText(text, "arm.gltf", {});
+                FAIL();
+            } catch (const core::Error& error) {
+                EXPECT_STREQ(error.what(), "arm.gltf: error: its JSON is nested more than 64 deep: export it again");
+            }
+}
+
+// JSON may write \/ for /.
+TEST(SceneGltf, BytesInTheTextAreThoseOfTheStandard) {
+    std::string text = armText();
+    for (std::size_t at = text.find('/', text.find("data:")); at != std::string::npos; at = text.find('/', at + 2))
+        text.replace(at, 1, "\\/");
+    const auto expected = gltfMeshText(armText(), "arm.gltf", {}).positions;
+    EXPECT_EQ(gltfMeshText(text, "arm.gltf", {}).positions, expected);
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    EXPECT_EQ(gltfMeshText(binary(text), "arm.glb", {}).positions, expected);
+}
+
+// The text itself is the first; 3/4 of it are its bytes.
+TEST(SceneGltf, BytesInTheTextTakeAtMostTwiceItsMemory) {
+    const auto run = [] {
+        constexpr std::size_t groups = 5U << 20U;
+        std::string letters(4 * groups, 'A');
+        std::string text =
+            armWith("\"buffers\": [", "\"buffers\": [\n{\"byteLength\": " + std::to_string(3 * groups) +
+                                          ", \"uri\": \"data:application/gltf-buffer;base64," + letters + "\"},");
+        for (std::size_t at = 0; (at = text.find("\"buffer\": 0", at)) != std::string::npos; ++at) text[at + 10] = '1';
+        letters = {};
+        std::size_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlimit limit{pages * 4096 + 4 * groups, RLIM_INFINITY};
+        ::setrlimit(RLIMIT_AS, &limit);
+        std::_Exit(gltfMeshText(std::move(text), "arm.gltf", {}).positions.size() == 10 ? 0 : 1);
+    };
+    EXPECT_EXIT(run(), testing::ExitedWithCode(0), "");
 }
 
 TEST(SceneGltf, AFileThatItNamesHasToBeAllowed) {

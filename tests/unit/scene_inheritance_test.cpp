@@ -1,4 +1,7 @@
 // What things have from [defaults.SECTION] and from what they are like.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "taut/bodies/cloth.h"
@@ -177,6 +180,28 @@ TEST(SceneInheritance, WhatIsTakenOverHasALimit) {
     text += "]\n";
     for (int i = 0; i < 100; ++i) text += "[rope.r" + std::to_string(i) + "]\n";
     EXPECT_NE(AssetFolder().messageOf(text).find("takes too many values over by defaults and like"), std::string::npos);
+}
+
+// Each mistyped name is compared with all others, so that the time grows with their square.
+TEST(SceneInheritance, ALongChainAndTheErrorsOfATextHaveALimit) {
+    const AssetFolder folder;
+    const auto chain = [](int length) {
+        std::string text = "schema = 1\n";
+        for (int i = 1; i < length; ++i) text += fmt::format("[camera.c{}]\nlike = \"c{}\"\n", i, i + 1);
+        return text + fmt::format("[camera.c{}]\n", length);
+    };
+    EXPECT_EQ(folder.messageOf(chain(16)), "");
+    EXPECT_EQ(folder.messageOf(chain(17)),
+              "s.toml:3:8: error: camera.c1 is the first of more than 16 that are like one another\n"
+              "  like = \"c2\"\n"
+              "         ^ name one nearer to the end of the chain");
+    std::string mistyped = "schema = 1\n";
+    for (int i = 0; i < 20'000; ++i) mistyped += fmt::format("[camera.c{}]\nlike = \"cc\"\n", i);
+    for (const std::string& text : {chain(20'000), mistyped}) {
+        const std::string message = folder.messageOf(text);
+        EXPECT_EQ(std::count(message.begin(), message.end(), '^'), 200);
+        EXPECT_TRUE(message.ends_with("\n… and more errors"));
+    }
 }
 
 TEST(SceneInheritance, TheSchemaHasDefaultsInWhichNothingIsRequired) {

@@ -1,6 +1,7 @@
 #include "taut/advice/private/encounters.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "taut/advice/contact_doubts.h"
 #include "taut/core/error.h"
@@ -28,8 +29,11 @@ class LookAhead {
 
     Encounters look(double most) {
         if (silent_.empty() || trial_.run.startState != nullptr) return {};  // a state knows which bodies touch
-        letPassWhatStartsInEachOther();
-        World world(trial_);
+        if (!hasSeveral()) return {};
+        auto built = std::make_unique<World>(trial_);
+        letPassWhatStartsInEachOther(WorldAccess::of(*built));
+        if (!entangled_.empty()) built = std::make_unique<World>(trial_);
+        World& world = *built;
         WorldImpl& w = WorldAccess::of(world);
         if (w.islands.size() + w.waiting.size() < 2 || !touchesAny(w)) return found_;
         const std::int64_t last = Ticks(trial_.run).last();
@@ -49,9 +53,14 @@ class LookAhead {
     }
 
   private:
-    void letPassWhatStartsInEachOther() {
-        World world(trial_);
-        WorldImpl& w = WorldAccess::of(world);
+    bool hasSeveral() const {
+        int count = 0;
+        for (const BodySpec& body : trial_.bodies)
+            count += body.array.count.x * body.array.count.y * body.array.count.z;
+        return count > 1;
+    }
+
+    void letPassWhatStartsInEachOther(WorldImpl& w) {
         if (!touchesAny(w)) return;
         for (const BodyCrossing& c : crossingsOf(w)) add(*c.ofEdge, *c.ofTriangle);
         for (const auto& [surfaces, points] : pointsInOnePlace(*w.contactStage))

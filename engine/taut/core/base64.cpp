@@ -1,7 +1,5 @@
 #include "taut/core/private/base64.h"
 
-#include <string_view>
-
 namespace taut::core {
 namespace {
 
@@ -39,6 +37,27 @@ std::string base64(std::span<const std::byte> bytes) {
     writer.append(text, bytes);
     writer.finish(text);
     return text;
+}
+
+bool fromBase64(std::string_view text, std::vector<unsigned char>& bytes) {
+    for (int padding = 0; padding < 2 && text.ends_with('='); ++padding) text.remove_suffix(1);
+    static const std::array<unsigned, 256> valueOf = [] {
+        std::array<unsigned, 256> values{};
+        values.fill(64);
+        for (unsigned i = 0; i < 64; ++i) values[static_cast<unsigned char>(letters[i])] = i;
+        return values;
+    }();
+    bytes.reserve(bytes.size() + text.size() / 4 * 3 + 2);
+    unsigned waiting = 0, bits = 0;
+    for (const char letter : text) {
+        const unsigned value = valueOf[static_cast<unsigned char>(letter)];
+        if (value > 63) return false;
+        waiting = (waiting << 6U | value) & 0xFFFFU;
+        if ((bits += 6) < 8) continue;
+        bits -= 8;
+        bytes.push_back(static_cast<unsigned char>(waiting >> bits));
+    }
+    return bits < 6;
 }
 
 }  // namespace taut::core

@@ -190,6 +190,7 @@ std::string fileContent(const std::filesystem::path& path, std::uint64_t maxByte
     };
     if (facts.st_size > 0 && static_cast<std::uint64_t>(facts.st_size) > maxBytes) tooLarge();
     std::string content;
+    content.reserve(static_cast<std::size_t>(facts.st_size));
     char buffer[1 << 16];
     // Counted all the same: the size of a pipe, and of files of the kernel, is said to be 0.
     while (const std::size_t got = file.read(buffer)) {

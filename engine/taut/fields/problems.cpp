@@ -7,14 +7,15 @@
 #include <tuple>
 #include <utility>
 
+#include "taut/core/error.h"
 #include "taut/core/private/edit_distance.h"
 
 namespace taut::fields {
 
 namespace {
 
-constexpr std::size_t maxWidth = 120;  // of a printed source line
-constexpr std::size_t maxShown = 200;  // errors printed; more help nobody
+constexpr std::size_t maxWidth = 120;   // of a printed source line
+constexpr std::size_t maxErrors = 200;  // more help nobody
 
 // Where each line begins.
 std::vector<std::size_t> lineStartsOf(std::string_view text) {
@@ -120,6 +121,7 @@ Place Problems::placeInside(Place place, std::string_view value, std::size_t byt
 }
 
 void Problems::addError(Place place, std::string message, std::string remedy) {
+    if (errors_.size() == maxErrors) throw core::Error(core::ErrorKind::badContent, errors() + "\n… and more errors");
     errors_.push_back({place, printable(std::move(message)), printable(std::move(remedy)), subject_});
 }
 
@@ -129,19 +131,14 @@ void Problems::addWarning(Place place, std::string message, std::string remedy) 
 
 std::string Problems::errors() const {
     std::string all;
-    std::size_t shown = 0;
-    const std::vector<Problem> problems = sorted(errors_);
-    for (const Problem& problem : problems) {
-        if (shown++ == maxShown) return all + fmt::format("\n… and {} more errors", problems.size() - maxShown);
-        all += (all.empty() ? "" : "\n") + print(problem, "error");
-    }
+    for (const Problem& problem : sorted(errors_)) all += (all.empty() ? "" : "\n") + print(problem, "error");
     return all;
 }
 
 std::vector<std::string> Problems::warnings() const {
     std::vector<std::string> all;
     for (const Problem& problem : sorted(warnings_)) {
-        if (all.size() == maxShown) break;
+        if (all.size() == maxErrors) break;
         all.push_back(print(problem, "warning"));
     }
     return all;

@@ -372,12 +372,22 @@ int Lattice::cellAt(ivec3 place) const {
 const LatticeCell& Lattice::carrierOf(const dvec3& x) const {
     const ivec3 inside = glm::clamp(ivec3(glm::floor(x)), ivec3(0), counts - 1);
     if (const int carrier = carriers[indexOf(inside)]; carrier >= 0) return cells[static_cast<std::size_t>(carrier)];
-    const auto away = [&](const LatticeCell& of) {
-        const dvec3 way = x - glm::clamp(x, dvec3(of.at), dvec3(of.at + 1));
-        return glm::dot(way, way);
-    };
-    return *std::min_element(cells.begin(), cells.end(),
-                             [&](const LatticeCell& a, const LatticeCell& b) { return away(a) < away(b); });
+    // From cube to cube around it, of which the cells of each new one are no nearer than `radius` - 1. Of equally near
+    // cells the first.
+    std::pair nearest(std::numeric_limits<double>::infinity(), 0);
+    for (int radius = 1; radius <= glm::max(counts.x, glm::max(counts.y, counts.z)); ++radius) {
+        if (nearest.first < static_cast<double>(radius - 1) * static_cast<double>(radius - 1)) break;
+        const ivec3 low = glm::max(inside - radius, ivec3(0)), high = glm::min(inside + radius, counts - 1);
+        for (int z = low.z; z <= high.z; ++z)
+            for (int y = low.y; y <= high.y; ++y)
+                for (int i = low.x; i <= high.x; ++i) {
+                    const ivec3 place(i, y, z), off = glm::abs(place - inside);
+                    const int own = std::max({off.x, off.y, off.z}) == radius ? cellAt(place) : -1;
+                    const dvec3 way = x - glm::clamp(x, dvec3(place), dvec3(place + 1));
+                    if (own >= 0) nearest = std::min(nearest, {glm::dot(way, way), own});
+                }
+    }
+    return cells[static_cast<std::size_t>(nearest.second)];
 }
 
 CarriedPoint carriedBy(const LatticeCell& cell, const dvec3& x) {

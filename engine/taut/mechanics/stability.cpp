@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 #include <utility>
 
 #include "taut/core/error.h"
@@ -95,9 +94,19 @@ void addSpring(std::vector<Matrix>& sum, const Spring& spring, double factor, st
     }
 }
 
-// Pairs of points that cells couple, the lower point first, each with the h [N/m] that the pressures of its cells
-// cause.
-using PressureCouplings = std::map<std::pair<int, int>, glm::dvec3>;
+// Pairs of points that cells couple, each with the h [N/m] that the pressures of its cells cause.
+struct PressureCouplings {
+    std::vector<std::vector<std::pair<int, glm::dvec3>>> higher;  // (points) the other point of a pair
+
+    explicit PressureCouplings(std::size_t points) : higher(points) {}
+    void add(int a, int b, const glm::dvec3& h) {
+        auto& of = higher[static_cast<std::size_t>(std::min(a, b))];
+        const int other = std::max(a, b);
+        auto found = std::find_if(of.begin(), of.end(), [&](const auto& pair) { return pair.first == other; });
+        if (found == of.end()) found = of.insert(found, {other, glm::dvec3(0.0)});
+        found->second += h;
+    }
+};
 
 // Adds the stiffness of the cell and of its folds at their corners, each times the sum of `weights` (points; empty: 1)
 // of its corners.
@@ -119,23 +128,27 @@ void addPressure(PressureCouplings& pressed, const VolumeCell& cell, const CellC
     const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0);
     for (const CellPair& pair : cellPairs) {
         const int a = cell.points[pair.i], b = cell.points[pair.j];
-        pressed.try_emplace(std::minmax(a, b), 0.0).first->second += (a < b ? pressure : -pressure) * pair.coupling(p);
+        pressed.add(a, b, (a < b ? pressure : -pressure) * pair.coupling(p));
     }
     forEachFold(p, cell.restVolume, [&](const Fold& fold) {
         for (const auto& [i, j, h] : couplingsOf(fold, p)) {
             const int a = cell.points[i], b = cell.points[j];
-            pressed.try_emplace(std::minmax(a, b), 0.0).first->second += (a < b ? 1.0 : -1.0) * cell.bulkModulus * h;
+            pressed.add(a, b, (a < b ? 1.0 : -1.0) * cell.bulkModulus * h);
         }
     });
 }
 
-double largestRow(const NetworkView& network, const PressureCouplings& pressed) {
+double largestRow(const NetworkView& network, PressureCouplings& pressed) {
     std::vector<double> rows(network.inverseMasses.size(), 0.0);
-    for (const auto& [edge, h] : pressed) {
-        const auto a = static_cast<std::size_t>(edge.first), b = static_cast<std::size_t>(edge.second);
-        const double entry = std::sqrt(network.inverseMasses[a] * network.inverseMasses[b] * glm::dot(h, h));
-        rows[a] += entry;
-        rows[b] += entry;
+    for (std::size_t a = 0; a < rows.size(); ++a) {
+        auto& of = pressed.higher[a];
+        std::sort(of.begin(), of.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+        for (const auto& [other, h] : of) {
+            const auto b = static_cast<std::size_t>(other);
+            const double entry = std::sqrt(network.inverseMasses[a] * network.inverseMasses[b] * glm::dot(h, h));
+            rows[a] += entry;
+            rows[b] += entry;
+        }
     }
     return rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
 }
@@ -170,7 +183,7 @@ FrequencyBound secondBound(const NetworkView& network, std::span<const double> e
         return atPoint;
     };
     const std::vector<double> a = rates(stiffnessAtPoints(network, positions, loose, {}));
-    PressureCouplings pressed;
+    PressureCouplings pressed(network.inverseMasses.size());
     for (const VolumeCell& cell : network.cells) addPressure(pressed, cell, cornersOf(cell, positions));
     const double more = largestExtra(network, extra) + largestRow(network, pressed);
     FrequencyBound bound = overElements(network, a, more);

@@ -1,6 +1,7 @@
 #include "taut/pipeline/self_test.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <array>
@@ -93,6 +94,17 @@ TestDrawing drawTest(render::Renderer& renderer, int times) {
     return drawing;
 }
 
+// Libraries of OpenGL do not report it: they give no context, or one that draws nothing.
+std::string memoryShortage() {
+    constexpr std::size_t needed = 500U << 20U;  // [bytes] llvmpipe takes 450 MB of addresses for a small picture
+    void* const memory = ::mmap(nullptr, needed, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED)
+        return fmt::format("a renderer takes {} MB of memory, and there is less; raise the limit (ulimit -v)",
+                           needed >> 20U);
+    ::munmap(memory, needed);
+    return "";
+}
+
 std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions options,
                                                   const std::vector<render::Backend>& backends) {
     TAUT_EXPECTS(!backends.empty());
@@ -108,6 +120,8 @@ std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions option
             tried += fmt::format("\n  {}: {}", nameOf(backend), error.what());
         }
     }
+    if (const std::string shortage = memoryShortage(); !shortage.empty())
+        throw core::Error(core::ErrorKind::noRenderer, "nothing here can draw: " + shortage);
     const bool hasOsmesa = render::backends().front() == render::Backend::osmesa;
     throw core::Error(
         core::ErrorKind::noRenderer,

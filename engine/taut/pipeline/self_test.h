@@ -27,6 +27,9 @@ TestDrawing drawTest(render::Renderer& renderer, int times);
 std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions options,
                                                   const std::vector<render::Backend>& backends);
 
+// Why nothing draws if this process cannot have the memory that a software renderer takes; empty: it can.
+std::string memoryShortage();
+
 std::string nameOf(render::Backend backend);  // as in the flag --gl
 
 }  // namespace taut::pipeline

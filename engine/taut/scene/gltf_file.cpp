@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>  // tinygltf forgets it
@@ -21,6 +22,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/file_part.h"
+#include "taut/core/private/base64.h"
 #include "taut/core/private/hash.h"
 #include "taut/core/whole_file.h"
 #include "taut/figure/figure.h"
@@ -38,6 +40,8 @@ constexpr std::uint64_t maxFileSize = 256U << 20U;  // [bytes] of the file, and 
 constexpr std::size_t maxElements = 5'000'000;      // of one accessor; vertices and corners of all parts
 constexpr std::size_t maxNodes = 100'000;
 constexpr double maxPlace = 1e12;
+constexpr int maxDepth = 64;  // of arrays and objects in its text: tinygltf recurses
+constexpr std::string_view embedded = "data:";
 
 // Extensions that change nothing that is read here, so that a file may require them.
 constexpr std::string_view harmless[] = {"KHR_mesh_quantization", "KHR_lights_punctual", "KHR_texture_transform",
@@ -57,8 +61,9 @@ class GltfReader {
     GltfReader(const std::filesystem::path& path, const Confinement& confinement)
         : path_(path), confinement_(confinement), figure_(std::make_shared<Figure>()) {}
 
-    world::MeshData read(std::string_view bytes) {
+    world::MeshData read(std::string bytes) {
         parse(bytes);
+        bytes = {};
         readNodes();
         for (const tinygltf::Skin& skin : model_.skins) readSkin(skin);
         for (std::size_t n = 0; n < model_.nodes.size(); ++n)
@@ -83,14 +88,24 @@ class GltfReader {
 
     // ---- the file and those that it names ----
 
-    void parse(std::string_view bytes) {
+    void parse(std::string& bytes) {
         core::Hash hash;
         hash.add(bytes);
         tinygltf::TinyGLTF loader;
         if (bytes.starts_with("glTF") && bytes.size() > 28) {
-            std::uint32_t textLength = 0;
+            std::uint32_t length = 0, textLength = 0;
+            std::memcpy(&length, bytes.data() + 8, sizeof length);
             std::memcpy(&textLength, bytes.data() + 12, sizeof textLength);
             binaryStart_ = std::size_t{28} + textLength;  // behind a head, the text, and the head of each chunk
+            const std::size_t before = bytes.size();
+            prepare(bytes, 20, std::min(before, std::size_t{20} + textLength));
+            const auto lost = static_cast<std::uint32_t>(before - bytes.size());
+            length -= lost;
+            textLength -= lost;
+            std::memcpy(bytes.data() + 8, &length, sizeof length);
+            std::memcpy(bytes.data() + 12, &textLength, sizeof textLength);
+        } else {
+            prepare(bytes, 0, bytes.size());
         }
         loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                                  void*) { return true; },
@@ -109,24 +124,76 @@ class GltfReader {
         } catch (const std::exception& error) {  // of its JSON reader
             errors += error.what();
         }
+        // An extension may be why it could not be read.
+        for (const std::string& extension : model_.extensionsRequired)
+            if (std::none_of(std::begin(harmless), std::end(harmless),
+                             [&](std::string_view known) { return extension.starts_with(known); }))
+                fail(fmt::format("it cannot be read without {}: export it without that extension", extension));
         if (!isRead) {
             std::string why = errors.empty() ? warnings : errors;
             why.erase(std::find(why.begin(), why.end(), '\n'), why.end());
             fail(why.empty() ? "this is not a glTF file" : why);
         }
         if (!model_.asset.version.starts_with("2.")) fail("only glTF 2.0 is read");
-        for (const std::string& extension : model_.extensionsRequired)
-            if (std::none_of(std::begin(harmless), std::end(harmless),
-                             [&](std::string_view known) { return extension.starts_with(known); }))
-                fail(fmt::format("it cannot be read without {}: export it without that extension", extension));
         hash_ = hash;
+    }
+
+    // Refuses deep text from `first` to `last`, and takes base64 out of it, which tinygltf would copy several times: a
+    // name that takenAs() knows stays in its place. What is taken is a multiple of four.
+    void prepare(std::string& bytes, std::size_t first, std::size_t last) {
+        std::size_t kept = first;
+        int depth = 0;
+        for (std::size_t i = first, end = i; i < last; i = end) {
+            end = i + 1;
+            if (bytes[i] == '[' || bytes[i] == '{') ++depth;
+            if (bytes[i] == ']' || bytes[i] == '}') --depth;
+            if (depth > maxDepth) fail(fmt::format("its JSON is nested more than {} deep: export it again", maxDepth));
+            std::string name;
+            if (bytes[i] == '"') {
+                while (end < last && bytes[end] != '"') end += bytes[end] == '\\' ? 2 : 1;
+                end = std::min(end + 1, last);
+                name = takenBase64(std::span(bytes).subspan(i, end - i));
+            }
+            const auto to = bytes.begin() + static_cast<std::ptrdiff_t>(kept);
+            const std::string_view left = name.empty() ? std::string_view(bytes).substr(i, end - i) : name;
+            std::copy(left.begin(), left.end(), to);
+            kept += left.size();
+        }
+        while ((last - kept) % 4 != 0) bytes[kept++] = ' ';
+        bytes.erase(kept, last - kept);
+    }
+
+    // A name in the place of a string, with its quotation marks, that holds base64; empty: it holds none.
+    std::string takenBase64(std::span<char> string) {
+        constexpr std::string_view mark = ";base64,";
+        const std::string_view whole(string.data(), string.size());
+        const std::size_t at = whole.substr(0, 100).find(mark);
+        if (!whole.substr(1).starts_with(embedded) || at == std::string_view::npos || !whole.ends_with('"')) return "";
+        const std::span<char> letters = string.subspan(at + mark.size(), whole.size() - at - mark.size() - 1);
+        // JSON may write \/ for /.
+        const auto length = std::remove(letters.begin(), letters.end(), '\\') - letters.begin();
+        base64_.emplace_back();
+        if (!core::fromBase64(whole.substr(at + mark.size(), static_cast<std::size_t>(length)), base64_.back()))
+            fail("a data URI of it is not base64");
+        return fmt::format("\"{}{}\"", embedded, base64_.size() - 1);
+    }
+
+    // The bytes for which takenBase64() gave this name in a folder; null: none.
+    std::vector<unsigned char>* takenAs(const std::string& name) {
+        const std::string file = std::filesystem::path(name).filename().string();
+        std::size_t number = base64_.size();
+        if (file.starts_with(embedded))
+            std::from_chars(file.data() + embedded.size(), file.data() + file.size(), number);
+        return number < base64_.size() ? &base64_[number] : nullptr;
     }
 
     // A template, so that `requires` finds the callback that tinygltf has only since 2.9.
     template <class Callbacks>
     Callbacks fileCallbacks() {
         Callbacks all{};
-        all.FileExists = [](const std::string& name, void*) { return core::isThere(name); };
+        all.FileExists = [](const std::string& name, void* self) {
+            return static_cast<GltfReader*>(self)->takenAs(name) != nullptr || core::isThere(name);
+        };
         all.ExpandFilePath = [](const std::string& name, void*) { return name; };
         all.ReadWholeFile = [](std::vector<unsigned char>* content, std::string* error, const std::string& name,
                                void* self) {
@@ -146,6 +213,10 @@ class GltfReader {
 
     bool readNamed(const std::string& name, std::vector<unsigned char>& content, std::string& error) {
         try {
+            if (std::vector<unsigned char>* bytes = takenAs(name); bytes != nullptr) {
+                content.swap(*bytes);
+                return true;
+            }
             if (!confinement_.allows(name)) {
                 error += outsideMessage(name);
                 return false;
@@ -566,7 +637,7 @@ class GltfReader {
         const int source = at(model_.textures, pbr.baseColorTexture.index, "texture").source;
         if (source < 0) return;
         const tinygltf::Image& image = at(model_.images, source, "image");
-        if (image.bufferView < 0 && !image.uri.empty()) {
+        if (image.bufferView < 0 && !image.uri.empty() && !image.uri.starts_with(embedded)) {
             piece.texture = (path_.parent_path() / tinygltf::dlib::urldecode(image.uri)).string();
             return;
         }
@@ -616,7 +687,8 @@ class GltfReader {
     const Confinement& confinement_;
     tinygltf::Model model_;
     core::Hash hash_;
-    std::size_t binaryStart_ = 0;  // of a GLB: where in the file its buffer begins
+    std::vector<std::vector<unsigned char>> base64_;  // in the order of the text
+    std::size_t binaryStart_ = 0;                     // of a GLB: where in the file its buffer begins
     std::shared_ptr<Figure> figure_;
     world::MeshData mesh_;
     std::vector<bool> isDrawn_;  // (nodes of the file) in its scene
@@ -634,9 +706,8 @@ world::MeshData gltfMesh(const std::filesystem::path& path, const Confinement& c
     return gltfMeshText(core::fileContent(path, maxFileSize), path, confinement);
 }
 
-world::MeshData gltfMeshText(std::string_view bytes, const std::filesystem::path& path,
-                             const Confinement& confinement) {
-    return GltfReader(path, confinement).read(bytes);
+world::MeshData gltfMeshText(std::string bytes, const std::filesystem::path& path, const Confinement& confinement) {
+    return GltfReader(path, confinement).read(std::move(bytes));
 }
 
 }  // namespace taut::scene

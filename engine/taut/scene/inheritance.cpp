@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "taut/scene/private/merge.h"
@@ -50,7 +51,9 @@ class Elements {
           materials_(materials),
           table_(table),
           taken_(taken),
-          problems_(problems) {}
+          problems_(problems) {
+        for (const Member& element : table.members) byName_.emplace(element.key, &element);
+    }
 
     void inherit() {
         std::vector<Node> whole;
@@ -90,9 +93,12 @@ class Elements {
             if (isNew && chain.size() <= longestChain) continue;
             // Each element of a circle reports it; one that leads into it reports nothing.
             if (next == chain.front())
-                reportChain(chain, "is like itself");
+                reportCircle(chain);
             else if (isNew)
-                reportChain(chain, fmt::format("is the first of more than {} that are like one another", longestChain));
+                problems_.addError(element.value.at("like")->place,
+                                   fmt::format("{} is the first of more than {} that are like one another",
+                                               titleOf(element), longestChain),
+                                   "name one nearer to the end of the chain");
             chain.resize(1);
             break;
         }
@@ -114,11 +120,11 @@ class Elements {
             below.insert(below.end() - (defaults_ != nullptr ? 1 : 0), things);
     }
 
-    void reportChain(const std::vector<const Member*>& chain, const std::string& what) {
+    void reportCircle(const std::vector<const Member*>& chain) {
         std::vector<std::string> titles;
         for (const Member* element : chain) titles.push_back(titleOf(*element));
         problems_.addError(chain.front()->value.at("like")->place,
-                           fmt::format("{} {}: {}", titles.front(), what, joined(titles, " -> ")));
+                           fmt::format("{} is like itself: {}", titles.front(), joined(titles, " -> ")));
     }
 
     // The element that another is like; null if it names none or a missing one.
@@ -127,8 +133,7 @@ class Elements {
         if (like == nullptr || like->value.kind != NodeKind::text) return nullptr;  // reported by the reader
         std::string name = like->value.text;
         if (name.starts_with(section_.name + ".")) name.erase(0, section_.name.size() + 1);
-        const Member* other = table_.find(name);
-        if (other != nullptr) return other;
+        if (const auto other = byName_.find(name); other != byName_.end()) return other->second;
         std::vector<std::string> names;
         for (const Member& candidate : table_.members)
             if (&candidate != &element) names.push_back(candidate.key);
@@ -145,6 +150,7 @@ class Elements {
     const Node* defaults_;
     const Node* materials_;
     Node& table_;
+    std::map<std::string, const Member*> byName_;
     std::size_t& taken_;
     Problems& problems_;
 };

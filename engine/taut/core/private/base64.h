@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace taut::core {
 
@@ -22,5 +24,8 @@ class Base64 {
 };
 
 std::string base64(std::span<const std::byte> bytes);
+
+// Appends the bytes of such a text, padded or not. False for other letters and lengths, and then some are missing.
+bool fromBase64(std::string_view text, std::vector<unsigned char>& bytes);
 
 }  // namespace taut::core

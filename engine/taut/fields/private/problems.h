@@ -29,14 +29,14 @@ class Problems {
     // The place of a byte of a text value that is written at `place`.
     Place placeInside(Place place, std::string_view value, std::size_t byte) const;
 
-    // A remedy is a short phrase printed beside the caret: what to write instead.
+    // A remedy is a short phrase printed beside the caret: what to write instead. After 200 errors the next one throws
+    // them as core::Error(badContent): each may cost a search for a likely word.
     void addError(Place place, std::string message, std::string remedy = {});
     void addWarning(Place place, std::string message, std::string remedy = {});
 
     int errorCount() const { return static_cast<int>(errors_.size()); }
 
-    // Sorted: the file from top to bottom, then those that it builds on, then the overrides in their order. At most
-    // 200.
+    // Sorted: the file from top to bottom, then those that it builds on, then the overrides in their order.
     std::string errors() const;  // joined by newlines
     std::vector<std::string> warnings() const;
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
+#include <string>
 
 #include "taut/scene/private/text_file.h"
 #include "taut/spec/mesh_data.h"
@@ -17,6 +17,6 @@ namespace taut::scene {
 world::MeshData gltfMesh(const std::filesystem::path& path, const Confinement& confinement);
 
 // The same for the contents of such a file; the path appears in messages, and other files lie beside it.
-world::MeshData gltfMeshText(std::string_view bytes, const std::filesystem::path& path, const Confinement& confinement);
+world::MeshData gltfMeshText(std::string bytes, const std::filesystem::path& path, const Confinement& confinement);
 
 }  // namespace taut::scene

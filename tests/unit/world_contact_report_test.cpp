@@ -196,9 +196,11 @@ TEST(TouchDoubts, AreOfWhatGoesThroughAnotherOfThickLayersAndOfTouchAlone) {
                                         "\"all\""}));
     EXPECT_EQ(rehearse(lone).warnings.size(), 2U);  // the ball falls through it, too
     lone.colliders = {support::ground()};           // points meet a plane as faces do
-    EXPECT_EQ(touchDoubts(*std::make_unique<World>(lone)).size(), 1U);
+    World onPlane(lone);
+    EXPECT_EQ(touchDoubts(onPlane).size(), 1U);
     lone.colliders = {support::ball("post", {0, -1, 0}, 0.1)};
-    EXPECT_TRUE(touchDoubts(*std::make_unique<World>(lone)).empty());
+    World overPost(lone);
+    EXPECT_TRUE(touchDoubts(overPost).empty());
     lone.colliders.clear();
     lone.bodies.of<NetSpec>()[0].touch = Touch::others;
     EXPECT_TRUE(rehearse(lone).warnings.empty());

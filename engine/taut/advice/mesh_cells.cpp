@@ -112,10 +112,11 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
     }
     if (thinArea < worthSaying * area) return;
     std::sort(thin.begin(), thin.end());
+    // No larger than a third of the whole, for which one cell is too coarse however thick it is.
     double thinner = 0.0, enough = block.cell;
     for (const auto& [under, own] : thin)
         if ((thinner += own) >= worthSaying * area) {
-            enough = roundedDown(under);
+            enough = roundedDown(std::min(under, glm::max(size.x, glm::max(size.y, size.z)) / 3));
             break;
         }
     doubts.push_back(fmt::format(

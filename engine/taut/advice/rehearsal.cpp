@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "taut/advice/bending_cells.h"
 #include "taut/advice/mesh_cells.h"
 #include "taut/advice/private/encounters.h"
 #include "taut/advice/private/pins.h"
@@ -122,7 +121,6 @@ Rehearsal rehearse(const SceneSpec& scene) {
         if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
     for (const IslandInfo& island : world.islands())
         rehearsal.advice.insert(rehearsal.advice.end(), island.advice.begin(), island.advice.end());
-    for (std::string& note : coarseCells(scene)) rehearsal.advice.push_back(std::move(note));
     for (const std::string& warning : world.warnings())
         if (std::none_of(rehearsal.faults.begin(), rehearsal.faults.end(),
                          [&](const std::string& fault) { return fault.find(warning) != std::string::npos; }))

@@ -109,7 +109,7 @@ high = [1e-2, 0.5]
 // The end of a held rope swings: with little drag it is at the height of 0.78 m on its way, with more a second time.
 // From a drag of 0.3 /s the slope leads to the bound.
 TEST(Fit, SeeksFromOtherStartsWhatASlopeLeadsAwayFrom) {
-    const Fit fit = fitOf(R"(schema = 1
+    const Fit fit = fitOf(R"toml(schema = 1
 run = { seconds = 2.0 }
 [rope.p]
 ends = [[0, 1, 0], [0.3, 1, 0]]
@@ -124,9 +124,12 @@ keys = ["rope.p.drag_per_s"]
 low = [0.01]
 high = [10.0]
 [[fit.target]]
-that = "lowest(rope.p@end)" at = 1.0 value = 0.78 sigma = 0.01) ");
-                    EXPECT_TRUE(fit.isMet())
-                    << fitSummary(fit);
+that = "lowest(rope.p@end)"
+at = 1.0
+value = 0.78
+sigma = 0.01
+)toml");
+    EXPECT_TRUE(fit.isMet()) << fitSummary(fit);
     EXPECT_GT(fit.starts, 1);
 }
 

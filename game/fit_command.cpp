@@ -62,7 +62,8 @@ Action declareFit(Options& options) {
     options.value("--trials", flags->trials, "Runs at most").within(1, 1000000).showDefault();
     options.footer(
         "A trial is the scene with --set of its values, played to the last moment that was measured.\n"
-        "Ends with 5 when a target cannot be met, or two numbers cannot be told apart, and says so.\n"
+        "Starts from the scene's values; while a target is not met, from other places between the bounds.\n"
+        "Ends with 5 when a target is not met, or two numbers cannot be told apart, and says so.\n"
         "Examples:\n"
         "  taut fit strip.toml\n"
         "  taut fit strip.toml --json out/fit.json --write");

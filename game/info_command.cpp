@@ -14,6 +14,7 @@
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "game/usage.h"
+#include "taut/advice/bending_cells.h"
 #include "taut/advice/private/start_doubts.h"
 #include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
@@ -92,7 +93,7 @@ struct Facts {
     std::vector<world::IslandInfo> islands;
     std::vector<world::JointInfo> joints;
     world::ContactInfo contact;  // of the ticks that were measured
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings, notes;
     double tickSeconds = 0.0;
     int ticksPerFrame = 1;
     std::int64_t frames = 0;
@@ -109,6 +110,7 @@ Facts gatherFacts(const InfoFlags& flags) {
     facts.joints = world.joints();
     facts.warnings = world.warnings();
     for (const std::string& doubt : world::startDoubts(world)) facts.warnings.push_back(doubt);
+    facts.notes = world::coarseCells(facts.spec);
     facts.tickSeconds = world.tickSeconds();
     facts.ticksPerFrame = world.ticksPerFrame();
     facts.frames = pipeline::frameCount(facts.spec.run);
@@ -208,7 +210,8 @@ void printJson(const Facts& facts) {
                        {"joints", std::move(joints)},
                        {"contact", contactJson(facts.contact)},
                        {"colliders", facts.spec.colliders.size()},
-                       {"warnings", facts.warnings}};
+                       {"warnings", facts.warnings},
+                       {"notes", facts.notes}};
     printResult("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
 }
 
@@ -337,6 +340,7 @@ void printTable(const Facts& facts) {
     if (facts.cost.ticks > 0) printCost(facts, pointSteps);
     for (const std::string& warning : facts.warnings)
         printResult("{}{}\n", warning.find("warning: ") == std::string::npos ? "warning: " : "", warning);
+    for (const std::string& note : facts.notes) printResult("note: {}\n", note);
 }
 
 Json methodsJson() {

@@ -195,6 +195,13 @@ TEST(TouchDoubts, AreOfWhatGoesThroughAnotherOfThickLayersAndOfTouchAlone) {
                                         "nothing will come of it; give another body touch too, or this one touch = "
                                         "\"all\""}));
     EXPECT_EQ(rehearse(lone).warnings.size(), 2U);  // the ball falls through it, too
+    lone.colliders = {support::ground()};           // points meet a plane as faces do
+    World onPlane(lone);
+    EXPECT_EQ(touchDoubts(onPlane).size(), 1U);
+    lone.colliders = {support::ball("post", {0, -1, 0}, 0.1)};
+    World overPost(lone);
+    EXPECT_TRUE(touchDoubts(overPost).empty());
+    lone.colliders.clear();
     lone.bodies.of<NetSpec>()[0].touch = Touch::others;
     EXPECT_TRUE(rehearse(lone).warnings.empty());
 }

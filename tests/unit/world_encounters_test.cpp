@@ -107,6 +107,33 @@ TEST(Encounters, CountFromTheSpawnOfABody) {
     EXPECT_EQ(encounters(scene).pairs, Pairs());
 }
 
+// The diagonals of its cells are 0.28 m long.
+TEST(Encounters, AreOfAPostBetweenThePointsOfACloth) {
+    SceneSpec scene;
+    scene.run.seconds = 1;
+    ClothSpec cloth = support::cloth("sheet", 6);
+    cloth.size = {1.2, 1.2};
+    cloth.origin = {-0.7, 0.6, -0.67};
+    cloth.down = {0, 0, 1};
+    scene.bodies.add(cloth);
+    ColliderSpec post;
+    post.name = "post";
+    post.shape = "box";
+    post.size = {0.12, 0.4, 0.12};
+    post.position = {0, 0.2, 0};
+    scene.colliders = {post, support::ground()};
+    using Posts = std::map<std::pair<std::string, std::string>, double>;
+    EXPECT_EQ(encounters(scene).posts, (Posts{{{"cloth.sheet", "collider.post"}, 0.12}}));
+    scene.colliders[0].position.x = 3;  // beside
+    EXPECT_EQ(encounters(scene).posts, Posts());
+    scene.colliders[0].position.x = 0;
+    scene.colliders[0].size = {0.3, 0.4, 0.3};
+    EXPECT_EQ(encounters(scene).posts, Posts());
+    scene.colliders[0].size = {0.12, 0.4, 0.12};
+    scene.bodies[0].meetsFaces = true;
+    EXPECT_EQ(encounters(scene).posts, Posts());
+}
+
 TEST(Encounters, AreLookedForAsFarAsIsCheap) {
     SceneSpec scene;
     scene.run.seconds = 1e5;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/timelines.h"
+#include "taut/advice/bending_cells.h"
 #include "taut/bodies/net.h"
 
 namespace taut::world {
@@ -93,6 +94,17 @@ TEST(Rehearsal, WarnsOfAFewBodiesThatComeIntoEachOthersWay) {
               "rope.r0 and rope.r1 come into each other's way and pass through each other: give both touch = "
               "\"others\", keep them apart, or tie them by a joint");
     EXPECT_EQ(rehearsal.warnings[8], "2 more pairs of bodies come into each other's way");  // of ten
+}
+
+// Cells of a quarter of a metre and a bending length of 2 cm: taut info says so.
+TEST(Rehearsal, HasNothingToSayOfCoarseCells) {
+    SceneSpec scene;
+    scene.run.seconds = 1;
+    scene.materials["linen"].rigidity.warp = 2e-5;
+    scene.bodies.add(support::cloth("sheet", 4));
+    scene.bodies.of<ClothSpec>()[0].material = "linen";
+    EXPECT_EQ(coarseCells(scene).size(), 1U);
+    EXPECT_TRUE(rehearse(scene).advice.empty());
 }
 
 // A mass of 1 kg that hangs by a spring of 1e6 N/m: ω = 1000 /s, of which leap-frog stands steps of 2 ms.

@@ -120,6 +120,22 @@ TEST(StartDoubts, AreOfStepsWithoutNumber) {
     EXPECT_LE(said, 1.5 * steps) << doubts[0];  // ends are lighter, and a tenth is for safety
 }
 
+TEST(StartDoubts, BlameTheBodyWhoseSpringSetsTheStep) {
+    RopeSpec wire = support::rope("wire", {0, 2, 0}, {1, 2, 0}, 10);
+    wire.source = {"s.toml", 7, 2};
+    wire.dampingTime = 0;
+    wire.stretch = 1e9;
+    SceneSpec scene = ropeScene(wire);
+    ClothSpec cloth = support::cloth("sheet", 4);
+    cloth.origin = {1, 2, 0};
+    scene.bodies.add(cloth);
+    scene.joints = {support::weld("rope.wire@end", "cloth.sheet@top-left", 0.01)};
+    const Doubts doubts = doubtsOf(scene);
+    ASSERT_EQ(doubts.size(), 1U);
+    EXPECT_TRUE(doubts[0].starts_with("s.toml:7:2: warning: cloth.sheet needs ")) << doubts[0];
+    EXPECT_NE(doubts[0].find(" of rope.wire: take less stiffness or damping there"), std::string::npos) << doubts[0];
+}
+
 TEST(StartDoubts, AreOfAWeldThatJerksPointsTogether) {
     SceneSpec scene = ropeScene(support::rope("a", {0, 2, 0}, {1, 2, 0}, 10));
     scene.bodies.add(support::rope("b", {1.15, 2, 0}, {2.15, 2, 0}, 10));

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <set>
 
 #include "taut/contact/closest_points.h"
 #include "taut/world/private/bodies.h"
+#include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/tick.h"
 
@@ -62,8 +64,10 @@ void doubtInstants(const WorldImpl& world, std::vector<std::string>& doubts) {
         instants, stiffest->plan().bodies.front()->fullName(), stiffest->instantsToPress()));
 }
 
-void doubtLoneliness(std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
+// Its faces meet corners and edges of colliders at least, if there are any.
+void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
     if (bodies.size() != 1 || bodies[0]->spec->touch != Touch::others || bodies[0]->spec->isRigid()) return;
+    if (bodies[0]->spec->collide && !colliderWidths(world).empty()) return;
     doubts.push_back(bodies[0]->fullName() +
                      " has touch = \"others\", but there is no other that touches: nothing will come of it; give "
                      "another body touch too, or this one touch = \"all\"");
@@ -123,6 +127,23 @@ void doubtPlaces(const ContactStage& stage, std::vector<std::string>& doubts) {
 
 }  // namespace
 
+std::map<std::string, double> colliderWidths(const WorldImpl& world) {
+    std::map<std::string, double> widths;
+    for (const TouchedCollider& collider : touchedColliders(world)) {
+        if (collider.outlines.empty()) continue;
+        core::Aabb box;
+        for (const collision::Outline& outline : collider.outlines)
+            for (const dvec3& vertex : outline.vertices) {
+                box.add(vertex - outline.radius);
+                box.add(vertex + outline.radius);
+            }
+        std::array sizes{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
+        std::sort(sizes.begin(), sizes.end());
+        widths[collider.name] = sizes[1];
+    }
+    return widths;
+}
+
 std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage& stage) {
     // Pairs of patches whose boxes overlap.
     const contact::Elements& elements = stage.elements();
@@ -175,7 +196,7 @@ std::vector<std::string> touchDoubts(World& world) {
     WorldImpl& w = WorldAccess::of(world);
     std::vector<std::string> doubts;
     const std::vector<const Body*> bodies = touchingBodies(w);
-    doubtLoneliness(bodies, doubts);
+    doubtLoneliness(w, bodies, doubts);
     doubtThickness(bodies, doubts);
     doubtInstants(w, doubts);
     doubtCrossings(w, doubts);

@@ -6,6 +6,7 @@
 #include "taut/advice/contact_doubts.h"
 #include "taut/core/error.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/tick.h"
 #include "taut/world/world.h"
@@ -23,25 +24,29 @@ class LookAhead {
         for (BodySpec& body : trial_.bodies) {
             if (body.touch != Touch::nothing) continue;
             silent_.insert(body.fullName());
+            if (body.collide && !body.facesMeetColliders()) pointwise_.insert(body.fullName());
             body.touch = Touch::others;
         }
     }
 
     Encounters look(double most) {
         if (silent_.empty() || trial_.run.startState != nullptr) return {};  // a state knows which bodies touch
-        if (!hasSeveral()) return {};
+        if (!hasSeveral() && (pointwise_.empty() || trial_.colliders.empty())) return {};
         auto built = std::make_unique<World>(trial_);
         letPassWhatStartsInEachOther(WorldAccess::of(*built));
         if (!entangled_.empty()) built = std::make_unique<World>(trial_);
         World& world = *built;
         WorldImpl& w = WorldAccess::of(world);
-        if (w.islands.size() + w.waiting.size() < 2 || !touchesAny(w)) return found_;
+        if (!touchesAny(w)) return found_;
+        findPosts(w);
+        if (w.islands.size() + w.waiting.size() < 2 && posts_.empty()) return found_;
         const std::int64_t last = Ticks(trial_.run).last();
         double work = 0;
         try {
             while (world.tick() < last && work < most && !world.advance()) {
                 for (const BodyContact& c : w.contactReport.contacts())
                     if (c.first != nullptr && c.second != nullptr) add(*c.first, *c.second);
+                addPosts(*w.contactStage);
                 for (const contact::Crossing& c : w.contactStage->crossingsBefore()) add(*w.contactStage, c);
                 work = workOf(w);
             }
@@ -58,6 +63,28 @@ class LookAhead {
         for (const BodySpec& body : trial_.bodies)
             count += body.array.count.x * body.array.count.y * body.array.count.z;
         return count > 1;
+    }
+
+    void findPosts(const WorldImpl& world) {
+        const std::map<std::string, double> widths = colliderWidths(world);
+        const auto look = [&](const Body& body) {
+            for (const auto& [collider, width] : widths)
+                if (pointwise_.contains(body.spec->fullName()) && width < longestEdge(body))
+                    posts_[{body.fullName(), collider}] = width;
+        };
+        for (const Body* body : bodiesOf(world)) look(*body);
+        for (const auto& body : world.waiting) look(*body);
+    }
+
+    void addPosts(const ContactStage& stage) {
+        if (posts_.empty()) return;
+        for (const contact::ContactPoint& c : stage.contacts()) {
+            if (c.surfaceB == ContactStage::noSurface) continue;
+            const bool isFirst = stage.isOfBody(c.surfaceA);
+            const auto post = posts_.find(
+                {stage.nameOf(isFirst ? c.surfaceA : c.surfaceB), stage.nameOf(isFirst ? c.surfaceB : c.surfaceA)});
+            if (post != posts_.end()) found_.posts.insert(*post);
+        }
     }
 
     void letPassWhatStartsInEachOther(WorldImpl& w) {
@@ -100,8 +127,9 @@ class LookAhead {
     }
 
     SceneSpec trial_;
-    std::set<std::string> silent_, entangled_;  // specs of bodies
-    double contactWork_ = 0;                    // [ns]
+    std::set<std::string> silent_, entangled_, pointwise_;  // specs of bodies
+    std::map<std::pair<std::string, std::string>, double> posts_;
+    double contactWork_ = 0;  // [ns]
     Encounters found_;
 };
 

@@ -96,7 +96,7 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
     core::Aabb box;
     for (const dvec3& p : x) box.add(p);
     const dvec3 size = box.high - box.low;
-    const double reach = std::min(block.cell, glm::max(size.x, glm::max(size.y, size.z)));
+    const double longest = glm::max(size.x, glm::max(size.y, size.z)), reach = std::min(block.cell, 1.01 * longest);
     const Thickness thickness(x, triangles, reach);
     const auto step = static_cast<std::size_t>(std::ceil(static_cast<double>(triangles.size()) / mostFaces));
     std::vector<std::pair<double, double>> thin;  // [m] and [m²]
@@ -112,10 +112,11 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
     }
     if (thinArea < worthSaying * area) return;
     std::sort(thin.begin(), thin.end());
+    // No larger than a third of the whole, for which one cell is too coarse however thick it is.
     double thinner = 0.0, enough = block.cell;
     for (const auto& [under, own] : thin)
         if ((thinner += own) >= worthSaying * area) {
-            enough = roundedDown(under);
+            enough = roundedDown(std::min(under, longest / 3));
             break;
         }
     doubts.push_back(fmt::format(

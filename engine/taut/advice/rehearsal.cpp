@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "taut/advice/bending_cells.h"
 #include "taut/advice/mesh_cells.h"
 #include "taut/advice/private/encounters.h"
 #include "taut/advice/private/pins.h"
@@ -70,7 +69,7 @@ enum class Outcome { refused, fine, unknown };
 
 void warnOfEncounters(const SceneSpec& scene, Rehearsal& rehearsal) {
     constexpr std::size_t most = 8;
-    const auto [pairs, seen] = encounters(scene);
+    const auto [pairs, posts, seen] = encounters(scene);
     std::size_t count = 0;
     for (const auto& [a, b] : pairs)
         if (++count <= most)
@@ -79,6 +78,13 @@ void warnOfEncounters(const SceneSpec& scene, Rehearsal& rehearsal) {
                                          "\"others\", keep them apart, or tie them by a joint");
     if (count > most)
         rehearsal.warnings.push_back(std::to_string(count - most) + " more pairs of bodies come into each other's way");
+    count = 0;
+    for (const auto& [names, width] : posts)
+        if (++count <= most)
+            rehearsal.warnings.push_back(
+                fmt::format("{} fits between the points of {}, which alone meet it: give {} collide = \"faces\", or "
+                            "cells of at most {:.2g} m",
+                            names.second, names.first, names.first, width));
     if (seen > 0 && seen < 0.99 * scene.run.seconds)
         rehearsal.advice.push_back(fmt::format("bodies were followed up to {:.2g} s to see which meet", seen));
 }
@@ -115,7 +121,6 @@ Rehearsal rehearse(const SceneSpec& scene) {
         if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
     for (const IslandInfo& island : world.islands())
         rehearsal.advice.insert(rehearsal.advice.end(), island.advice.begin(), island.advice.end());
-    for (std::string& note : coarseCells(scene)) rehearsal.advice.push_back(std::move(note));
     for (const std::string& warning : world.warnings())
         if (std::none_of(rehearsal.faults.begin(), rehearsal.faults.end(),
                          [&](const std::string& fault) { return fault.find(warning) != std::string::npos; }))

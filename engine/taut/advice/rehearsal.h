@@ -12,7 +12,7 @@ struct Rehearsal {
     std::vector<std::string> faults;    // they end the run, with file, line and column
     std::vector<std::string> warnings;  // of the world at its start, and of what may end the run, depending on
                                         // where bodies are by then
-    std::vector<std::string> advice;    // what would allow longer steps; coarse cells; how far the look ahead went
+    std::vector<std::string> advice;    // what would allow longer steps; how far the look ahead went
 };
 
 // Performs the timeline on bodies that stay at their starting places. This shows what can be held, cut or pushed at

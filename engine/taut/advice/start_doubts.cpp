@@ -81,12 +81,14 @@ void doubtStrains(const Island& island, std::vector<std::string>& doubts) {
 
 void doubtSteps(const Island& island, double ticksPerSecond, std::vector<std::string>& doubts) {
     if (island.substeps() <= mostSteps) return;
-    const Body& body = *island.plan().bodies.front();
+    const StepChoice choice = island.choice();
     doubts.push_back(
-        asWarning(at(body.spec->source)) +
-        fmt::format("{} needs {} steps a tick, {:.2g} million a second: take less stiffness or damping, larger cells "
-                    "or more mass, or an implicit method with a dt",
-                    body.fullName(), island.substeps(), 1e-6 * ticksPerSecond * island.substeps()));
+        asWarning(at(limitingBody(island.plan(), choice.anywhere).spec->source)) +
+        fmt::format("{} needs {} steps a tick, {:.2g} million a second{}: take less stiffness or damping there, larger "
+                    "cells or more mass, or an implicit method with a dt",
+                    island.plan().bodies.front()->fullName(), island.substeps(),
+                    1e-6 * ticksPerSecond * island.substeps(),
+                    choice.limitingSpring.empty() ? "" : ", set by the " + choice.limitingSpring));
 }
 
 // Two pieces of a block are still one body.

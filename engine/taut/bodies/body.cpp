@@ -118,6 +118,20 @@ void addAir(std::vector<Body>& bodies, const SceneSpec& spec) {
     }
 }
 
+// Calls visit(length [m]) of the edges of triangles, or of structural springs if there are none.
+template <class Visit>
+void eachTouchedEdge(const mechanics::Model& model, const Visit& visit) {
+    const auto look = [&](int a, int b) {
+        const dvec3 d = model.positions[static_cast<std::size_t>(a)] - model.positions[static_cast<std::size_t>(b)];
+        visit(std::sqrt(glm::dot(d, d)));
+    };
+    for (const std::array<int, 3>& t : model.triangles)
+        for (std::size_t k = 0; k < 3; ++k) look(t[k], t[(k + 1) % 3]);
+    if (!model.triangles.empty()) return;
+    for (const mechanics::Spring& s : model.springs)
+        if (s.kind == mechanics::SpringKind::structural) look(s.a, s.b);
+}
+
 }  // namespace
 
 dvec3 jitterOf(const Body& body, int point) {
@@ -208,18 +222,15 @@ std::vector<mechanics::RigidPart> surfacesOf(const Body& body) {
 }
 
 double shortestEdge(const Body& body) {
-    const mechanics::Model& model = body.model;
     double least = HUGE_VAL;
-    const auto look = [&](int a, int b) {
-        const dvec3 d = model.positions[static_cast<std::size_t>(a)] - model.positions[static_cast<std::size_t>(b)];
-        least = std::min(least, std::sqrt(glm::dot(d, d)));
-    };
-    for (const std::array<int, 3>& t : model.triangles)
-        for (std::size_t k = 0; k < 3; ++k) look(t[k], t[(k + 1) % 3]);
-    if (!model.triangles.empty()) return least;
-    for (const mechanics::Spring& s : model.springs)
-        if (s.kind == mechanics::SpringKind::structural) look(s.a, s.b);
+    eachTouchedEdge(body.model, [&](double length) { least = std::min(least, length); });
     return least;
+}
+
+double longestEdge(const Body& body) {
+    double most = 0;
+    eachTouchedEdge(body.model, [&](double length) { most = std::max(most, length); });
+    return most;
 }
 
 bool bodiesTouch(const SceneSpec& spec) {

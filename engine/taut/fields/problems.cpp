@@ -186,10 +186,12 @@ std::string likelyWord(std::string_view word, const std::vector<std::string>& ca
     std::string best;
     int bestDistance = 1 + static_cast<int>(word.size() < 3 ? 1 : word.size() < 8 ? 2 : 3);
     for (const std::string& candidate : candidates) {
-        if (candidate.size() > 60) continue;
+        if (candidate.empty() || candidate.size() > 60) continue;
         const bool isStem = word.size() >= 2 && candidate.starts_with(lower + "_");
         const bool isStart = word.size() >= 3 && candidate.starts_with(lower);
-        const int distance = isStem ? 1 : std::min(core::editDistance(lower, lowerCase(candidate)), isStart ? 2 : 60);
+        const std::string other = lowerCase(candidate);
+        const int wrongStart = other.front() == lower.front() ? 0 : 1;  // a wrong first letter is rare
+        const int distance = isStem ? 1 : std::min(core::editDistance(lower, other) + wrongStart, isStart ? 2 : 60);
         if (distance < bestDistance && distance < static_cast<int>(std::max(word.size(), candidate.size()))) {
             best = candidate;
             bestDistance = distance;

@@ -82,8 +82,8 @@ double longestBearable(const ode::MethodInfo& method, ode::FastestMode mode) {
 
 void warnOverLimit(const Envelope& envelope, const ode::MethodInfo& method, StepChoice& choice, double limitHere,
                    const std::function<double()>& leastOmega) {
-    const Body& body = *envelope.plan.bodies.front();
-    const std::string title(method.title), name = body.fullName(),
+    const Body& body = limitingBody(envelope.plan, choice.anywhere);
+    const std::string title(method.title), name = envelope.plan.bodies.front()->fullName(),
                                            step = name + ": the step of " + inSeconds(choice.step);
     const std::string by = choice.limitingSpring.empty() ? "" : "; set by the " + choice.limitingSpring;
     if (choice.limit == 0) {
@@ -180,6 +180,12 @@ void adviseOnDamping(const IslandPlan& plan, StepChoice& choice, const std::func
 }
 
 }  // namespace
+
+const Body& limitingBody(const IslandPlan& plan, const mechanics::FrequencyBound& bound) {
+    const int body =
+        bound.bySprings && bound.spring >= 0 ? plan.origins[static_cast<std::size_t>(bound.spring)].body : -1;
+    return *plan.bodies[body < 0 ? 0 : static_cast<std::size_t>(body)];
+}
 
 double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share) {
     double leastDrag = HUGE_VAL, mostDrag = 0;

@@ -113,19 +113,69 @@ class Fitting {
             problem.low.push_back(sought_[i].unknown(sought_[i].low));
             problem.high.push_back(sought_[i].unknown(sought_[i].high));
         }
-        const Minimum minimum = leastSquares(problem);
+        Minimum minimum = leastSquares(problem);
         if (minimum.residuals.empty())
             throw core::Error(core::ErrorKind::diverged, fmt::format("{}: the scene does not run as it is: {}",
                                                                      spec_.file, fit_.trials[0].failure));
+        fit_.targets = targetsOf(minimum.residuals);
+        if (!fit_.areTargetsMet()) seekElsewhere(problem, minimum);
         fit_.misfit = minimum.sum();
         fit_.hasConverged = minimum.hasConverged;
         fit_.unseen = minimum.unseen;
         addKeys(minimum);
-        addTargets(minimum.residuals);
         return std::move(fit_);
     }
 
   private:
+    int trialsLeft() const { return settings_.most - static_cast<int>(fit_.trials.size()); }
+
+    // Spends the remaining trials on minima from other starts, the most promising first.
+    void seekElsewhere(LeastSquares problem, Minimum& best) {
+        constexpr int places = 16, typicalSteps = 5;
+        constexpr double clearly = 0.99;  // of the sum: another minimum, not the same one again
+        const int forMinimum = typicalSteps * (2 * static_cast<int>(sought_.size()) + 3);
+        if (trialsLeft() < places + forMinimum) return;
+        for (const Vector& start : startsFor(problem, places)) {
+            if (trialsLeft() < forMinimum) break;
+            problem.start = start;
+            problem.most = trialsLeft();
+            const Minimum minimum = leastSquares(problem);
+            ++fit_.starts;
+            if (!(minimum.sum() < clearly * best.sum())) continue;
+            best = minimum;
+            fit_.targets = targetsOf(best.residuals);
+            if (fit_.areTargetsMet()) break;
+        }
+    }
+
+    // Places that fill the box of the unknowns evenly, by powers of the root of a^(n+1) = a + 1 (Kronecker's sequence),
+    // in the order of their misfit.
+    std::vector<Vector> startsFor(const LeastSquares& problem, int count) {
+        const auto n = static_cast<double>(sought_.size());
+        double root = 2;
+        for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1 / (n + 1));
+        std::vector<Vector> places;
+        for (int k = 1; k <= count; ++k) {
+            Vector& place = places.emplace_back();
+            double part = k;
+            for (std::size_t i = 0; i < sought_.size(); ++i) {
+                part /= root;
+                const double share = part - std::floor(part);
+                place.push_back(problem.low[i] + share * (problem.high[i] - problem.low[i]));
+            }
+        }
+        const std::size_t first = fit_.trials.size();
+        residualsAt(places);
+        std::vector<std::pair<double, Vector>> sorted;
+        for (std::size_t k = 0; k < places.size(); ++k)
+            if (const FitTrial& trial = fit_.trials[first + k]; trial.failure.empty())
+                sorted.emplace_back(trial.misfit, places[k]);
+        std::sort(sorted.begin(), sorted.end());
+        places.clear();
+        for (auto& [misfit, place] : sorted) places.push_back(std::move(place));
+        return places;
+    }
+
     std::vector<Vector> residualsAt(const std::vector<Vector>& points) {
         const std::size_t first = fit_.trials.size();
         for (const Vector& point : points) {
@@ -176,10 +226,11 @@ class Fitting {
         }
     }
 
-    void addTargets(const Vector& residuals) {
+    std::vector<FittedTarget> targetsOf(const Vector& residuals) const {
+        std::vector<FittedTarget> targets;
         std::size_t next = 0;
         for (const FitTarget& target : spec_.fit.targets) {
-            FittedTarget done;
+            FittedTarget& done = targets.emplace_back();
             done.that = target.that;
             done.when = target.curve.empty() ? fmt::format("at {:.6g} s", target.points.front().time)
                                              : fmt::format("{} values of {}", target.points.size(), target.curve);
@@ -194,8 +245,8 @@ class Fitting {
                 done.reached = point.value + residual * point.sigma;
             }
             done.off = std::sqrt(sum / static_cast<double>(target.points.size()));
-            fit_.targets.push_back(std::move(done));
         }
+        return targets;
     }
 
     const world::SceneSpec& spec_;
@@ -208,10 +259,13 @@ class Fitting {
 
 }  // namespace
 
+bool Fit::areTargetsMet() const {
+    return std::all_of(
+        targets.begin(), targets.end(), [](const FittedTarget& target) { return target.isMet(); });
+}
+
 bool Fit::isMet() const {
-    return hasConverged && unseen.empty() &&
-           std::all_of(
-               targets.begin(), targets.end(), [](const FittedTarget& target) { return target.isMet(); });
+    return hasConverged && unseen.empty() && areTargetsMet();
 }
 
 Fit makeFit(const world::SceneSpec& spec, const FitSettings& settings) {

@@ -1,5 +1,5 @@
-// Seeks the numbers of a scene with which it does what was measured, by least squares over whole runs. It knows no
-// files.
+// Seeks the numbers of a scene with which it does what was measured, by least squares over whole runs: from the numbers
+// of the scene, and from others between the bounds while the targets are not met. It knows no files.
 #pragma once
 
 #include <atomic>
@@ -53,13 +53,15 @@ struct Fit {
     std::vector<FittedTarget> targets;
     std::vector<FitTrial> trials;                  // in the order of trying
     double misfit = 0;                             // at the end
+    int starts = 1;                                // from which it was sought
     int values = 0;                                // that were measured
     std::vector<std::vector<double>> unseen;       // (directions)(keys) see Minimum
     std::vector<std::vector<double>> correlation;  // (keys)(keys)
     bool hasConverged = false;
     std::vector<scene::Change> changes;  // of the scene file; none where the scene has these values
 
-    bool isMet() const;  // every target, and the values are the only ones
+    bool areTargetsMet() const;
+    bool isMet() const;  // and the values are the only ones
 };
 
 // Expects what the loader accepts. Throws core::Error: badContent where there is no [fit], diverged where the scene

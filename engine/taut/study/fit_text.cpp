@@ -118,11 +118,14 @@ std::string fitVerdict(const Fit& fit) {
                                         [](const FittedTarget& a, const FittedTarget& b) { return a.off < b.off; });
     const bool isReached = worst->isMet();
     if (!isReached)
-        add(fmt::format(
-            "The targets {}: with the best numbers found, {} is {:.4g} at {:.4g} s, where {:.4g} was "
-            "measured{}: {:.3g} sigma off.",
-            fit.hasConverged ? "cannot be met" : "are not met yet", worst->that, worst->reached, worst->time,
-            worst->wanted, worst->when.starts_with("at ") ? "" : "; over all of the curve", worst->off));
+        add(
+            fmt::format("The targets {}: with the best numbers found, {} is {:.4g} at {:.4g} s, where {:.4g} was "
+                        "measured{}: {:.3g} sigma off.",
+                        !fit.hasConverged ? "are not met yet"
+                        : fit.starts == 1 ? "are not met from this start"
+                                          : fmt::format("are not met from these {} starts", fit.starts),
+                        worst->that, worst->reached, worst->time, worst->wanted,
+                        worst->when.starts_with("at ") ? "" : "; over all of the curve", worst->off));
     if (!fit.hasConverged)
         add(fmt::format("{} trials did not do. Allow more of them, or begin nearer.", fit.trials.size()));
     for (const FittedKey& key : fit.keys)
@@ -155,6 +158,7 @@ std::string fitJson(const Fit& fit, const MachineFacts& machine) {
     json["met"] = fit.isMet();
     json["verdict"] = fitVerdict(fit);
     json["misfit"] = fit.misfit;
+    json["starts"] = fit.starts;
     json["measured_values"] = fit.values;
     json["keys"] = report::jsonOf<Json>(keyColumns(), fit.keys);
     json["correlation"] = fit.correlation;

@@ -1,6 +1,8 @@
-// Looks ahead for bodies that will pass through each other because one of them touches nothing.
+// Looks ahead for bodies that will pass through each other, or let a collider through, because one of them touches
+// nothing.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,12 +13,15 @@ struct SceneSpec;
 
 struct Encounters {
     std::set<std::pair<std::string, std::string>> pairs;  // "cloth.flag", each in the order of the state hash
-    double seen = 0;                                      // [s] of the scene: all of it, or as much as is cheap
+    // "cloth.flag" and "collider.post", which fits between its points; its width [m].
+    std::map<std::pair<std::string, std::string>, double> posts;
+    double seen = 0;  // [s] of the scene: all of it, or as much as is cheap
 };
 
 // Pairs of bodies of different islands that meet and do not both touch. Plays the scene, with its timeline and
 // colliders, as if all bodies touched, for at most about `most` nanoseconds. Keeps who presses on whom or is found in
-// another. Bodies that start inside each other pass through each other meanwhile.
+// another. Bodies that start inside each other pass through each other meanwhile. Likewise of bodies whose
+// points alone meet colliders and of colliders narrower than their cells.
 Encounters encounters(const SceneSpec& scene, double most = 1e9);
 
 }  // namespace taut::world

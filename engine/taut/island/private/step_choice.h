@@ -72,6 +72,9 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
                       const std::function<double()>& leastOmega, const mechanics::FastestNow* now,
                       const std::function<int(int)>& inParts);
 
+// The body whose spring sets a bound; the first one, if that is no body's.
+const Body& limitingBody(const IslandPlan& plan, const mechanics::FrequencyBound& bound);
+
 // The largest stable step [s] of the island as it is now, in any configuration.
 double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share);
 

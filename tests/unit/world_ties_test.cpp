@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "support/timelines.h"
@@ -235,22 +236,37 @@ TEST(Ties, PointsAreCarriedThroughTicksThatAreRepeated) {
     EXPECT_TRUE(std::any_of(changes.begin(), changes.end(), [](const StepChange& c) { return c.isRepeated; }));
 }
 
-// Drawn to the place on the collider: once that is still the spring is without force there.
-TEST(Ties, ASpringDrawsAPointToItsPlaceOnTheCollider) {
-    SceneSpec scene = pair();
-    scene.colliders = {support::ball("arm", {0, 0, 0}, 0.01)};
-    scene.joints = {support::springJoint("collider.arm", "net.n@p", 200, 0.1)};
-    scene.bodies.of<NetSpec>()[0].springs[0].dampingTime = 0.1;
-    scene.bodies.of<NetSpec>()[0].drag = 4;  // so that m does not swing for ever
-    auto move = support::action<MoveAction>(0.0, "collider.arm");
-    move.to = dvec3(0, 1, 0);
-    move.rotation = dvec3(0, 0, pi / 2);
-    move.over = 0.2;
-    scene.actions = {move};
-    World world(scene);
-    run(world, 900);
-    EXPECT_NEAR(glm::length(world.points("net.n@p").x[0] - dvec3(0, 1.5, 0.2)), 0, 1e-9);
-    EXPECT_NEAR(world.metrics().energy(), 0, 1e-9);
+// Drawn to a place on the collider, where it is at the start or where `place` is: once that is still the spring is
+// without force there. A coil is drawn while it has a length.
+TEST(Ties, ASpringDrawsAPointToAPlaceOnTheCollider) {
+    for (const std::optional<dvec3>& place : {std::optional<dvec3>(), std::optional<dvec3>({0.3, 0.1, 0})}) {
+        SceneSpec scene = pair();
+        scene.colliders = {support::ball("arm", {0, 0, 0}, 0.01)};
+        SpringJoint joint = support::springJoint("collider.arm", "net.n@p", 200, 0.1);
+        joint.place = place;
+        joint.look.finish.emplace();
+        joint.look.turns = 3;
+        scene.joints = {joint};
+        scene.bodies.of<NetSpec>()[0].springs[0].dampingTime = 0.1;
+        scene.bodies.of<NetSpec>()[0].drag = 4;  // so that m does not swing for ever
+        auto move = support::action<MoveAction>(0.0, "collider.arm");
+        move.to = dvec3(0, 1, 0);
+        move.rotation = dvec3(0, 0, pi / 2);
+        move.over = 0.2;
+        scene.actions = {move};
+        World world(scene);
+        const auto coils = [&] {
+            const auto surfaces = world.view(false).surfaces;
+            return std::count_if(surfaces.begin(), surfaces.end(),
+                                 [](const view::Surface& surface) { return surface.name.starts_with("joint."); });
+        };
+        EXPECT_EQ(coils(), place ? 1 : 0);
+        run(world, 900);
+        EXPECT_EQ(coils(), 0);
+        const dvec3 end = place ? dvec3(-0.1, 1.3, 0) : dvec3(0, 1.5, 0.2);
+        EXPECT_NEAR(glm::length(world.points("net.n@p").x[0] - end), 0, 1e-9);
+        EXPECT_NEAR(world.metrics().energy(), 0, 1e-9);
+    }
 }
 
 TEST(Ties, ABodyThatIsSpawnedIsTiedWhereTheColliderThenIs) {

@@ -33,6 +33,7 @@ struct PosePath {
         // The vector from `place` to a point that is fixed to the body at that offset [m], and the velocity of that
         // point [m/s].
         glm::dvec3 arm(const glm::dvec3& offset) const { return isTurned ? rotated(rotation, offset) : offset; }
+        glm::dvec3 offsetOf(const glm::dvec3& point) const { return rotated(glm::conjugate(rotation), point - place); }
         glm::dvec3 velocityOf(const glm::dvec3& arm) const {
             return isTurned ? velocity + glm::cross(spin, arm) : velocity;
         }

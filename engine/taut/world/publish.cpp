@@ -119,6 +119,7 @@ void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view
             const glm::vec3 a(x[static_cast<std::size_t>(tie.a)]);
             const glm::vec3 b = tie.b >= 0 ? glm::vec3(x[static_cast<std::size_t>(tie.b)])
                                            : glm::vec3(matrix(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
+            if (!drawing->isShown(a, b)) continue;
             view.surfaces.push_back(drawing->surface(a, b, number));
             addStillness(*island, debug, view.surfaces.back());
         }

@@ -28,6 +28,7 @@ struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
     double stiffness = 1e4;            // [N/m] of each spring
     double dampingTime = 1e-4;         // [s]
     std::optional<double> restLength;  // [m]; none: the distance at the start
+    std::optional<glm::dvec3> place;   // [m] on the collider at the start; none: where each point is
 
     std::string_view title() const override { return "a spring joint"; }
     void tie(IslandPlan& plan, int a, int b, double distance) const override;

@@ -28,7 +28,7 @@ void RodJoint::tie(IslandPlan& plan, int first, int second, double) const {
 void RodJoint::carry(IslandPlan& plan, Grip grip) const {
     const mechanics::PosePath::Frame frame = grip.path.at(0.0);
     const dvec3 end = place.value_or(frame.place);
-    const dvec3 offset = mechanics::PosePath::rotated(glm::conjugate(frame.rotation), end - frame.place);
+    const dvec3 offset = frame.offsetOf(end);
     changeOnly<Rods>(plan, [&](Rods& rods) {
         for (const int point : grip.points)
             rods.tie(point, Constraint::Place{grip.holder, offset},

@@ -9,8 +9,12 @@ void SpringJoint::tie(IslandPlan& plan, int first, int second, double distance) 
         {first, second, stiffness, restLength.value_or(distance), dampingTime, mechanics::SpringKind::joint});
 }
 
-// Springs draw each point to its place on the collider.
+// Springs draw each point to a place on the collider.
 void SpringJoint::carry(IslandPlan& plan, Grip grip) const {
+    if (place) {
+        const mechanics::PosePath::Frame frame = grip.path.at(0.0);
+        grip.offsets.assign(grip.points.size(), frame.offsetOf(*place));
+    }
     grip.rigid = false;
     grip.stiffness.assign(grip.points.size(), stiffness);
     grip.damping.assign(grip.points.size(), stiffness * dampingTime);
@@ -19,13 +23,16 @@ void SpringJoint::carry(IslandPlan& plan, Grip grip) const {
 
 Kind<JointSpec> springKind() {
     return jointKind<SpringJoint>(
-        "Springs draw points together, and each point of a collider's to its place on it.",
+        "Springs draw points together, and to a collider each to where it is as the scene starts, or all to `place`.",
         fields::FieldList<SpringJoint>()
             .number("stiffness_N_per_m", &SpringJoint::stiffness, "N/m", fields::positive, "Of each spring.")
             .number("damping_time_s", &SpringJoint::dampingTime, "s", dampingTimeRange, "Of each spring.")
             .number("rest_length_m", &SpringJoint::restLength, "m", fields::notNegative,
                     "At which a spring pulls no more; the distance as the scene starts if not given.")
-            .only({"a spring joint"}));
+            .only({"a spring joint"})
+            .vector("place", &SpringJoint::place, "m", placeRange,
+                    "Where on the collider springs without length end, as the scene starts.")
+            .only({"a spring joint to a collider"}));
 }
 
 }  // namespace taut::world

@@ -31,6 +31,10 @@ TieDrawing::TieDrawing(const JointSpec& joint, int number)
         std::make_shared<view::Topology>(view::tubeTopology(points, 1, sides, 1.0F, static_cast<float>(look_.radius)));
 }
 
+bool TieDrawing::isShown(const glm::vec3& a, const glm::vec3& b) const {
+    return look_.turns == 0 || glm::distance(a, b) > 2.0F * static_cast<float>(look_.coil);
+}
+
 // Half a turn at each end leads from the axis to the coil.
 std::vector<glm::vec3> TieDrawing::line(const glm::vec3& a, const glm::vec3& b) const {
     const glm::vec3 way = b - a;

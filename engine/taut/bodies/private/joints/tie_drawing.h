@@ -15,6 +15,8 @@ class TieDrawing {
     // Expects a joint that is drawn. Its number stands in for a missing name.
     TieDrawing(const JointSpec& joint, int number);
     const std::string& name() const { return name_; }  // "joint.peg"
+    // A coil shorter than it is wide shows nothing.
+    bool isShown(const glm::vec3& a, const glm::vec3& b) const;
     // The surface from end to end [m]. A tie that may let go is a thing by itself; `number` counts the ties of the
     // name.
     view::Surface surface(const glm::vec3& a, const glm::vec3& b, int number) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,25 @@ Fabric read(const path& file) {
     return {scene.title, found->second};
 }
 
+// The numbers of the material, "stretch, shear", of which the comment begins with a word: measured, derived, chosen.
+std::string numbersThatAre(const std::string& origin, const path& file) {
+    std::istringstream lines(core::fileContent(file));
+    std::vector<std::string> names;
+    bool isOfMaterial = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with('[')) isOfMaterial = line == fmt::format("[material.{}]", file.stem().string());
+        if (isOfMaterial && line.find("# " + origin) != std::string::npos)
+            if (const std::string name = line.substr(0, line.find_first_of("_ "));
+                names.empty() || names.back() != name)
+                names.push_back(name);
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
 int list(const std::vector<path>& files) {
-    printResult("{:<12} {:>6}  {:>11}  {:>14}\n", "", "weight", "bending", "cells for");
-    printResult("{:<12} {:>6}  {:>11}  {:>14}\n", "fabric:", "g/m2", "length, mm", "1 %, 10 %, mm");
+    constexpr const char* row = "{:<12} {:>6}  {:>11}  {:>14}  {:<17} {:<37} {:<47} {}\n";
+    printResult(row, "", "weight", "bending", "cells for", "", "", "", "");
+    printResult(row, "fabric:", "g/m2", "length, mm", "1 %, 10 %, mm", "measured", "derived", "chosen", "");
     for (const path& file : files) {
         const Fabric fabric = read(file);
         const world::MaterialSpec& m = fabric.material;
@@ -49,9 +66,10 @@ int list(const std::vector<path>& files) {
         const double u = world::bendingLength(warp, m.density, gravity);
         const double v = world::bendingLength(weft, m.density, gravity);
         const double least = std::min(u, v);
-        printResult("{:<12} {:>6.0f}  {:>11}  {:>14}  {}\n", file.stem().string(), 1e3 * m.density,
+        printResult(row, file.stem().string(), fmt::format("{:.0f}", 1e3 * m.density),
                     fmt::format("{:.1f} x {:.1f}", 1e3 * u, 1e3 * v),
                     fmt::format("{:.1f}, {:.1f}", 1e3 * world::cellFor(0.01, least), 1e3 * world::cellFor(0.1, least)),
+                    numbersThatAre("measured", file), numbersThatAre("derived", file), numbersThatAre("chosen", file),
                     fabric.title);
     }
     printResult(
@@ -95,7 +113,7 @@ Action declareMaterials(Options& options) {
 }  // namespace
 
 Command materialsCommand() {
-    return {"materials", "List the measured fabrics that scenes may use", declareMaterials};
+    return {"materials", "List the fabrics that scenes may use, and what of them is measured", declareMaterials};
 }
 
 }  // namespace taut::game

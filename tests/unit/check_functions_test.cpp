@@ -77,6 +77,22 @@ TEST(CheckFunctions, SolidsEndWhereTheyAreDrawn) {
     EXPECT_NEAR(valueIn(other, "gap(solid.gem, rope.r)"), 2.0, rounding);
 }
 
+// Of a camera 2 m away whose picture is 2 tan(0.5) m high at 1 m, and twice as wide: ends at 2 m × tan(0.5) = 1.09 m.
+TEST(CheckFunctions, PicturesEndAtTheirEdges) {
+    const auto shareOf = [](const char* ends) {
+        const world::World world(sceneOf(std::string("[picture]\nsize = [200, 100]\n[camera.main]\neye = [0, 0, 2]\n"
+                                                     "target = [0, 0, 0]\nfov_deg = 57.295779513\n"
+                                                     "[rope.r]\nsegments = 1\nends = ") +
+                                         ends));
+        return valueIn(world, "in_picture(rope.r)");
+    };
+    EXPECT_EQ(shareOf("[[0, 1.09, 0], [0, -1.09, 0]]"), 1.0);
+    EXPECT_EQ(shareOf("[[0, 1.10, 0], [0, -1.09, 0]]"), 0.5);
+    EXPECT_EQ(shareOf("[[2.18, 0, 0], [-2.18, 0, 0]]"), 1.0);
+    EXPECT_EQ(shareOf("[[2.19, 0, 0], [-2.19, 0, 0]]"), 0.0);
+    EXPECT_EQ(shareOf("[[0, 0, 1], [0, 0, 3]]"), 0.5);  // one is behind
+}
+
 // A push of (2, 0, 0) N s on 1 kg and of (0, 3, 0) N s on 3 kg.
 TEST(CheckFunctions, MotionFollowsFromImpulses) {
     world::World world(sceneOf("[world]\ngravity = [0, 0, 0]\n" + balls +

@@ -53,6 +53,22 @@ TEST(SceneFabrics, AMaterialOfTheSceneIsNotTheLibrarys) {
     EXPECT_EQ(scene.spec.materials.at("fabric:serge").density, 0.3);
 }
 
+// The back of a fabric goes with its own front: with another colour it is paler than that.
+TEST(SceneFabrics, AColourOfOnesOwnTakesTheBackOut) {
+    const Library folder;
+    folder.write("fabrics/lined.toml",
+                 "[material.lined]\n[material.lined.cloth]\nfinish = { colour = \"#000000\", back_colour = "
+                 "\"#ffffff\" }\n");
+    const auto back = [&](const std::string& finish) {
+        const Loaded scene = folder.withFabrics("[cloth.a]\nmaterial = \"fabric:lined\"\n" + finish);
+        return scene.spec.bodies.of<world::ClothSpec>().at(0).finish.backColour;
+    };
+    EXPECT_TRUE(back("").has_value());
+    EXPECT_TRUE(back("finish = { weave = 0.5 }\n").has_value());
+    EXPECT_FALSE(back("finish = { colour = \"#a02050\" }\n").has_value());
+    EXPECT_TRUE(back("finish = { colour = \"#a02050\", back_colour = \"#a02050\" }\n").has_value());
+}
+
 TEST(SceneFabrics, ARampChangesOne) {
     const Loaded scene = Library().withFabrics(
         "[cloth.a]\nmaterial = \"fabric:serge\"\n"

@@ -102,6 +102,14 @@ TEST(StudyWorkPrecision, EveryMethodOfTheTableAppears) {
             << method.name;
 }
 
+// The solves of an implicit method get finer with the step: with a fixed tolerance the error stays at 1e-6 m.
+TEST(StudyWorkPrecision, SolvesSetNoFloor) {
+    StudySettings settings = fixed(8);
+    settings.methods = {"sdirk2"};
+    const WorkPrecision study = studyWorkPrecision(*makeClothCorners(), settings);
+    EXPECT_NEAR(measuredOrder(study, "sdirk2", Precision::double_), 2.0, 0.1);
+}
+
 TEST(StudyWorkPrecision, AnEquationOfFirstOrderTakesTheMethodsThatCan) {
     const WorkPrecision study = studyWorkPrecision(*makeGrowth(), fixed(2));
     for (const MethodFacts& method : study.methods) EXPECT_TRUE(ode::findMethod(method.name)->isFirstOrder());

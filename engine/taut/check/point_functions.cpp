@@ -72,6 +72,10 @@ Quantity distance(const Now& now, Arguments a) {
     return numberOf(std::sqrt(glm::dot(way, way)));
 }
 
+Quantity inPicture(const Now& now, Arguments a) {
+    return numberOf(now.world().shareInPicture(pointsOf(now, a).x));
+}
+
 // `sign` times the largest of a measure.
 template <auto measure, int sign = 1>
 Quantity largestOf(const Now& now, Arguments a) {
@@ -118,6 +122,14 @@ std::vector<Function> pointFunctions() {
          placeOfReach<1>},
         {"lowest", points, false, false, "m", "Height y of the lowest of the points, or of a whole body.", reach<-1>,
          placeOfReach<-1>},
+        {"in_picture",
+         points,
+         false,
+         false,
+         "",
+         "Share of the points within the edges of the picture, hidden or not.",
+         inPicture,
+         {}},
     };
 }
 

@@ -91,6 +91,7 @@ struct Field {
     bool required = false;
     std::vector<std::string> only;  // the variants of the section that have this field; empty: all
     std::string inPlaceOf;          // another key of the section, beside which it does not stand; empty: none
+    std::string goesWith;           // another key, which in a layer above takes this one out; empty: none
     Role role = Role::none;
     std::optional<Affects> ramp;  // what it affects, if a ramp may change it
     std::string help;

@@ -229,6 +229,10 @@ class FieldList {
         last().inPlaceOf = key;
         return *this;
     }
+    FieldList& goesWith(const char* key) {
+        last().goesWith = key;
+        return *this;
+    }
     // The only values of a whole number; they also give its range.
     FieldList& oneOf(std::vector<int> values) {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());

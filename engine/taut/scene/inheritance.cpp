@@ -22,7 +22,8 @@ std::size_t valuesIn(const Node& node) {
     return count;
 }
 
-// Removes keys that only `below` gives and that do not fit the form of the table, or stand in place of one of its own.
+// Removes keys that only `below` gives and that do not fit the form of the table, stand in place of one of its own, or
+// go with one of which it has its own.
 void eraseUnfit(const Section& section, const Node& own, Node& table) {
     const std::string variant = section.variant ? section.variant(table) : "";
     std::erase_if(table.members, [&](Member& member) {
@@ -32,6 +33,7 @@ void eraseUnfit(const Section& section, const Node& own, Node& table) {
         if (field->kind == FieldKind::table && member.value.kind == NodeKind::table)
             eraseUnfit(field->inside.front(), said != nullptr ? said->value : Node{}, member.value);
         if (said != nullptr) return false;
+        if (!field->goesWith.empty() && own.find(field->goesWith) != nullptr) return true;
         const auto isOther = [&](const Field& other) {
             return own.find(other.key) != nullptr && (other.inPlaceOf == field->key || field->inPlaceOf == other.key);
         };

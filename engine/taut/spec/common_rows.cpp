@@ -89,6 +89,7 @@ Section finishSection() {
         FieldList<FinishSpec>()
             .colour("colour", &FinishSpec::colour, "Colour of the front.")
             .colour("back_colour", &FinishSpec::backColour, "Colour of the back; paler than the front if not given.")
+            .goesWith("colour")
             .colour("accent", &FinishSpec::accent, "Second colour of a pattern.")
             .choice("pattern", &FinishSpec::pattern, {"plain", "checker", "stripes", "tartan", "image"}, "Pattern.")
             .number("repeat_m", &FinishSpec::repeat, "m", lengthRange,

@@ -73,7 +73,7 @@ class MechanicalTrial final : public Trial {
   private:
     static std::unique_ptr<ode::Method<Real>> methodOf(const RunPlan& plan) {
         ode::MethodOptions options;
-        if (plan.tolerance > 0) options.tolerance = plan.tolerance;
+        options.tolerance = plan.tolerance > 0 ? plan.tolerance : plan.solverShare * options.tolerance;
         return referenceMethods()->make<Real>(plan.method, options);
     }
     std::size_t index(int point, int plane) const {

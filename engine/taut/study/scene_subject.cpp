@@ -100,7 +100,7 @@ class SceneSubject final : public Subject {
     std::unique_ptr<Trial> begin(const RunPlan& plan) const override {
         world::SceneSpec scene = played(spec_, plan.method, plan.precision, plan.step(), plan.perturbation);
         scene.solver.methods = referenceMethods();
-        if (plan.tolerance > 0) scene.solver.cgTolerance = plan.tolerance;
+        scene.solver.cgTolerance = plan.tolerance > 0 ? plan.tolerance : plan.solverShare * scene.solver.cgTolerance;
         return std::make_unique<SceneTrial>(scene, quantum(plan.grid));
     }
 

@@ -32,6 +32,7 @@ struct RunPlan {
     Grid grid;
     long long stepsPerSample = 1;
     double tolerance = 0;     // [unit/s] of a method that controls its error; of the others 0
+    double solverShare = 1;   // of the usual tolerance of an implicit method's solves
     double perturbation = 0;  // [m] largest shift of each coordinate of the start; repeats exactly
     double step() const { return grid.spacing / static_cast<double>(stepsPerSample); }  // [s]
     long long steps() const { return stepsPerSample * grid.samples; }

@@ -163,6 +163,7 @@ bool Sweep::hasLevelled(std::size_t first) const {
 }
 
 void Sweep::curve(const MethodFacts& method, Precision precision) {
+    constexpr double leastSolverShare = 1e-8;
     const double runLimit = secondsPerCurve_ / 8;  // with its repeats and all the longer steps together eight times
     const std::size_t first = study_.points.size();
     RunPlan plan;
@@ -175,6 +176,8 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
     const bool isFixed = settings_.halvings > 0;
     const int most = isFixed ? settings_.halvings : 24;
     for (int halvings = 0; halvings <= most && !isStopped(); ++halvings, plan.stepsPerSample *= 2) {
+        // As the step's own error falls: else the solves set a floor below which no step gets.
+        plan.solverShare = std::max(leastSolverShare, std::pow(0.5, method.order * halvings));
         const double expected = 2 * lastRun;
         // A curve needs a slope: three points, unless they are out of all proportion.
         if (!isFixed && expected > runLimit * (good < 3 ? 4 : 1)) break;

@@ -149,12 +149,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
     view.background = {linearColour(w.spec.background.top), linearColour(w.spec.background.horizon),
                        static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd),
                        w.spec.background.fadesWithCamera};
-    bool chosen = false;
-    w.registry.each<CameraPart>([&](ecs::Entity, const CameraPart& part) {
-        if (chosen || (!w.spec.picture.camera.empty() && part.spec.name != w.spec.picture.camera)) return;
-        view.camera = cameraAt(part.spec, time);
-        chosen = true;
-    });
+    view.camera = cameraOfPictures(w, time);
     // Colliders; the first visible level plane is the ground.
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
         const collision::Pose pose = poseAhead(placement, ahead * w.ticksPerSecond);
@@ -204,6 +199,17 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
 }
 
 }  // namespace
+
+view::Camera cameraOfPictures(const WorldImpl& w, double time) {
+    view::Camera camera;
+    bool chosen = false;
+    w.registry.each<CameraPart>([&](ecs::Entity, const CameraPart& part) {
+        if (chosen || (!w.spec.picture.camera.empty() && part.spec.name != w.spec.picture.camera)) return;
+        camera = cameraAt(part.spec, time);
+        chosen = true;
+    });
+    return camera;
+}
 
 view::FrameView viewAhead(const WorldImpl& w, double ahead) {
     std::vector<Body*> ignored;

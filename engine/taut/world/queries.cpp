@@ -173,6 +173,21 @@ double World::asleepShare() const {
     return all > 0 ? static_cast<double>(asleep) / static_cast<double>(all) : 0.0;
 }
 
+double World::shareInPicture(std::span<const dvec3> places) const {
+    const view::Camera camera = cameraOfPictures(*impl_, impl_->seconds());
+    const dvec3 eye(camera.eye), ahead = glm::normalize(dvec3(camera.target) - eye);
+    const dvec3 right = glm::normalize(glm::cross(ahead, dvec3(camera.up))), up = glm::cross(right, ahead);
+    const ivec2 size = impl_->spec.picture.size;
+    const double high = std::tan(0.5 * static_cast<double>(camera.fieldOfView)), wide = high * size.x / size.y;
+    const auto count = std::count_if(places.begin(), places.end(), [&](const dvec3& place) {
+        const dvec3 way = place - eye;
+        const double depth = glm::dot(way, ahead);
+        return depth > 0 && std::abs(glm::dot(way, right)) <= wide * depth &&
+               std::abs(glm::dot(way, up)) <= high * depth;
+    });
+    return static_cast<double>(count) / static_cast<double>(places.size());
+}
+
 bool World::hasTouched() const {
     return impl_->contactReport.hadImpulse() ||
            std::any_of(

@@ -110,6 +110,8 @@ class World {
     std::vector<JointInfo> joints() const;      // in the order of the scene, those with colliders last
     ode::Work work() const;                     // of all methods since the start
     double asleepShare() const;                 // of the points, that sleep
+    // Share of the places [m] that lie within the edges of the picture, hidden or not.
+    double shareInPicture(std::span<const glm::dvec3> places) const;
     bool hasTouched() const;                    // a collider or a body, since it was made or restored
     std::vector<FrozenIsland> frozen() const;   // in the order of islands()
     std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, frozen, …

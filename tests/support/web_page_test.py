@@ -76,15 +76,15 @@ def has_the_motion(driver):
     order = numpy.argmin(((x[0][:, None] - there(0)[None]) ** 2).sum(axis=2), axis=1)
     for frame in (0, 100, LAST, 7):
         off = numpy.abs(there(frame)[order] - x[frame]).max() / numpy.abs(x[frame]).max()
-        # Two roundings of floats, 6e-8 each, of a number and of a difference to it.
-        expect(off < 1e-6, "the flag of frame %d is off by %g" % (frame, off))
+        # Half of a step: a vertex has moved by 32767 of them at most, and by no more than the largest coordinate.
+        expect(off < 2e-5, "the flag of frame %d is off by %g" % (frame, off))
     ball = numpy.array(driver.execute_script("return taut.positions('collider_ball')")).reshape(-1, 3)
     expect(abs(ball[:, 0].max() - (0.2 + 7 / 300)) < 1e-5, "the ball rolls: %s" % ball.max(axis=0))
     # Between two keys everything moves evenly.
     driver.execute_script("const time = document.getElementById('time'); time.value = 41.5 / 600;"
                           "time.dispatchEvent(new Event('input'));")
     half = numpy.array(driver.execute_script("return taut.positions('cloth_flag')")).reshape(-1, 3)[order]
-    expect(numpy.abs(half - (x[41] + x[42]) / 2).max() < 2e-6, "half way between two keys")
+    expect(numpy.abs(half - (x[41] + x[42]) / 2).max() < 3e-5, "half way between two keys")
 
 
 def looks_like_taut(driver):

@@ -137,6 +137,17 @@ def does_what_it_says(driver):
     expect(numpy.abs(picture(driver) - before).mean() < 1, "and the button turns it back")
 
 
+def has_a_drawer_on_a_phone(driver):
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                           {"width": 390, "height": 780, "deviceScaleFactor": 1, "mobile": True})
+    shown, controls = (driver.find_element(By.ID, name).rect for name in ("picture", "controls"))
+    expect(abs(shown["y"] + shown["height"] - controls["y"]) < 1 and shown["height"] > 500, "controls below the picture")
+    expect(driver.find_element(By.ID, "reset").is_displayed(), "Reset view stays")
+    until(lambda: driver.execute_script("const c = document.getElementById('picture');"
+                                        "return c.height === c.clientHeight;"), "the picture has its pixels")
+    driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
 def asks_for_nothing(driver):
     requests = []
     for line in driver.get_log("performance"):
@@ -157,6 +168,7 @@ def main():
         has_the_motion(driver)
         looks_like_taut(driver)
         does_what_it_says(driver)
+        has_a_drawer_on_a_phone(driver)
         asks_for_nothing(driver)
         driver.execute_script("HTMLCanvasElement.prototype.getContext = () => null; startPage();")
         expect("WebGL" in driver.find_element(By.ID, "message").text, "a browser without WebGL is told so")

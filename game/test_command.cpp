@@ -51,10 +51,13 @@ std::vector<std::string> orphans(const TestFlags& flags, const TestRun& run) {
     std::error_code ignored;
     for (const std::filesystem::path& path : run.paths)
         if (!flags.filters.empty() || !std::filesystem::is_directory(path, ignored)) return notes;
+    std::vector<std::string> names;
     for (const auto& [name, goldens] : run.manifest.scenarios)
-        if (std::find(run.names.begin(), run.names.end(), name) == run.names.end())
-            notes.push_back(fmt::format("{}: there are goldens of '{}', and no such scenario",
-                                        run.suite.goldens.manifest().string(), name));
+        if (std::find(run.names.begin(), run.names.end(), name) == run.names.end()) names.push_back(name);
+    if (!names.empty())
+        notes.push_back(fmt::format("{}: there are goldens of scenarios that are not in {}: {}",
+                                    run.suite.goldens.manifest().string(), fmt::join(flags.paths, ", "),
+                                    fmt::join(names, ", ")));
     return notes;
 }
 

@@ -24,7 +24,7 @@
 namespace taut::game {
 namespace {
 
-const pipeline::SealedKind kind{.mark = "tauttest", .version = 1, .title = "shard of a test"};
+const pipeline::SealedKind kind{.mark = "tauttest", .version = 2, .title = "shard of a test"};
 
 // Empty where it cannot be read.
 std::string contentIfThere(const std::filesystem::path& path) {

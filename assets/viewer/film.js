@@ -12,89 +12,103 @@ function filmBytes() {
 
 // Something whose vertices move: it has the places of all keys, and shows those of one time.
 class MovingShape {
-  // `weights`: which target counts at each key; none: it does not change shape.
-  constructor(mesh, weights) {
-    const loaded = mesh.geometry, targets = loaded.morphAttributes;
+  constructor(mesh) {
+    const loaded = mesh.geometry;
     this.mesh = mesh;
-    this.first = {position: loaded.attributes.position.array, normal: loaded.attributes.normal.array};
-    this.targets = {};
-    this.targetOf = null;
-    if (!targets.position) return;
-    for (const name of ['position', 'normal']) this.targets[name] = targets[name].map((attribute) => attribute.array);
-    this.targetOf = weights ? keysOf(weights, targets.position.length) : null;
+    this.first = loaded.attributes.position.array;
+    this.targets = [];      // whole numbers of steps [m] from the first shape
+    this.targetOf = null;   // (keys) 0 is the first shape; null: it does not change shape
+    if (!loaded.morphAttributes.position) return;
+    this.targets = loaded.morphAttributes.position.map((attribute) => attribute.array);
+    Object.assign(this, mesh.userData.taut);
     // Vertices are moved here, not by morph targets on the graphics card, which has room for 256 of them at most.
     const geometry = new THREE.BufferGeometry();
     geometry.setIndex(loaded.index);
-    geometry.setAttribute('uv', loaded.attributes.uv);
+    if (loaded.attributes.uv) geometry.setAttribute('uv', loaded.attributes.uv);
     for (const name of ['position', 'normal'])
-      geometry.setAttribute(name, new THREE.BufferAttribute(this.first[name].slice(), 3));
+      geometry.setAttribute(name, new THREE.BufferAttribute(loaded.attributes[name].array.slice(), 3));
     mesh.geometry = geometry;
     delete mesh.morphTargetInfluences;
     delete mesh.morphTargetDictionary;
+    this.findSmooth(loaded.attributes.normal.array);
+  }
+
+  // Vertices that are at first at one place with one normal have a normal in common ever after.
+  findSmooth(normals) {
+    const known = new Map();
+    this.smoothOf = new Uint32Array(this.first.length / 3);
+    for (let i = 0; i < this.smoothOf.length; ++i) {
+      const key = [...this.first.subarray(3 * i, 3 * i + 3), ...normals.subarray(3 * i, 3 * i + 3)].join();
+      if (!known.has(key)) known.set(key, known.size);
+      this.smoothOf[i] = known.get(key);
+    }
+    this.sums = new Float32Array(3 * known.size);
   }
 
   // Between key and key + 1, by a share of 0 … 1.
   show(key, share) {
     if (!this.targetOf) return;
-    const a = this.targetOf[key], b = this.targetOf[Math.min(key + 1, this.targetOf.length - 1)];
-    for (const name of ['position', 'normal']) {
-      const first = this.first[name], from = this.targets[name][a], to = this.targets[name][b];
-      const attribute = this.mesh.geometry.attributes[name], out = attribute.array;
-      for (let i = 0; i < out.length; ++i) {
-        const start = from ? from[i] : 0;
-        out[i] = first[i] + (share > 0 ? start + share * ((to ? to[i] : 0) - start) : start);
-      }
-      attribute.needsUpdate = true;
+    const {first, targets, steps, targetOf} = this, attribute = this.mesh.geometry.attributes.position;
+    const a = targetOf[key], b = targetOf[Math.min(key + 1, targetOf.length - 1)];
+    const out = attribute.array;
+    out.set(first);
+    for (const [target, part] of [[a, 1 - share], [b, share]]) {
+      if (target === 0 || part === 0) continue;
+      const moves = targets[target - 1], step = part * steps[target - 1];
+      for (let i = 0; i < out.length; ++i) out[i] += step * moves[i];
     }
+    attribute.needsUpdate = true;
+    this.shade();
+  }
+
+  // Normals: of the triangles around, by their areas.
+  shade() {
+    const {index, attributes: {position: {array: x}, normal}} = this.mesh.geometry, {smoothOf, sums} = this;
+    sums.fill(0);
+    for (let t = 0; t < index.array.length; t += 3) {
+      const [a, b, c] = [3 * index.array[t], 3 * index.array[t + 1], 3 * index.array[t + 2]];
+      const ux = x[b] - x[a], uy = x[b + 1] - x[a + 1], uz = x[b + 2] - x[a + 2];
+      const vx = x[c] - x[a], vy = x[c + 1] - x[a + 1], vz = x[c + 2] - x[a + 2];
+      for (const corner of [a, b, c]) {
+        const at = 3 * smoothOf[corner / 3];
+        sums[at] += uy * vz - uz * vy;
+        sums[at + 1] += uz * vx - ux * vz;
+        sums[at + 2] += ux * vy - uy * vx;
+      }
+    }
+    for (let i = 0; i < smoothOf.length; ++i) {
+      const at = 3 * smoothOf[i], length = Math.hypot(sums[at], sums[at + 1], sums[at + 2]);
+      if (length > 0) normal.setXYZ(i, sums[at] / length, sums[at + 1] / length, sums[at + 2] / length);
+    }
+    normal.needsUpdate = true;
   }
 
   // Grows `box` by all that is ever reached, in the frame of the world where the node rests.
   addTo(box) {
-    const point = new THREE.Vector3(), first = this.first.position;
-    const add = (delta) => {
+    const point = new THREE.Vector3(), first = this.first;
+    const add = (moves, step) => {
       for (let i = 0; i < first.length; i += 3) {
         point.set(first[i], first[i + 1], first[i + 2]);
-        if (delta) point.set(point.x + delta[i], point.y + delta[i + 1], point.z + delta[i + 2]);
+        if (moves) point.set(point.x + step * moves[i], point.y + step * moves[i + 1], point.z + step * moves[i + 2]);
         box.expandByPoint(point.applyMatrix4(this.mesh.matrixWorld));
       }
     };
     add(null);
-    for (const delta of this.targets.position || []) add(delta);
+    this.targets.forEach((moves, i) => add(moves, this.steps[i]));
   }
-}
-
-// The target that counts at each key, -1 for the shape at first.
-function keysOf(track, targets) {
-  const keys = [];
-  for (let start = 0; start < track.values.length; start += targets)
-    keys.push(track.values.subarray(start, start + targets).indexOf(1));
-  return keys;
 }
 
 class Film {
   constructor(gltf) {
     this.scene = gltf.scene;
-    this.around = gltf.scene.userData.taut;  // light, background, ground, camera
+    this.around = gltf.scene.userData.taut;  // light, background, ground, camera, times
     this.camera = gltf.cameras[0];
     this.target = new THREE.Vector3();  // [m] that the camera looks at
     this.shapes = [];
-    this.times = [0];
-    const tracks = gltf.animations.length > 0 ? gltf.animations[0].tracks : [];
-    if (tracks.length > 0) this.times = tracks[0].times;
-    const weights = new Map();
-    const poses = [];
-    for (const track of tracks) {
-      const [node, what] = track.name.split('.');
-      if (what === 'morphTargetInfluences') weights.set(node, track);
-      else poses.push(track);
-    }
-    const meshes = [];
-    this.scene.traverse((node) => { if (node.isMesh) meshes.push(node); });
-    for (const mesh of meshes) {
-      const track = weights.get(mesh.name);
-      this.shapes.push(new MovingShape(mesh, track));
-      mesh.frustumCulled = false;  // the bounds known of it are those at first
-    }
+    this.times = this.around.times;
+    const poses = gltf.animations.length > 0 ? gltf.animations[0].tracks : [];
+    this.scene.traverse((node) => { if (node.isMesh) this.shapes.push(new MovingShape(node)); });
+    for (const {mesh} of this.shapes) mesh.frustumCulled = false;  // the bounds known of it are those at first
     this.mixer = new THREE.AnimationMixer(this.scene);
     this.action = poses.length > 0 ? this.mixer.clipAction(new THREE.AnimationClip('poses', -1, poses)) : null;
     if (this.action) this.action.play();

@@ -176,10 +176,10 @@ class LivePage {
     element('text').addEventListener('input', () => this.typed());
     element('controls').addEventListener('submit', (event) => event.preventDefault());
     addEventListener('keydown', (event) => this.key(event));
-    addEventListener('resize', () => {
+    new ResizeObserver(() => {
       this.picture.resize();
       this.picture.fit();
-    });
+    }).observe(this.canvas);
     addEventListener('dragover', (event) => event.preventDefault());
     addEventListener('drop', (event) => {
       event.preventDefault();

@@ -48,8 +48,10 @@ class LiveFilm {
     const geometry = new THREE.BufferGeometry();
     geometry.setIndex(new THREE.BufferAttribute(part.triangles.slice(), 1));
     const {positions, normals, uv} = part;
-    for (const [name, array, size] of [['position', positions, 3], ['normal', normals, 3], ['uv', uv, 2]])
-      geometry.setAttribute(name, array ? new THREE.BufferAttribute(array.slice(), size) : mesh.geometry.attributes[name]);
+    for (const [name, array, size] of [['position', positions, 3], ['normal', normals, 3], ['uv', uv, 2]]) {
+      const attribute = array ? new THREE.BufferAttribute(array.slice(), size) : mesh.geometry.attributes[name];
+      if (attribute) geometry.setAttribute(name, attribute);
+    }
     mesh.geometry.dispose();
     mesh.geometry = geometry;
   }

@@ -69,6 +69,31 @@ function showNumbers(list, pairs) {
   }
 }
 
+const unitNames = {
+  m: 'metres', s: 'seconds', kg: 'kilograms', N: 'newtons', Pa: 'pascals', J: 'joules', rad: 'radians', degrees: 'degrees',
+};
+
+// "N/m" as "newtons per metre".
+function unitInWords(unit) {
+  const word = (text, isOne) => text.split(' ').map((part, i, all) => {
+    const [, letters, power] = /^(.*?)([²³]?)$/.exec(part), name = unitNames[letters] || letters;
+    const own = isOne || i + 1 < all.length ? name.replace(/s$/, '') : name;
+    return {'': '', '²': 'square ', '³': 'cubic '}[power] + own;
+  }).join(' ');
+  const [above, ...below] = unit.split('/');
+  return [...(above === '1' ? [] : [word(above, false)]), ...below.map((part) => word(part, true))].join(' per ')
+    .replace(/^(?=.)/, above === '1' ? 'per ' : '');
+}
+
+// "material.sail.stretch_N_per_m" in N/m as "stretch of material sail".
+function keyInWords(key, unit) {
+  const suffix = `_${unit.replace('1/', 'per_').replace('degrees', 'deg').replace(/\//g, '_per_').replace(/ /g, '_')
+    .replace(/²/g, '2').replace(/³/g, '3')}`;
+  const path = key.split('.'), last = path.pop();
+  const name = (unit !== '' && last.endsWith(suffix) ? last.slice(0, -suffix.length) : last).replace(/_/g, ' ');
+  return path.length > 0 ? `${name} of ${path.join(' ')}` : name;
+}
+
 // What a slider does with a value of the scene: numbers without a unit and shares go evenly, others by factors of up to
 // ten, which is what stiffness asks for; a vector keeps its direction and is made longer or shorter.
 class Slider {
@@ -91,10 +116,11 @@ class Slider {
   element(change) {
     const label = document.createElement('label'), name = document.createElement('span');
     const number = document.createElement('output'), input = document.createElement('input');
-    name.textContent = this.key;
+    name.textContent = keyInWords(this.key, this.unit);
+    label.title = this.key;
     const show = () => { number.textContent = `${numberText(this.sizeAt(Number(input.value)))} ${this.unit}`; };
     Object.assign(input, {type: 'range', min: this.low, max: this.high, step: (this.high - this.low) / 200, value: this.start});
-    input.setAttribute('aria-label', this.key);
+    input.setAttribute('aria-label', [name.textContent, unitInWords(this.unit)].filter((text) => text).join(', '));
     input.addEventListener('input', show);
     input.addEventListener('change', () => change(this.key, this.valueAt(Number(input.value))));
     label.append(name, number, input);

@@ -123,7 +123,7 @@ class Picture {
     // The shader decodes it, in whatever words a release has for that.
     if (picture) Object.assign(picture, {encoding: 3000, colorSpace: '', anisotropy: 8, needsUpdate: true});
     const {uv} = mesh.geometry.attributes;  // of taut's own in metres, v upwards
-    for (let i = 0; i < uv.count; ++i) uv.setXY(i, finish.repeat * uv.getX(i), -finish.repeat * uv.getY(i));
+    for (let i = 0; uv && i < uv.count; ++i) uv.setXY(i, finish.repeat * uv.getX(i), -finish.repeat * uv.getY(i));
     const isTwoSided = loaded.side === THREE.DoubleSide, isWoven = finish.weave > 0;
     const pattern = picture ? 4 : Math.max(['plain', 'checker', 'stripes', 'tartan'].indexOf(finish.pattern), 0);
     const definitions = [`PATTERN ${pattern}`];

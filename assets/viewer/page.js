@@ -34,7 +34,7 @@ class Player {
     this.resetElement.addEventListener('click', () => this.resetView());
     this.controlsElement.addEventListener('submit', (event) => event.preventDefault());
     addEventListener('keydown', (event) => this.key(event));
-    addEventListener('resize', () => this.resize());
+    new ResizeObserver(() => this.resize()).observe(this.picture.renderer.domElement);
   }
 
   key(event) {

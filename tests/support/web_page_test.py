@@ -76,15 +76,15 @@ def has_the_motion(driver):
     order = numpy.argmin(((x[0][:, None] - there(0)[None]) ** 2).sum(axis=2), axis=1)
     for frame in (0, 100, LAST, 7):
         off = numpy.abs(there(frame)[order] - x[frame]).max() / numpy.abs(x[frame]).max()
-        # Two roundings of floats, 6e-8 each, of a number and of a difference to it.
-        expect(off < 1e-6, "the flag of frame %d is off by %g" % (frame, off))
+        # Half of a step: a vertex has moved by 32767 of them at most, and by no more than the largest coordinate.
+        expect(off < 2e-5, "the flag of frame %d is off by %g" % (frame, off))
     ball = numpy.array(driver.execute_script("return taut.positions('collider_ball')")).reshape(-1, 3)
     expect(abs(ball[:, 0].max() - (0.2 + 7 / 300)) < 1e-5, "the ball rolls: %s" % ball.max(axis=0))
     # Between two keys everything moves evenly.
     driver.execute_script("const time = document.getElementById('time'); time.value = 41.5 / 600;"
                           "time.dispatchEvent(new Event('input'));")
     half = numpy.array(driver.execute_script("return taut.positions('cloth_flag')")).reshape(-1, 3)[order]
-    expect(numpy.abs(half - (x[41] + x[42]) / 2).max() < 2e-6, "half way between two keys")
+    expect(numpy.abs(half - (x[41] + x[42]) / 2).max() < 3e-5, "half way between two keys")
 
 
 def looks_like_taut(driver):
@@ -137,6 +137,17 @@ def does_what_it_says(driver):
     expect(numpy.abs(picture(driver) - before).mean() < 1, "and the button turns it back")
 
 
+def has_a_drawer_on_a_phone(driver):
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                           {"width": 390, "height": 780, "deviceScaleFactor": 1, "mobile": True})
+    shown, controls = (driver.find_element(By.ID, name).rect for name in ("picture", "controls"))
+    expect(abs(shown["y"] + shown["height"] - controls["y"]) < 1 and shown["height"] > 500, "controls below the picture")
+    expect(driver.find_element(By.ID, "reset").is_displayed(), "Reset view stays")
+    until(lambda: driver.execute_script("const c = document.getElementById('picture');"
+                                        "return c.height === c.clientHeight;"), "the picture has its pixels")
+    driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
 def asks_for_nothing(driver):
     requests = []
     for line in driver.get_log("performance"):
@@ -157,6 +168,7 @@ def main():
         has_the_motion(driver)
         looks_like_taut(driver)
         does_what_it_says(driver)
+        has_a_drawer_on_a_phone(driver)
         asks_for_nothing(driver)
         driver.execute_script("HTMLCanvasElement.prototype.getContext = () => null; startPage();")
         expect("WebGL" in driver.find_element(By.ID, "message").text, "a browser without WebGL is told so")

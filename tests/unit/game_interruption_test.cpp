@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -10,6 +11,7 @@
 #include <thread>
 
 #include "image_support.h"
+#include "taut/core/private/child_process.h"
 #include "taut/image/read.h"
 
 namespace taut::game {
@@ -17,7 +19,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-// Starts the program with its results and its messages in a file.
+// Starts the program with its results and its messages in a file, and with that file's folder for a core file.
 pid_t started(std::vector<std::string> arguments, const std::filesystem::path& messages) {
     arguments.insert(arguments.begin(), TAUT_PROGRAM);
     std::vector<char*> argv;
@@ -27,6 +29,11 @@ pid_t started(std::vector<std::string> arguments, const std::filesystem::path& m
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0600);
     posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+    posix_spawn_file_actions_addchdir_np(&files, messages.parent_path().c_str());
+    rlimit limit{};
+    ::getrlimit(RLIMIT_CORE, &limit);
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_CORE, &limit);
     pid_t process = -1;
     EXPECT_EQ(posix_spawn(&process, argv[0], &files, nullptr, argv.data(), environ), 0);
     posix_spawn_file_actions_destroy(&files);
@@ -42,9 +49,22 @@ bool comesTrue(const std::function<bool()>& condition) {
     return false;
 }
 
-int exitCodeOf(pid_t process) {
+// Keeps the core file that a program has left in a folder, and prints the stacks of its threads.
+void showCrash(const std::filesystem::path& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (!entry.path().filename().string().starts_with("core")) continue;
+        const std::string kept = testing::TempDir() + folder.filename().string() + ".core";
+        std::filesystem::copy(entry.path(), kept);
+        const core::ChildCommand command{{"gdb", "-batch", "-ex", "thread apply all backtrace", TAUT_PROGRAM, kept}};
+        ADD_FAILURE() << kept;
+        ADD_FAILURE() << core::runChild(command).output;
+    }
+}
+
+int exitCodeOf(pid_t process, const TemporaryFolder& folder) {
     int status = 0;
     ::waitpid(process, &status, 0);
+    if (WIFSIGNALED(status)) showCrash(folder.path());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
@@ -74,7 +94,7 @@ TEST(Interrupted, ProgramLeavesWholeFramesAndTheirRecord) {
         started({"render", endlessScene(folder).string(), "-o", (folder / "out").string()}, folder / "messages");
     EXPECT_TRUE(comesTrue([&] { return std::filesystem::exists(folder / "out/frame_000003.png"); }));
     ::kill(process, SIGINT);
-    EXPECT_EQ(exitCodeOf(process), 130) << test::contentOf(folder / "messages");
+    EXPECT_EQ(exitCodeOf(process, folder), 130) << test::contentOf(folder / "messages");
     std::size_t pictures = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
         EXPECT_NE(entry.path().extension(), ".part");
@@ -97,7 +117,7 @@ TEST(Interrupted, ProgramLeavesAWholeVideoWhenTerminated) {
     ::kill(process, SIGTERM);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ::kill(process, SIGTERM);  // as timeout(1) does: to the process, then to its group
-    EXPECT_EQ(exitCodeOf(process), 143) << test::contentOf(folder / "messages");
+    EXPECT_EQ(exitCodeOf(process, folder), 143) << test::contentOf(folder / "messages");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4.part"));
     EXPECT_NE(test::contentOf(folder / "a.mp4").find("moov"), std::string::npos);
 }
@@ -109,7 +129,7 @@ TEST(Interrupted, TestSaysHowFarItCame) {
     EXPECT_TRUE(comesTrue([&] { return std::filesystem::exists(folder / "out"); }));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the folder is there a little before the first tick
     ::kill(process, SIGINT);
-    EXPECT_EQ(exitCodeOf(process), 130);
+    EXPECT_EQ(exitCodeOf(process, folder), 130);
     const std::string said = test::contentOf(folder / "messages");
     EXPECT_NE(said.find("not finished: interrupted at tick "), std::string::npos) << said;
     EXPECT_EQ(said.find("same, "), std::string::npos) << said;
@@ -126,7 +146,7 @@ TEST(Interrupted, AtlasSaysSoAndLeavesNothing) {
         const pid_t process = started(arguments, folder / "messages");
         EXPECT_TRUE(comesTrue([&] { return std::filesystem::exists(out); }));
         ::kill(process, SIGINT);
-        EXPECT_EQ(exitCodeOf(process), 130);
+        EXPECT_EQ(exitCodeOf(process, folder), 130);
         const std::string said = test::contentOf(folder / "messages");
         EXPECT_NE(said.find("interrupted: nothing is written"), std::string::npos) << said;
         EXPECT_EQ(said.find("100 %"), std::string::npos) << said;

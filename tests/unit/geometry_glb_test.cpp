@@ -157,5 +157,52 @@ TEST(Glb, HidesWhatIsNotThere) {
     EXPECT_EQ((std::vector<float>{scales[0][1], scales[1][1], scales[2][1]}), (std::vector<float>{0, 1, 1}));
 }
 
+// Half of a step at most, of which 32767 are the largest movement of the frame: 1 m in the second, 3 m in the third.
+TEST(Glb, CompactMovementsAreRoundedToSixteenBits) {
+    const auto path = test::emptyFolder("compact") / "film.glb";
+    const std::vector<float> heights = {1.0F, 2.0F, 4.0F, 1.0F / 3.0F};
+    geometry::GeometryOptions options;
+    options.isCompact = true;
+    geometry::GlbWriter writer(path, options);
+    test::Film film;
+    for (std::int64_t k = 0; k < 4; ++k) writer.write(film.frame(k, heights[static_cast<std::size_t>(k)]));
+    writer.finish();
+    const Glb glb(path);
+    EXPECT_EQ(glb.text["scenes"][0]["extras"]["taut"]["times"].size(), 4U);
+    const json& mesh = glb.named("meshes", "cloth_flag");
+    const json &targets = mesh["primitives"][0]["targets"], &own = mesh["extras"]["taut"];
+    EXPECT_EQ(own["targetOf"], json({0, 1, 2, 3}));
+    for (std::size_t key = 1; key < 4; ++key) {
+        EXPECT_FALSE(targets[key - 1].contains("NORMAL"));
+        const json& accessor = glb.text["accessors"][targets[key - 1]["POSITION"].get<std::size_t>()];
+        const json& view = glb.text["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+        EXPECT_EQ(accessor["componentType"], 5122);
+        EXPECT_EQ(view["byteStride"], 6);
+        std::int16_t up = 0;
+        std::memcpy(&up, glb.binary.data() + view["byteOffset"].get<std::size_t>() + 2 * 6 + 2, sizeof up);
+        const float moved = heights[key] - 1.0F;
+        EXPECT_NEAR(static_cast<float>(up) * own["steps"][key - 1].get<float>(), moved,
+                    std::abs(moved) / 65534.0F + 1e-7F);
+    }
+}
+
+TEST(Glb, TextureCoordinatesAreOfWhatTheyChange) {
+    const auto has = [](const auto& change) {
+        view::Finish finish;
+        change(finish);
+        const auto path = test::emptyFolder("uv") / "film.glb";
+        geometry::GlbWriter writer(path, {});
+        test::Film film;
+        film.flag.finish = std::make_shared<view::Finish>(finish);
+        writer.write(film.frame(0, 1.0F));
+        writer.finish();
+        return Glb(path).named("meshes", "cloth_flag")["primitives"][0]["attributes"].contains("TEXCOORD_0");
+    };
+    EXPECT_FALSE(has([](view::Finish&) {}));
+    EXPECT_TRUE(has([](view::Finish& finish) { finish.pattern = view::Pattern::tartan; }));
+    EXPECT_TRUE(has([](view::Finish& finish) { finish.weave = 0.5F; }));
+    EXPECT_TRUE(has([](view::Finish& finish) { finish.anisotropy = 0.5F; }));
+}
+
 }  // namespace
 }  // namespace taut

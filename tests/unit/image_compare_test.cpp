@@ -60,12 +60,19 @@ TEST(Compare, WeakChangeOfATileIsFoundByItsShare) {
     EXPECT_EQ(compare(a, b).share, 0.0);
 }
 
-// What another processor's approximate reciprocals do to a gradient: every pixel off by 1.
-TEST(Compare, ADifferenceOfOneSaysNothing) {
-    const Comparison c = compare(grey(64, 64, 100), grey(64, 64, 101));
+// What another processor's approximate reciprocals do to a gradient: pixels off by 1, some up and some down.
+TEST(Compare, ADifferenceOfOneSaysNothingUnlessMostHaveIt) {
+    const Image a = grey(200, 100);
+    Image b = a;
+    for (int i = 0; i < 20'000; ++i) shift(b, i % 200, i / 200, 1, i < 10'250 ? 1 : -1);
+    const Comparison c = compare(a, b);
     EXPECT_TRUE(c.within);
     EXPECT_EQ(c.worstTileShare, 0.0);
-    EXPECT_EQ(c.mean, 1.0);
+    EXPECT_DOUBLE_EQ(c.mean, 1.0 / 3.0);
+    EXPECT_DOUBLE_EQ(c.offset, 0.025);  // 500 of 20 000
+    shift(b, 199, 99, 1, 1);
+    EXPECT_FALSE(compare(a, b).within);
+    EXPECT_DOUBLE_EQ(compare(b, a).offset, -501.0 / 20'000.0);
     EXPECT_FALSE(compare(grey(64, 64, 100), grey(64, 64, 102)).within);
 }
 

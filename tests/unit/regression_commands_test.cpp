@@ -51,6 +51,21 @@ TEST(TestCommand, ChecksAloneAreEnoughUntilSomethingIsRecorded) {
     EXPECT_EQ(testRun(folder).code, 8) << "the manifest names it";
 }
 
+TEST(TestCommand, GoldensOfScenariosThatAreElsewhereAreOneLine) {
+    const TemporaryFolder folder;
+    for (const std::string name : {"a", "b", "spring"}) {
+        test::writeText(folder / (name + ".toml"), springText());
+        EXPECT_EQ(acceptRun(folder, name, "The first of its kind.").code, 0);
+    }
+    for (const char* gone : {"a.toml", "b.toml"}) std::filesystem::remove(folder / gone);
+    const Outcome part = testRun(folder);
+    EXPECT_EQ(part.code, 0) << part.err;
+    const std::size_t first = part.err.find("there are goldens of scenarios that are not in");
+    ASSERT_NE(first, std::string::npos) << part.err;
+    EXPECT_EQ(part.err.find("there are goldens", first + 1), std::string::npos);
+    EXPECT_TRUE(has(part.err, ": a, b\n")) << part.err;
+}
+
 // What an update that was broken off has left is finished by the next one; what others lay there is not followed.
 TEST(TestCommand, ATestOnlyReadsGoldensAndFollowsNoLinkWhenConfined) {
     const TemporaryFolder folder;

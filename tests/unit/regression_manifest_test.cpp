@@ -18,7 +18,7 @@ TEST(Manifest, IsEmptyWhereThereIsNone) {
 TEST(Manifest, ComesBackAsItWas) {
     const TemporaryFolder folder;
     Manifest manifest;
-    manifest.tolerance = {3, 0.0002, 2, 0.5};
+    manifest.tolerance = {3, 0.0002, 2, 0.5, 0.125};
     manifest.otherRenderer = {9, 0.002, 8, 0.75};
     manifest.scenarios["flag"].bits = 77;
     manifest.scenarios["flag"].state = {"Because.", "0123456789abcdef", 479, "taut 1", "g++", "avx2"};

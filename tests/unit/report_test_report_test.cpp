@@ -38,7 +38,7 @@ TEST(TestReport, OfSeveralFailuresTheGravestCounts) {
     report.scenarios.pop_back();
     EXPECT_EQ(verdictOf(report), Verdict::passed);
     report.calibration.push_back(
-        {"good", "000010", "shadow off", true, true, false, 0, 0, 0, false, false, "picture", "lets it through"});
+        {"good", "000010", "shadow off", true, true, false, 0, 0, 0, 0, false, false, "picture", "lets it through"});
     EXPECT_EQ(verdictOf(report), Verdict::failed);
 }
 
@@ -184,7 +184,7 @@ TEST(TestReportPage, ShowsTheCalibration) {
     TestReport report = mixedReport();
     EXPECT_FALSE(has(testPage(report), "id=\"calibration\""));
     EXPECT_EQ(calibrationTable(report), "");
-    report.calibration.push_back({"good", "000010", "shadow off", true, true, false, 0.5, 1.5, 9, false, false,
+    report.calibration.push_back({"good", "000010", "shadow off", true, true, false, 0.5, 1.5, 0.1, 9, false, false,
                                   "picture", "share 0.9 lets it through"});
     EXPECT_TRUE(has(testPage(report), "share 0.9 lets it through"));
     EXPECT_TRUE(has(calibrationTable(report), "good 000010, shadow off: share 0.9 lets it through"));

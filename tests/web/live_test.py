@@ -77,7 +77,7 @@ def keeps_what_a_hand_did(driver):
     assert driver.execute_script("return taut.pointer !== null && taut.isFollowing"), "it holds the sail, not the view"
     ActionChains(driver).release().perform()
     slider = driver.find_element(By.CSS_SELECTOR, "#sliders input")
-    assert slider.get_attribute("aria-label") == "wind.breeze.velocity"
+    assert slider.get_attribute("aria-label") == "velocity of wind breeze, metres per second"
     slider.send_keys(Keys.END)
     driver.find_element(By.TAG_NAME, "body").click()
     time.sleep(0.5)

@@ -1,6 +1,7 @@
 #include "taut/geometry/glb_writer.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -44,6 +45,11 @@ std::string vectorText(const glm::vec3& v) {
     return fmt::format("[{},{},{}]", v.x, v.y, v.z);
 }
 
+// Whether it looks otherwise at other texture coordinates.
+bool isMapped(const view::Finish& finish) {
+    return finish.pattern != view::Pattern::plain || finish.weave > 0 || finish.anisotropy > 0;
+}
+
 // What glTF's materials have no place for, by the words of view::Finish.
 std::string finishExtras(const view::Finish& finish) {
     constexpr std::array<const char*, 5> patterns = {"plain", "checker", "stripes", "tartan", "image"};
@@ -62,6 +68,7 @@ struct GlbWriter::Impl {
         std::string attributes;
         std::size_t indices = 0;
         JsonItems targets;
+        JsonItems steps;  // (targets) [m], compact: of one of its whole numbers
         std::shared_ptr<const view::Geometry> last;
         std::vector<std::size_t> targetOf;  // (keys) 0: the shape at first, else the number of the target, from 1
         std::vector<glm::mat4> transforms;  // (keys)
@@ -116,11 +123,13 @@ void GlbWriter::Impl::addTrack(const Part& part) {
     track.attributes = fmt::format(R"("POSITION":{})", data.addVectors(shape.positions, true, view));
     if (options.normals)
         track.attributes += fmt::format(R"(,"NORMAL":{})", data.addVectors(shape.normals, false, view));
-    data.closeView();
-    std::vector<glm::vec2> uv;
-    for (const glm::vec2& at : part.topology->uv)
-        uv.push_back(glm::vec2(at.x, -at.y) / std::max(part.finish->repeat, 1e-6F));  // v runs down
-    track.attributes += fmt::format(R"(,"TEXCOORD_0":{})", data.addVectors(uv));
+    data.closeView(sizeof(glm::vec3));
+    if (isMapped(*part.finish)) {
+        std::vector<glm::vec2> uv;
+        for (const glm::vec2& at : part.topology->uv)
+            uv.push_back(glm::vec2(at.x, -at.y) / std::max(part.finish->repeat, 1e-6F));  // v runs down
+        track.attributes += fmt::format(R"(,"TEXCOORD_0":{})", data.addVectors(uv));
+    }
     track.indices = data.addIndices(part.topology->triangles);
     // What comes later is hidden until then.
     track.targetOf.assign(times.size() - 1, 0);
@@ -138,8 +147,19 @@ void GlbWriter::Impl::addTarget(Track& track, const view::Geometry& now, std::si
         return out;
     };
     const view::Geometry& first = *track.part.geometry;
-    std::string target =
-        fmt::format(R"({{"POSITION":{})", data.addVectors(differences(now.positions, first.positions), true, view));
+    const std::vector<glm::vec3> moves = differences(now.positions, first.positions);
+    if (options.isCompact) {
+        float most = 0.0F;
+        for (const glm::vec3& move : moves)
+            for (int axis = 0; axis < 3; ++axis) most = std::max(most, std::abs(move[axis]));
+        const float step = std::max(most, 1e-30F) / 32767.0F;
+        std::vector<glm::i16vec3> steps;
+        for (const glm::vec3& move : moves) steps.emplace_back(glm::round(move / step));
+        track.targets.add(fmt::format(R"({{"POSITION":{}}})", data.addVectors(steps, view)));
+        track.steps.add(fmt::format("{}", step));
+        return;
+    }
+    std::string target = fmt::format(R"({{"POSITION":{})", data.addVectors(moves, true, view));
     if (options.normals)
         target += fmt::format(R"(,"NORMAL":{})", data.addVectors(differences(now.normals, first.normals), false, view));
     track.targets.add(target + "}");
@@ -217,24 +237,27 @@ std::string GlbWriter::Impl::pose(const std::vector<glm::mat4>& matrices, std::s
 void GlbWriter::Impl::addNode(const Track& track) {
     const std::string name = jsonText(track.part.identifier);
     const std::size_t targets = track.targets.count();
-    std::string shapes, zeros;
-    if (targets > 0) {
-        for (std::size_t i = 0; i < targets; ++i) zeros += i > 0 ? ",0" : "0";
-        shapes = ",\"targets\":[" + track.targets.text() + "]";
-        zeros = ",\"weights\":[" + zeros + "]";  // the default, without which some readers fail
+    std::string shapes, more;
+    if (targets > 0) shapes = ",\"targets\":[" + track.targets.text() + "]";
+    if (targets > 0 && options.isCompact) {
+        more = fmt::format(R"(,"extras":{{"taut":{{"steps":[{}],"targetOf":[{}]}}}})", track.steps.text(),
+                           fmt::join(track.targetOf, ","));
+    } else if (targets > 0) {
+        for (std::size_t i = 0; i < targets; ++i) more += i > 0 ? ",0" : "0";
+        more = ",\"weights\":[" + more + "]";  // the default, without which some readers fail
     }
     const std::size_t mesh =
         meshes.add(fmt::format(R"({{"name":{},"primitives":[{{"attributes":{{{}}},"indices":{},"material":{}{}}}]{}}})",
-                               name, track.attributes, track.indices, material(track.part), shapes, zeros));
+                               name, track.attributes, track.indices, material(track.part), shapes, more));
     const std::size_t node = nodes.count();
-    if (targets > 0) animate(node, "weights", weights(track), "LINEAR");
-    std::string more = pose(track.transforms, node);
+    if (targets > 0 && !options.isCompact) animate(node, "weights", weights(track), "LINEAR");
+    const std::string placed = pose(track.transforms, node);
     if (!isConstant(track.isThere)) {
         std::vector<glm::vec3> scales;
         for (const bool isThere : track.isThere) scales.emplace_back(isThere ? 1.0F : 0.0F);
         animate(node, "scale", data.addVectors(scales), "STEP");
     }
-    nodes.add(fmt::format(R"({{"name":{},"mesh":{},{}}})", name, mesh, more));
+    nodes.add(fmt::format(R"({{"name":{},"mesh":{},{}}})", name, mesh, placed));
 }
 
 // What glTF's scenes have no place for, by the words of view::FrameView. Of the camera there is one value a key, or one
@@ -257,6 +280,7 @@ std::string GlbWriter::Impl::sceneExtras() const {
     if (ground)
         text += fmt::format(R"(,"ground":{{"height":{},"colour":{},"gridSpacing":{}}})", ground->height,
                             vectorText(ground->colour), ground->gridSpacing);
+    if (options.isCompact) text += fmt::format(R"(,"times":[{}])", fmt::join(times, ","));
     return text + "}}";
 }
 
@@ -341,7 +365,7 @@ void GlbWriter::write(const view::FrameView& view) {
             w.addTarget(w.tracks[number], *geometry, shared);
             w.tracks[number].targetOf.push_back(w.tracks[number].targets.count());
         }
-        w.data.closeView();
+        w.data.closeView(w.options.isCompact ? sizeof(glm::i16vec3) : sizeof(glm::vec3));
     }
     for (Impl::Track& track : w.tracks)
         if (track.transforms.size() < w.times.size()) {

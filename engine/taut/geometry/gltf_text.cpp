@@ -7,7 +7,7 @@
 namespace taut::geometry {
 namespace {
 
-constexpr int componentFloat = 5126, componentUnsigned = 5125;
+constexpr int componentShort = 5122, componentUnsigned = 5125, componentFloat = 5126;
 constexpr int targetVertices = 34962, targetIndices = 34963;
 
 // glTF is little-endian, as is every processor that this is compiled for.
@@ -16,9 +16,10 @@ std::span<const std::byte> bytesOf(std::span<const T> values) {
     return std::as_bytes(values);
 }
 
-std::string boundsOf(std::span<const glm::vec3> values) {
-    glm::vec3 least = values.front(), most = values.front();
-    for (const glm::vec3& value : values) {
+template <class Vector>
+std::string boundsOf(std::span<const Vector> values) {
+    Vector least = values.front(), most = values.front();
+    for (const Vector& value : values) {
         least = glm::min(least, value);
         most = glm::max(most, value);
     }
@@ -47,10 +48,15 @@ std::size_t JsonItems::add(std::string_view item) {
 
 std::size_t GltfData::addView(std::span<const std::byte> content, std::string_view more) {
     const ScratchFile::Piece piece = bytes.add(content);
-    static constexpr std::byte padding[4] = {};
-    bytes.add(std::span(padding).first((4 - content.size() % 4) % 4));  // accessors begin at multiples of four
+    addPadding();
     return views.add(
         fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}{}}})", piece.offset, piece.size, more));
+}
+
+// Accessors begin at multiples of four.
+void GltfData::addPadding() {
+    static constexpr std::byte padding[4] = {};
+    bytes.add(std::span(padding).first((4 - bytes.size() % 4) % 4));
 }
 
 std::size_t GltfData::addAccessor(std::size_t view, std::uint64_t offset, int component, std::size_t count,
@@ -95,9 +101,15 @@ std::size_t GltfData::addVectors(std::span<const glm::vec3> values, bool hasBoun
                        hasBounds ? boundsOf(values) : "");
 }
 
-void GltfData::closeView() {
-    views.add(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{},"byteStride":12,"target":{}}})", viewStart_,
-                          bytes.size() - viewStart_, targetVertices));
+std::size_t GltfData::addVectors(std::span<const glm::i16vec3> values, std::size_t view) {
+    const ScratchFile::Piece piece = bytes.add(bytesOf(values));
+    return addAccessor(view, piece.offset - viewStart_, componentShort, values.size(), "VEC3", boundsOf(values));
+}
+
+void GltfData::closeView(std::size_t stride) {
+    views.add(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{},"byteStride":{},"target":{}}})", viewStart_,
+                          bytes.size() - viewStart_, stride, targetVertices));
+    addPadding();
 }
 
 std::size_t GltfData::addBytes(std::span<const std::byte> content) {

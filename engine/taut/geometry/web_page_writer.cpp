@@ -9,9 +9,17 @@
 #include "taut/core/whole_file.h"
 
 namespace taut::geometry {
+namespace {
+
+GeometryOptions compact(GeometryOptions options) {
+    options.isCompact = true;
+    return options;
+}
+
+}  // namespace
 
 WebPageWriter::WebPageWriter(std::filesystem::path path, WebPage page, GeometryOptions options)
-    : path_(std::move(path)), page_(std::move(page)), glb_(path_, std::move(options)) {}
+    : path_(std::move(path)), page_(std::move(page)), glb_(path_, compact(std::move(options))) {}
 
 void WebPageWriter::finish() {
     core::WholeFile file(path_);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "taut/core/error.h"
@@ -11,9 +12,10 @@ namespace taut::image {
 namespace {
 
 struct PixelSums {
-    long total = 0;      // of differences over pixels and channels
-    long different = 0;  // pixels with a channel off by more than the first rule's tolerance
-    long weak = 0;       // the same for the second rule
+    long total = 0;               // of differences over pixels and channels
+    std::array<long, 3> shift{};  // (channels) of differences with their sign
+    long different = 0;           // pixels with a channel off by more than the first rule's tolerance
+    long weak = 0;                // the same for the second rule
     int largest = 0;
 };
 
@@ -27,7 +29,8 @@ PixelSums tileSums(const Image& a, const Image& b, int left, int top, const Tole
                 (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * 3;
             int worst = 0;
             for (std::size_t channel = 0; channel < 3; ++channel) {
-                const int difference = std::abs(int{a.rgb[at + channel]} - int{b.rgb[at + channel]});
+                const int shift = int{b.rgb[at + channel]} - int{a.rgb[at + channel]}, difference = std::abs(shift);
+                sums.shift[channel] += shift;
                 sums.total += difference;
                 worst = std::max(worst, difference);
             }
@@ -60,6 +63,7 @@ Comparison compare(const Image& a, const Image& b, const Tolerance& tolerance) {
                 result.worstTileY = top;
             }
             all.total += sums.total;
+            for (std::size_t channel = 0; channel < 3; ++channel) all.shift[channel] += sums.shift[channel];
             all.different += sums.different;
             all.largest = std::max(all.largest, sums.largest);
         }
@@ -68,7 +72,11 @@ Comparison compare(const Image& a, const Image& b, const Tolerance& tolerance) {
     result.share = static_cast<double>(all.different) / pixels;
     result.mean = static_cast<double>(all.total) / (3.0 * pixels);
     result.largest = all.largest;
-    result.within = result.share <= tolerance.share && result.worstTileShare <= tolerance.tileShare;
+    const long shift =
+        *std::max_element(all.shift.begin(), all.shift.end(), [](long p, long q) { return std::abs(p) < std::abs(q); });
+    result.offset = static_cast<double>(shift) / pixels;
+    result.within = result.share <= tolerance.share && result.worstTileShare <= tolerance.tileShare &&
+                    std::abs(result.offset) <= tolerance.offset;
     return result;
 }
 
@@ -77,9 +85,11 @@ std::string describe(const Comparison& c, const Tolerance& tolerance) {
     return fmt::format(
         "{:.4f} % of pixels differ by more than {} (at most {:.4g} %), of the tile at ({}, {}) {:.1f} % by more than "
         "{} "
-        "(at most {:.3g} %), largest difference {}, mean {:.4f}",
+        "(at most {:.3g} %), the mean of a channel is off by {:.4f} (at most {:.4g}), largest difference {}, mean "
+        "{:.4f}",
         100.0 * c.share, tolerance.channel, 100.0 * tolerance.share, c.worstTileX, c.worstTileY,
-        100.0 * c.worstTileShare, tolerance.tileChannel, 100.0 * tolerance.tileShare, c.largest, c.mean);
+        100.0 * c.worstTileShare, tolerance.tileChannel, 100.0 * tolerance.tileShare, c.offset, tolerance.offset,
+        c.largest, c.mean);
 }
 
 Image differencePicture(const Image& a, const Image& b) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "taut/core/error.h"
@@ -69,6 +70,7 @@ class Calibration {
         const image::Comparison comparison = image::compare(right.picture, *now, options_.tolerance);
         row.share = comparison.share;
         row.tileShare = comparison.worstTileShare;
+        row.offset = comparison.offset;
         row.largest = comparison.largest;
         row.pictureDiffers = !comparison.within;
         return row;
@@ -77,11 +79,12 @@ class Calibration {
     void addNoise(CalibrationRow row) {
         const image::Tolerance& tolerance = options_.tolerance;
         if (row.hasPicture &&
-            (noiseMargin * row.share > tolerance.share || noiseMargin * row.tileShare > tolerance.tileShare))
+            (noiseMargin * row.share > tolerance.share || noiseMargin * row.tileShare > tolerance.tileShare ||
+             noiseMargin * std::abs(row.offset) > tolerance.offset))
             row.refusal = fmt::format(
-                "the thresholds ({}) are less than {} times this noise ({:.4f} % of the pixels, {:.1f} % of a tile): a "
-                "picture of the same state {}",
-                thresholds(), noiseMargin, 100.0 * row.share, 100.0 * row.tileShare,
+                "the thresholds ({}) are less than {} times this noise ({:.4f} % of the pixels, {:.1f} % of a tile, "
+                "{:.4f} of the mean): a picture of the same state {}",
+                thresholds(), noiseMargin, 100.0 * row.share, 100.0 * row.tileShare, row.offset,
                 row.pictureDiffers ? "fails" : "might fail elsewhere");
         if (row.hasState && row.stateDiffers)
             row.refusal = "the state itself is not the same again: nothing can be said of its goldens";
@@ -167,18 +170,20 @@ class Calibration {
                 found.what += " (nothing of it to be seen)";
             else if (!found.pictureDiffers)
                 found.refusal = fmt::format(
-                    "the thresholds ({}) let this through: {:.4f} % of the pixels differ, {:.1f} % of a tile; "
-                    "shares below that find it",
-                    thresholds(), 100.0 * found.share, 100.0 * found.tileShare);
+                    "the thresholds ({}) let this through: {:.4f} % of the pixels differ, {:.1f} % of a tile, the "
+                    "mean by {:.4f}; thresholds below that find it",
+                    thresholds(), 100.0 * found.share, 100.0 * found.tileShare, found.offset);
             rows_.push_back(std::move(found));
         }
     }
 
     std::string thresholds() const {
         const image::Tolerance& tolerance = options_.tolerance;
-        return fmt::format("at most {:.4g} % of the pixels off by more than {}, of a tile {:.3g} % by more than {}",
-                           100.0 * tolerance.share, tolerance.channel, 100.0 * tolerance.tileShare,
-                           tolerance.tileChannel);
+        return fmt::format(
+            "at most {:.4g} % of the pixels off by more than {}, of a tile {:.3g} % by more than {}, the mean by "
+            "{:.4g}",
+            100.0 * tolerance.share, tolerance.channel, 100.0 * tolerance.tileShare, tolerance.tileChannel,
+            tolerance.offset);
     }
 
     const CalibrationOptions& options_;

@@ -181,10 +181,10 @@ std::string hexadecimal(std::uint64_t hash) {
 
 std::string inWords(const image::Tolerance& tolerance) {
     return fmt::format(
-        "at most {:.4g} % of its pixels are off by more than {}/255 in any channel, and of no tile of {} × {} pixels "
-        "more than {:.3g} % by more than {}/255",
+        "at most {:.4g} % of its pixels are off by more than {}/255 in any channel, of no tile of {} × {} pixels "
+        "more than {:.3g} % by more than {}/255, and the mean of no channel by more than {:.4g}/255",
         100.0 * tolerance.share, tolerance.channel, image::tileSize, image::tileSize, 100.0 * tolerance.tileShare,
-        tolerance.tileChannel);
+        tolerance.tileChannel, tolerance.offset);
 }
 
 std::string otherRendererNote(const report::TestReport& report, const Manifest& manifest) {

@@ -104,18 +104,21 @@ GoldenScenario scenarioIn(const Reader& reader) {
     return scenario;
 }
 
-image::Tolerance toleranceIn(const Reader& reader) {
+// Older files have no bound of the mean.
+image::Tolerance toleranceIn(const Reader& reader, const image::Tolerance& ours) {
     const auto channel = [&](const char* key) {
         return static_cast<int>(std::min<std::int64_t>(255, reader.whole(key, 0)));
     };
-    return {channel("channel"), reader.number("share"), channel("tile_channel"), reader.number("tile_share")};
+    return {channel("channel"), reader.number("share"), channel("tile_channel"), reader.number("tile_share"),
+            reader.has("offset") ? reader.number("offset") : ours.offset};
 }
 
 Json jsonOf(const image::Tolerance& tolerance) {
     return {{"channel", tolerance.channel},
             {"share", tolerance.share},
             {"tile_channel", tolerance.tileChannel},
-            {"tile_share", tolerance.tileShare}};
+            {"tile_share", tolerance.tileShare},
+            {"offset", tolerance.offset}};
 }
 
 Json jsonOf(const GoldenScenario& scenario) {
@@ -185,9 +188,9 @@ Manifest readManifestText(const std::string& content, const std::string& file) {
     const Reader reader(json, file, "");
     if (const std::int64_t version = reader.whole("schema", 1); version != schema)
         reader.below("schema", fmt::format("is {}, and this taut reads {}", version, schema));
-    if (reader.has("tolerance")) manifest.tolerance = toleranceIn(reader.object("tolerance"));
+    if (reader.has("tolerance")) manifest.tolerance = toleranceIn(reader.object("tolerance"), manifest.tolerance);
     if (reader.has("tolerance_of_another_renderer"))
-        manifest.otherRenderer = toleranceIn(reader.object("tolerance_of_another_renderer"));
+        manifest.otherRenderer = toleranceIn(reader.object("tolerance_of_another_renderer"), manifest.otherRenderer);
     if (reader.has("scenarios"))
         reader.object("scenarios").each([&](const std::string& name, const Reader& scenario) {
             if (!isPlainName(name)) reader.below("scenarios", fmt::format("has the name '{}'", name));

@@ -76,9 +76,22 @@ void turnByOnePixel(view::FrameView& view, int height) {
 }
 
 // Too weak for any pixel to count alone in most pictures.
-void dim(view::FrameView& view, int) {
-    for (glm::vec3* light : {&view.light.colour, &view.light.sky, &view.light.ground}) *light *= 0.98F;
-    for (view::Lamp& lamp : view.lamps) lamp.colour *= 0.98F;
+constexpr float dimmed = 0.98F;
+void dimSun(view::FrameView& view, int) {
+    view.light.colour *= dimmed;
+}
+void dimSurroundings(view::FrameView& view, int) {
+    for (glm::vec3* light : {&view.light.sky, &view.light.ground}) *light *= dimmed;
+    if (view.environment) view.environment->strength *= dimmed;
+}
+template <std::size_t number>
+void dimLamp(view::FrameView& view, int) {
+    if (number < view.lamps.size()) view.lamps[number].colour *= dimmed;
+}
+static_assert(view::mostLamps == 2);
+
+void widenPenumbra(view::FrameView& view, int) {
+    view.light.softness *= 1.5F;
 }
 
 }  // namespace
@@ -89,7 +102,11 @@ std::vector<Mutant> mutants() {
         {.name = "damping − 20 %", .ofScene = withLessDamping},
         {.name = "one spring missing", .ofScene = withoutOneSpring},
         {.name = "camera one pixel off", .ofView = turnByOnePixel},
-        {.name = "light − 2 %", .ofView = dim},
+        {.name = "sun − 2 %", .ofView = dimSun},
+        {.name = "surroundings − 2 %", .ofView = dimSurroundings},
+        {.name = "first lamp − 2 %", .ofView = dimLamp<0>},
+        {.name = "second lamp − 2 %", .ofView = dimLamp<1>},
+        {.name = "penumbra + 50 %", .ofView = widenPenumbra},
         {.name = "shadow off", .withoutShadows = true},
     };
 }

@@ -28,8 +28,8 @@ struct Mutant {
     bool isOfState() const { return static_cast<bool>(ofScene); }
 };
 
-// Twice the time step, a fifth less damping, one spring missing; the camera one pixel off, a fiftieth less light, no
-// shadows.
+// Twice the time step, a fifth less damping, one spring missing; the camera one pixel off, a fiftieth less of each
+// light alone, a penumbra half as wide again, no shadows.
 std::vector<Mutant> mutants();
 
 }  // namespace taut::regression

@@ -46,8 +46,8 @@ void visitMembers(const Visit& visit, Scenario& s) {
 template <class Visit, class Row>
 requires std::is_same_v<std::remove_const_t<Row>, CalibrationRow>
 void visitMembers(const Visit& visit, Row& r) {
-    visit(r.scenario, r.picture, r.what, r.isMutant, r.hasPicture, r.hasState, r.share, r.tileShare, r.largest,
-          r.pictureDiffers, r.stateDiffers, r.meantFor, r.refusal);
+    visit(r.scenario, r.picture, r.what, r.isMutant, r.hasPicture, r.hasState, r.share, r.tileShare, r.offset,
+          r.largest, r.pictureDiffers, r.stateDiffers, r.meantFor, r.refusal);
 }
 
 template <class Visit, class Report>

@@ -171,7 +171,8 @@ std::string calibrationPart(const std::vector<CalibrationRow>& rows) {
         "class=\"title\">"
         "what the thresholds let through and what they find</span></h2><span></span></summary><div class=\"inside\">\n"
         "<table class=\"cal\"><tr><th>scenario</th><th>picture</th><th>against</th><th class=\"number\">pixels</th>"
-        "<th class=\"number\">worst tile</th><th class=\"number\">largest</th><th>picture</th><th>state</th>"
+        "<th class=\"number\">worst tile</th><th class=\"number\">mean</th><th "
+        "class=\"number\">largest</th><th>picture</th><th>state</th>"
         "<th>meant for</th></tr>\n";
     const auto cell = [](bool has, bool differs, bool isMutant) {
         if (!has) return std::string("<td class=\"quiet\">–</td>");
@@ -183,17 +184,16 @@ std::string calibrationPart(const std::vector<CalibrationRow>& rows) {
                             htmlText(row.picture), htmlText(row.what));
         if (row.hasPicture)
             text += fmt::format(
-                "<td class=\"number\">{:.4f} %</td><td class=\"number\">{:.1f} %</td><td "
-                "class=\"number\">{}</td>",
-                100.0 * row.share, 100.0 * row.tileShare, row.largest);
+                "<td class=\"number\">{:.4f} %</td><td class=\"number\">{:.1f} %</td><td class=\"number\">{:.4f}</td>"
+                "<td class=\"number\">{}</td>",
+                100.0 * row.share, 100.0 * row.tileShare, row.offset, row.largest);
         else
-            text +=
-                "<td class=\"number quiet\">–</td><td class=\"number quiet\">–</td><td class=\"number quiet\">–</td>";
+            for (int column = 0; column < 4; ++column) text += "<td class=\"number quiet\">–</td>";
         text +=
             cell(row.hasPicture, row.pictureDiffers, row.isMutant) + cell(row.hasState, row.stateDiffers, row.isMutant);
         text += fmt::format("<td class=\"quiet\">{}</td></tr>\n", row.isMutant ? htmlText(row.meantFor) : "noise");
         if (!row.refusal.empty())
-            text += fmt::format("<tr><td></td><td colspan=\"8\">{}</td></tr>\n", reason(Verdict::failed, row.refusal));
+            text += fmt::format("<tr><td></td><td colspan=\"9\">{}</td></tr>\n", reason(Verdict::failed, row.refusal));
     }
     return text + "</table>\n</div></details>\n";
 }

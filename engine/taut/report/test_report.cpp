@@ -105,13 +105,15 @@ std::string testSummary(const TestReport& report) {
 
 std::string calibrationTable(const TestReport& report) {
     if (report.calibration.empty()) return "";
-    TextTable table{
-        {"scenario", "picture", "against", "pixels", "worst tile", "largest", "picture", "state", "meant for", ""}, {}};
+    TextTable table{{"scenario", "picture", "against", "pixels", "worst tile", "mean", "largest", "picture", "state",
+                     "meant for", ""},
+                    {}};
     for (const CalibrationRow& row : report.calibration) {
         const auto word = [&](bool has, bool differs) { return !has ? "-" : differs ? "differs" : "same"; };
         table.rows.push_back({row.scenario, row.picture, row.what,
                               row.hasPicture ? fmt::format("{:.4f} %", 100.0 * row.share) : "-",
                               row.hasPicture ? fmt::format("{:.1f} %", 100.0 * row.tileShare) : "-",
+                              row.hasPicture ? fmt::format("{:.4f}", row.offset) : "-",
                               row.hasPicture ? fmt::format("{}", row.largest) : "-",
                               word(row.hasPicture, row.pictureDiffers), word(row.hasState, row.stateDiffers),
                               row.isMutant ? row.meantFor : "noise", row.refusal.empty() ? "" : "REFUSED"});

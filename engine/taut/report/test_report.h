@@ -80,6 +80,7 @@ struct CalibrationRow {
     bool hasPicture = true, hasState = true;            // false: this row does not concern it
     double share = 0;                                   // of pixels that differ [-]
     double tileShare = 0;                               // of those of the worst tile [-]
+    double offset = 0;                                  // of the mean of a channel [1/255]
     int largest = 0;                                    // [1/255]
     bool pictureDiffers = false, stateDiffers = false;  // as the tests see it
     std::string meantFor;                               // "picture", "state"

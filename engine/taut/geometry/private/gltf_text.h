@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include <glm/glm.hpp>
+#include <glm/gtc/type_precision.hpp>
 
 #include "taut/geometry/private/scratch_file.h"
 
@@ -43,9 +44,11 @@ class GltfData {
     std::size_t addVectors(std::span<const glm::vec3> values, bool hasBounds, std::size_t view);
     std::size_t addVectors(std::span<const glm::vec3> values);  // of animations
 
-    // A view of attributes that follow: openView(), accessors, closeView().
+    std::size_t addVectors(std::span<const glm::i16vec3> values, std::size_t view);
+
+    // A view of attributes of one kind that follow: openView(), accessors, closeView(bytes of a vector).
     std::size_t openView();
-    void closeView();
+    void closeView(std::size_t stride);
 
     // A file as it is, such as a picture; returns the view.
     std::size_t addBytes(std::span<const std::byte> content);
@@ -55,6 +58,7 @@ class GltfData {
 
   private:
     std::size_t addView(std::span<const std::byte> content, std::string_view more);
+    void addPadding();
     std::size_t addAccessor(std::size_t view, std::uint64_t offset, int component, std::size_t count,
                             std::string_view type, std::string_view bounds);
     std::uint64_t viewStart_ = 0;

@@ -8,15 +8,17 @@
 
 namespace taut::image {
 
-// Two rules, both of which must hold; both count pixels. The first lets a few flip where rounding decides which surface
+// Three rules, all of which must hold. Two count pixels. The first lets a few flip where rounding decides which surface
 // is seen: at edges, where two surfaces touch, in a shadow's rim; how far such a pixel is off says nothing, for it
 // shows another surface. The second finds a weak change of a whole area, which the first would let pass. A difference
 // of 1 counts in neither: a processor whose approximate reciprocals round otherwise shifts whole bands of a gradient by
-// it.
+// it. The third finds what shifts nearly every pixel by less than 1, such as 1 % less sun: rounding up and down cancels
+// in the mean of a channel, a change of light does not.
 //
 // The shares are twice the largest noise between processors that `taut test --calibrate` measured on the goldens of
 // this repository, rounded up: 0.050 % of a picture and 10.9 % of a tile, between SSE and AVX. Twice, because what
-// flips is counted in tens of pixels and another picture may have somewhat more of it. The mistakes that calibration
+// flips is counted in tens of pixels and another picture may have somewhat more of it. The mean of a channel is off by
+// 0.0102 of 255 at most between them, and by at least 0.038 with 1 % less sun. The mistakes that calibration
 // makes on purpose leave room for that: the weakest of those that the first rule is for changes 1.8 % of a picture, the
 // weakest for the second 70 % of a tile.
 struct Tolerance {
@@ -24,6 +26,7 @@ struct Tolerance {
     double share = 1.1e-3;    // of all pixels may be different
     int tileChannel = 1;      // [1/255] the same for the second rule
     double tileShare = 0.22;  // of the pixels of any one tile may be different
+    double offset = 0.025;    // [1/255] by which the mean of a channel may be off
     bool operator==(const Tolerance&) const = default;
 };
 
@@ -31,17 +34,19 @@ struct Tolerance {
 // differ. Twice what the goldens of this repository differ between Mesa's llvmpipe and its softpipe, rounded up: 0.97 %
 // of a picture and 26.6 % of a tile are off by more than 12. (Measured with a surface.frag that does not ask for the
 // back of cloth, where softpipe 22.3 answers wrongly. No graphics card has been measured.) It still finds a camera that
-// is off by a pixel and a shadow that is missing, but not a light that is dimmer by 2 %.
-inline constexpr Tolerance betweenRenderers{12, 0.02, 12, 0.54};
+// is off by a pixel and a shadow that is missing, but not a light that is dimmer by 2 %: each pixel rounded otherwise
+// may shift a mean by 1.
+inline constexpr Tolerance betweenRenderers{12, 0.02, 12, 0.54, 1.0};
 
 inline constexpr int tileSize = 16;  // [px]; at the right and lower edge a tile has what is left
 
 struct Comparison {
     bool sameSize = true;
-    bool within = true;                  // both rules hold
+    bool within = true;                  // all rules hold
     double share = 0.0;                  // of pixels that are different
     double worstTileShare = 0.0;         // of the pixels of one tile that are different
     int worstTileX = 0, worstTileY = 0;  // [px] its top left corner
+    double offset = 0.0;                 // [1/255] of the mean of that channel that is most off, with its sign
     int largest = 0;                     // [1/255] largest difference of a channel
     double mean = 0.0;                   // [1/255] over all pixels and channels
 };

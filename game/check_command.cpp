@@ -2,29 +2,50 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "game/flags.h"
 #include "game/messages.h"
 #include "game/outputs.h"
 #include "game/scene_file.h"
 #include "taut/advice/figures.h"
 #include "taut/advice/rehearsal.h"
 #include "taut/core/error.h"
+#include "taut/core/private/parallel.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario.h"
+#include "taut/scene/load.h"
 
 namespace taut::game {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct CheckFlags {
     std::vector<std::string> scenes;
     std::vector<std::string> overrides;
-    bool isConfined = false;
+    bool isConfined = false, quick = false, strict = false, json = false;
+    int threads = 0;
+};
+
+struct Verdict {
+    std::string scene;                  // its file
+    std::optional<core::Error> error;   // all that is wrong
+    std::vector<std::string> warnings;  // of the loader and the rehearsal
+    std::vector<std::string> notes;     // of its figures
+    std::vector<std::string> advice;
+    std::string large;  // what so many pictures take
+    ExitCode code = ExitCode::ok;
 };
 
 // Copies of a body would say the same again and again.
@@ -50,30 +71,98 @@ std::vector<std::string> scenesOf(const std::vector<std::string>& arguments) {
     return scenes;
 }
 
-// Reads, builds and rehearses each scene; goes on after one that is wrong, and returns the worst code.
+// Reads a scene, and builds and rehearses it.
+Verdict judge(const std::string& argument, const CheckFlags& flags) {
+    Verdict verdict;
+    verdict.scene = argument;
+    try {
+        const scene::Loaded loaded =
+            scene::loadScene(sceneFile(argument), loadOptions(flags.overrides, flags.isConfined));
+        const world::SceneSpec& spec = loaded.spec;
+        verdict.scene = spec.file;
+        verdict.warnings = loaded.warnings;
+        verdict.large = largeRunText(pipeline::frameCount(spec.run), spec.picture.size.x, spec.picture.size.y);
+        verdict.notes = world::figureNotes(spec);
+        if (!flags.quick) {
+            if (!flags.json) notePreparation(spec);
+            world::Rehearsal rehearsal = world::rehearse(spec);
+            std::ranges::move(rehearsal.warnings, std::back_inserter(verdict.warnings));
+            verdict.advice = std::move(rehearsal.advice);
+            if (!rehearsal.faults.empty())
+                throw core::Error(core::ErrorKind::badContent, fmt::format("{}", fmt::join(rehearsal.faults, "\n")));
+        }
+        if (flags.strict && !verdict.warnings.empty()) verdict.code = ExitCode::badContent;
+    } catch (const core::Error& error) {
+        verdict.error = error;
+        verdict.code = exitCodeOf(error.kind());
+    }
+    return verdict;
+}
+
+void print(const Verdict& verdict, bool isAlone) {
+    printWarnings(verdict.warnings);
+    for (const std::string& note : verdict.notes) printNote("taut: note: {}\n", note);
+    printAdvice(verdict.advice);
+    if (verdict.error) printError(*verdict.error);
+    if (verdict.code == ExitCode::ok) {
+        printResult("{}: ok\n", verdict.scene);
+        if (!verdict.large.empty()) printResult("{}: {}\n", verdict.scene, verdict.large);
+    } else if (!isAlone || !verdict.error) {
+        printResult("{}: wrong\n", verdict.scene);
+    }
+}
+
+// "FILE:LINE:COLUMN: error: TEXT" with the line of the file, and a caret and a remedy below it: an entry each. What has
+// no place is a message alone.
+Json entriesOf(const std::string& text) {
+    static const std::regex place("(.*?):(\\d+):(\\d+): (?:error|warning): (.*)");
+    Json entries = Json::array();
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch found;
+        if (std::regex_match(line, found, place))
+            entries.push_back({{"file", found[1].str()},
+                               {"line", std::stoi(found[2])},
+                               {"column", std::stoi(found[3])},
+                               {"message", found[4].str()}});
+        else if (!line.starts_with("  ") || entries.empty())
+            entries.push_back({{"message", line}});
+        else if (const std::size_t caret = line.find("^ "); line.find_first_not_of(' ') == caret)
+            entries.back()["remedy"] = line.substr(caret + 2);
+    }
+    return entries;
+}
+
+void printJson(const std::vector<Verdict>& verdicts) {
+    Json all = Json::array();
+    for (const Verdict& verdict : verdicts) {
+        Json warnings = Json::array(), notes = verdict.notes;
+        for (const std::string& warning : verdict.warnings)
+            for (Json& entry : entriesOf(warning)) warnings.push_back(std::move(entry));
+        for (const std::string& advice : verdict.advice) notes.push_back(advice);
+        all.push_back({{"scene", verdict.scene},
+                       {"ok", verdict.code == ExitCode::ok},
+                       {"errors", verdict.error ? entriesOf(verdict.error->what()) : Json::array()},
+                       {"warnings", std::move(warnings)},
+                       {"notes", std::move(notes)}});
+    }
+    printResult("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+// Goes on after a scene that is wrong, and returns the worst code.
 int check(const CheckFlags& flags) {
     ExitCode code = ExitCode::ok;
     const std::vector<std::string> scenes = scenesOf(flags.scenes);
+    std::vector<Verdict> verdicts;
     for (const std::string& argument : scenes) {
-        try {
-            const world::SceneSpec spec = readScene(argument, flags.overrides, flags.isConfined);
-            notePreparation(spec);
-            const world::Rehearsal rehearsal = world::rehearse(spec);
-            printWarnings(rehearsal.warnings);
-            for (const std::string& note : world::figureNotes(spec)) printNote("taut: note: {}\n", note);
-            printAdvice(rehearsal.advice);
-            if (!rehearsal.faults.empty())
-                throw core::Error(core::ErrorKind::badContent, fmt::format("{}", fmt::join(rehearsal.faults, "\n")));
-            printResult("{}: ok\n", spec.file);
-            const std::string large =
-                largeRunText(pipeline::frameCount(spec.run), spec.picture.size.x, spec.picture.size.y);
-            if (!large.empty()) printResult("{}: {}\n", spec.file, large);
-        } catch (const core::Error& error) {
-            printError(error);
-            if (scenes.size() > 1) printResult("{}: wrong\n", argument);
-            code = std::max(code, exitCodeOf(error.kind()));
-        }
+        Verdict verdict = judge(argument, flags);
+        code = std::max(code, verdict.code);
+        if (flags.json)
+            verdicts.push_back(std::move(verdict));
+        else
+            print(verdict, scenes.size() == 1);
     }
+    if (flags.json) printJson(verdicts);
     return static_cast<int>(code);
 }
 
@@ -82,13 +171,21 @@ Action declareCheck(Options& options) {
     options.value("SCENE", flags->scenes, "Scene files, folders of them, or names of shipped scenes").required();
     addOverrideFlag(options, flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]");
     addConfinedFlag(options, flags->isConfined);
+    options.flag("--quick", flags->quick, "Look at the files alone: build nothing, look ahead at nothing");
+    options.flag("--strict", flags->strict, "Warnings are errors");
+    options.flag("--json", flags->json, "Print it as JSON, with file, line and column, for editors and CI");
+    addThreadsFlag(options, flags->threads);
     options.footer(
-        "Of a folder every file NAME.toml in it, a line each. The exit code is that of the worst.\n"
+        "Of a folder every file NAME.toml in it, a line each. The exit code is that of the worst. Looks ahead for two\n"
+        "seconds of processor time at most.\n"
         "Examples:\n"
         "  taut check my.toml\n"
-        "  taut check my --confined\n"
+        "  taut check my --confined --strict\n"
         "  taut check hammock --set 'rope.*.radius=0.01' --set defaults.rope.segments=20");
-    return [flags] { return check(*flags); };
+    return [flags] {
+        const core::ThreadLimit limit(flags->threads);
+        return check(*flags);
+    };
 }
 
 }  // namespace

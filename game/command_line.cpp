@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "game/suggestion.h"
+#include "game/usage.h"
 
 namespace taut::game {
 namespace {
@@ -166,13 +167,18 @@ bool Option::isGiven() const {
     return option_->count() > 0;
 }
 
+Option Options::add(CLI::Option* option) const {
+    if (!group_.empty()) option->group(group_);
+    return Option(option);
+}
+
 Option Options::flag(const std::string& names, bool& target, const std::string& help) {
-    return Option(app_.add_flag(names, target, help));
+    return add(app_.add_flag(names, target, help));
 }
 
 template <class Target>
 Option Options::value(const std::string& names, Target& target, const std::string& help) {
-    return Option(app_.add_option(names, target, help));
+    return add(app_.add_option(names, target, help));
 }
 template Option Options::value(const std::string&, std::string&, const std::string&);
 template Option Options::value(const std::string&, std::vector<std::string>&, const std::string&);
@@ -203,6 +209,15 @@ std::function<CommandTree()> Options::tree() const {
     };
 }
 
+std::function<std::string(const std::string&)> Options::help() const {
+    return [&root = *app_.get_parent()](const std::string& name) {
+        if (name.empty()) return root.get_formatter()->make_help(&root, root.get_name(), CLI::AppFormatMode::Normal);
+        for (CLI::App* command : root.get_subcommands([&](const CLI::App* own) { return own->get_name() == name; }))
+            return command->help(root.get_name());
+        failUsage("unknown command '{}'{}", name, didYouMean(name, commandNames(root)));
+    };
+}
+
 struct CommandLine::Impl {
     explicit Impl(const About& about) : app(about.description, about.name) {}
     std::vector<Action> actions;  // hold the targets of the options
@@ -212,7 +227,7 @@ struct CommandLine::Impl {
 
 CommandLine::CommandLine(const About& about, std::span<const Command> commands) : impl_(std::make_unique<Impl>(about)) {
     CLI::App& app = impl_->app;
-    app.set_version_flag("--version", about.version);
+    app.set_version_flag("-V,--version", about.version, "Print the version");
     app.set_help_flag("-h,--help", "Print this help");
     app.require_subcommand(0, 1);
     app.footer(about.footer);

@@ -66,14 +66,23 @@ class Options {
     // A flag that there was: it stands in no help, and giving it is an error that says what to do instead.
     void gone(const std::string& name, const std::string& instead);
 
+    // The heading under which the help lists the flags that follow.
+    void group(const std::string& name) { group_ = name; }
+
     // The end of the help.
     void footer(const std::string& text);
 
     // All that the program takes, for this and the other commands. To be called by an action.
     std::function<CommandTree()> tree() const;
+    // The help of a command, or of the program if empty; throws core::Error(usage) if there is none of that name.
+    // Likewise.
+    std::function<std::string(const std::string& command)> help() const;
 
   private:
+    Option add(CLI::Option* option) const;
+
     CLI::App& app_;
+    std::string group_;
 };
 
 using Action = std::function<int()>;  // returns the exit code

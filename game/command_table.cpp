@@ -4,6 +4,7 @@
 // the tables that the command chooses from.
 #define TAUT_COMMANDS(COMMAND, CHOOSING) \
     CHOOSING(renderCommand)              \
+    COMMAND(listCommand)                 \
     COMMAND(joinCommand)                 \
     COMMAND(playCommand)                 \
     CHOOSING(exportCommand)              \
@@ -22,6 +23,7 @@
     COMMAND(sheetCommand)                \
     COMMAND(schemaCommand)               \
     COMMAND(doctorCommand)               \
+    COMMAND(helpCommand)                 \
     COMMAND(manualCommand)               \
     COMMAND(completionCommand)
 

@@ -20,12 +20,9 @@ namespace {
 
 // The first frame of the run without a picture, or a file beside it, on disk; one past the last when all are there.
 std::int64_t firstMissing(const PicturesThere& pictures, const pipeline::RunOptions& options) {
-    if (pictures.output.empty()) return options.lastFrame;
-    const image::FramePattern pattern(pictures.output);
-    std::vector<image::FramePattern> all{pattern};
-    for (const std::string& kind : pictures.besides) all.push_back(pattern.beside(kind));
+    if (pictures.files.empty()) return options.lastFrame;
     std::int64_t first = options.lastFrame + 1;
-    for (const image::FramePattern& each : all) {
+    for (const image::FramePattern& each : pictures.files) {
         std::int64_t frame = options.firstFrame;
         for (std::int64_t there : each.framesThere())
             if (there == frame) ++frame;
@@ -121,8 +118,8 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
             refuseOtherBits(each, flags);
         printNote("note: {}\n", each.why);
     }
-    const bool goesOnWithPictures = flags.resume && !pictures.areOurs && !pictures.output.empty() &&
-                                    !image::FramePattern(pictures.output).framesThere().empty();
+    const bool goesOnWithPictures =
+        flags.resume && !pictures.areOurs && !pictures.files.empty() && !pictures.files.front().framesThere().empty();
     if (!checkpoint) {
         if (goesOnWithPictures && !flags.mayOverwrite)
             throw core::Error(core::ErrorKind::inputOutput,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "game/command_line.h"
+#include "taut/image/frame_sequence.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/load.h"
 #include "taut/scene/private/used_files.h"
@@ -45,9 +46,8 @@ std::uint64_t keyOfRun(const RunKeys& keys, std::int64_t lastOfAll);
 
 // Pictures that may be on disk already.
 struct PicturesThere {
-    std::string output;                  // empty: none are drawn
-    std::vector<std::string> besides{};  // kinds of files beside the pictures
-    bool areOurs = false;                // a record says that the frames of this run are its own
+    std::vector<image::FramePattern> files;  // of frames, and kinds beside them; none: none are drawn
+    bool areOurs = false;                    // a record says that the frames of this run are its own
 };
 
 // Sets the world to the state from which the run goes on, says so in the options, and returns the records of earlier
@@ -56,7 +56,6 @@ struct PicturesThere {
 // what it does and what it had to skip. Throws core::Error: badContent when the pictures on disk were made with other
 // settings; inputOutput when no state leads to them and they may not be overwritten, or when all states were recorded
 // by other bits.
-// recorded by other bits.
 pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
                          const PicturesThere& pictures, pipeline::RunOptions& options, world::World& world);
 

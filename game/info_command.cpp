@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,6 +10,7 @@
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "game/flags.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "game/usage.h"
@@ -18,6 +18,7 @@
 #include "taut/advice/private/start_doubts.h"
 #include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
+#include "taut/core/private/parallel.h"
 #include "taut/mechanics/sheet_moduli.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
@@ -34,6 +35,7 @@ struct InfoFlags {
     std::vector<std::string> overrides;
     bool json = false;
     bool methods = false;
+    int threads = 0;
 };
 
 // Of processor time, all threads together [s].
@@ -45,10 +47,6 @@ struct TickCost {
     double ofAll(std::int64_t all) const { return spent + mean * static_cast<double>(all - ticks); }
 };
 
-double processorSeconds() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
 // Plays the scene for some seconds and looks at the clock. What is to come goes as the later half of that time, for
 // bodies meet that were apart.
 TickCost measuredCost(world::World& world, std::int64_t ticks) {
@@ -57,9 +55,9 @@ TickCost measuredCost(world::World& world, std::int64_t ticks) {
     TickCost cost;
     try {
         while (cost.ticks < ticks && cost.spent < enough) {
-            const double before = processorSeconds();
+            const double before = core::processorSeconds();
             if (world.advance()) break;
-            costs.push_back(processorSeconds() - before);
+            costs.push_back(core::processorSeconds() - before);
             cost.asleep += world.asleepShare();
             cost.spent += costs.back();
             ++cost.ticks;
@@ -406,7 +404,11 @@ Action declareInfo(Options& options) {
     addOverrideFlag(options, flags->overrides);
     options.flag("--methods", flags->methods, "List the methods of integration instead");
     options.flag("--json", flags->json, "Print it as JSON");
-    return [flags] { return info(*flags); };
+    addThreadsFlag(options, flags->threads);
+    return [flags] {
+        const core::ThreadLimit limit(flags->threads);
+        return info(*flags);
+    };
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ int joinFrames(const JoinFlags& flags) {
     }
     if (join.hasAlpha() && !image::mayHaveAlpha(flags.output))
         failUsage("{}: these frames are transparent, which .webm and .mov can be", flags.output);
-    permitOverwriting(flags.output, join.frames.first, join.frames.last, flags.overwrite.answer());
-    const std::unique_ptr<image::FrameSink> sink = makeSink(flags.output, join.fps(), join.hasAlpha());
+    permitOverwritingFile(flags.output, flags.overwrite.answer());
+    const std::unique_ptr<image::FrameSink> sink = makeVideo(flags.output, join.fps(), join.hasAlpha());
     const Interruption interruption;
     if (encodeFrames(join, *sink, flags.quiet, interruption.flag())) {
         writeJoinedRecords(join, *sink);

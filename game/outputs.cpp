@@ -10,24 +10,10 @@
 #include "game/command_line.h"
 #include "game/messages.h"
 #include "taut/core/error.h"
-#include "taut/image/frame_sequence.h"
 #include "taut/image/private/video_writer.h"
 
 namespace taut::game {
 namespace {
-
-// The first file that would be overwritten; empty when there is none.
-std::filesystem::path firstExisting(const std::filesystem::path& output, std::int64_t first, std::int64_t last,
-                                    const std::vector<std::string>& besides) {
-    std::error_code ignored;  // a folder that may not be looked into is reported when it is written to
-    if (image::isVideoPath(output)) return std::filesystem::exists(output, ignored) ? output : std::filesystem::path();
-    std::vector<image::FramePattern> patterns{image::FramePattern(output)};
-    for (const std::string& kind : besides) patterns.push_back(patterns.front().beside(kind));
-    for (const image::FramePattern& pattern : patterns)
-        for (const std::int64_t frame : pattern.framesThere())  // looked up once, however many the run has
-            if (frame >= first && frame <= last) return pattern.pathOf(frame);
-    return {};
-}
 
 bool answersYes() {
     std::string answer;
@@ -42,11 +28,12 @@ void addOverwriteFlags(Options& options, OverwriteFlags& flags) {
     options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
 }
 
-void permitOverwriting(const std::filesystem::path& output, std::int64_t first, std::int64_t last, Overwrite overwrite,
-                       const std::vector<std::string>& besides) {
+void permitOverwriting(const std::vector<image::FramePattern>& patterns, std::int64_t first, std::int64_t last,
+                       Overwrite overwrite) {
     if (overwrite == Overwrite::yes) return;
-    const std::filesystem::path existing = firstExisting(output, first, last, besides);
-    if (!existing.empty()) permitOverwritingFile(existing, overwrite);
+    for (const image::FramePattern& pattern : patterns)
+        for (const std::int64_t frame : pattern.framesThere())  // looked up once, however many the run has
+            if (frame >= first && frame <= last) return permitOverwritingFile(pattern.pathOf(frame), overwrite);
 }
 
 void permitOverwritingFile(const std::filesystem::path& existing, Overwrite overwrite) {
@@ -75,14 +62,8 @@ std::string largeRunText(std::int64_t pictures, int width, int height) {
         picturesOfSecond);
 }
 
-std::unique_ptr<image::FrameSink> makeSink(const std::filesystem::path& output, double fps, bool alpha) {
-    if (image::isVideoPath(output))
-        return std::make_unique<image::VideoWriter>(output, image::VideoOptions{.fps = fps, .alpha = alpha});
-    return std::make_unique<image::FrameSequence>(image::FramePattern(output));
-}
-
-void checkOutputName(const std::filesystem::path& output) {
-    if (!image::isVideoPath(output)) image::FramePattern{output};
+std::unique_ptr<image::FrameSink> makeVideo(const std::filesystem::path& output, double fps, bool alpha) {
+    return std::make_unique<image::VideoWriter>(output, image::VideoOptions{.fps = fps, .alpha = alpha});
 }
 
 }  // namespace taut::game

@@ -116,7 +116,7 @@ std::vector<pipeline::RunLock> locksOf(const RenderFlags& flags, const RunPart& 
 // Where frames lie that are drawn; none where there are none.
 std::optional<PartPlace> placeOf(const RenderFlags& flags, std::uint64_t key) {
     if (flags.noPictures || flags.output.empty() || image::isVideoPath(flags.output)) return std::nullopt;
-    return PartPlace{image::FramePattern(flags.output), filesBeside(flags.layers), key, flags.continuation.resume,
+    return PartPlace{framePattern(flags), filesBeside(flags.layers), key, flags.continuation.resume,
                      flags.overwrite.yes};
 }
 
@@ -278,7 +278,7 @@ int render(const RenderFlags& flags) {
         return static_cast<int>(ExitCode::ok);
     }
     if (part.isShared) writeWith(recordPath(flags, part, "run", ".json"), writeJson({}));
-    const PicturesThere pictures{flags.noPictures ? "" : flags.output, filesBeside(flags.layers),
+    const PicturesThere pictures{place ? place->files() : std::vector<image::FramePattern>(),
                                  state == PartState::begun};
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.overwrite.yes;
@@ -310,7 +310,10 @@ Action declareRender(Options& options, const render::LayerKinds& layers) {
     const auto flags = std::make_shared<RenderFlags>();
     flags->layers.layers = flagsOf(layers);
     addRenderFlags(options, *flags);
-    return [flags] { return render(*flags); };
+    return [flags] {
+        completeFlags(*flags);
+        return render(*flags);
+    };
 }
 
 }  // namespace

@@ -66,34 +66,38 @@ void checkStills(const RenderFlags& flags) {
         if (isGiven) failUsage("--at draws moments, not a run: leave {} out", name);
     if (flags.output.empty()) failUsage("say where the picture goes: -o still.png");
     if (image::isVideoPath(flags.output)) failUsage("--at draws pictures, not a video: -o still.png");
-    (void)stillPattern(flags);
+    (void)framePattern(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
 }
 
 }  // namespace
 
-image::FramePattern stillPattern(const RenderFlags& flags) {
+image::FramePattern framePattern(const RenderFlags& flags) {
     const std::filesystem::path output = flags.output;
-    const bool isOne = output.extension() == ".png" && output.filename().string().find('#') == std::string::npos;
-    if (isOne && flags.at.size() > 1)
+    const bool hasNumbers = output.extension() != ".png" || output.filename().string().find('#') != std::string::npos;
+    if (hasNumbers) return image::FramePattern(output);
+    if (flags.at.size() > 1)
         failUsage("--at: {} moments need numbers in their names: -o {}_#.png", flags.at.size(),
                   (output.parent_path() / output.stem()).string());
-    return isOne ? image::FramePattern::ofOne(output) : image::FramePattern(output);
+    if (!flags.at.empty()) return image::FramePattern::ofOne(output, 0);
+    const FrameRange range = flags.frames.empty() ? FrameRange() : frameRange(flags.frames);
+    return range.last == range.first ? image::FramePattern::ofOne(output, range.first) : image::FramePattern(output);
+}
+
+void completeFlags(RenderFlags& flags) {
+    if (flags.output.empty() && flags.at.empty() && !flags.noPictures)
+        flags.output = std::filesystem::path(flags.scene).stem().string() + ".mp4";
 }
 
 void checkFlags(const RenderFlags& flags) {
     if (!flags.at.empty()) return checkStills(flags);
-    if (!flags.output.empty()) checkOutputName(flags.output);
-    if (!flags.video.empty() && flags.output.empty())
-        failUsage("--video is written besides -o: give -o too, or only -o");
+    if (!flags.output.empty() && !image::isVideoPath(flags.output)) (void)framePattern(flags);
     if (!flags.video.empty() && !image::isVideoPath(flags.video))
         failUsage("--video: the name must end in .mp4, .mov, .mkv, .webm or .gif");
     std::error_code ignored;
     if (!flags.video.empty() && std::filesystem::weakly_canonical(flags.video, ignored) ==
                                     std::filesystem::weakly_canonical(flags.output, ignored))
         failUsage("-o and --video name the same file");
-    if (flags.output.empty() && !flags.noPictures)
-        failUsage("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
     if (flags.output.empty() && flags.writesMetrics()) failUsage("--metrics writes a file beside the output: add -o");
     if (flags.continuation.isWanted() && flags.output.empty() && flags.continuation.folder.empty())
         failUsage("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
@@ -108,14 +112,12 @@ void checkFlags(const RenderFlags& flags) {
 namespace {
 
 void addOutputFlags(Options& options, RenderFlags& flags) {
+    options.group("What is written");
     options.value("-o,--output", flags.output,
-                  "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif)");
+                  "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif); NAME.mp4 when not given");
     options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
-    options
-        .value("--keep-state", flags.state,
-               "Keep the state of the last frame, for scenes that go on from it: run.start = \"dressed.state\"")
-        .typeName("FILE");
     addOverwriteFlags(options, flags.overwrite);
+    options.flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
     options.flag("--metrics", flags.metrics,
                  "Write metrics.csv, or metrics_A-B.csv of a part: energy, momentum, strain, contacts of each frame");
     options.value("--metrics-of", flags.metricsOf, "Besides: what these expressions of checks give, to 17 digits")
@@ -127,7 +129,8 @@ void addOutputFlags(Options& options, RenderFlags& flags) {
     options.flag("--quiet", flags.quiet, "No progress; warnings and errors only");
 }
 
-void addPictureFlags(Options& options, RenderFlags& flags) {
+void addRangeFlags(Options& options, RenderFlags& flags) {
+    options.group("Range");
     options
         .value("--frames", flags.frames,
                "Draw these frames only: 0-119, 60, or 60-; from the last state before in --checkpoints")
@@ -148,6 +151,10 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
                  "threads draw several pictures at once, and processes share them out by --shard: for k in 0 1 2 3; do "
                  "taut render SCENE -o FOLDER --shard $k/4 & done; wait; taut join FOLDER -o x.mp4");
     addRunFlags(options, flags.fps, flags.seconds);
+}
+
+void addLookFlags(Options& options, RenderFlags& flags) {
+    options.group("Look");
     options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
     options
@@ -155,32 +162,47 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
                "Samples a pixel against jagged edges; 8 and 16 draw each picture two and four times")
         .oneOf({"1", "4", "8", "16"});
     addSmoothFlag(options, flags.smooth);
-    addRendererFlag(options, flags.gl);
     const Option debug = options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
     options.flag("--overlay", flags.overlay,
                  "Show time, step and limit, largest strain, contacts between bodies, and the energies as a graph");
-    options.flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
     addLayerFlags(options, flags.layers, debug);
 }
 
-}  // namespace
-
-void addRenderFlags(Options& options, RenderFlags& flags) {
-    options.value("SCENE", flags.scene, "A scene file, or the name of a shipped scene").required();
-    addOutputFlags(options, flags);
-    addPictureFlags(options, flags);
+void addGoingOnFlags(Options& options, RenderFlags& flags) {
+    options.group("Going on");
     addContinuationFlags(options, flags.continuation);
+    options
+        .value("--keep-state", flags.state,
+               "Keep the state of the last frame, for scenes that go on from it: run.start = \"dressed.state\"")
+        .typeName("FILE");
+}
+
+void addMachineFlags(Options& options, RenderFlags& flags) {
+    options.group("Machine");
+    addRendererFlag(options, flags.gl);
     addThreadsFlag(options, flags.threads);
     options
         .value("--draw-threads", flags.drawThreads,
                "Pictures drawn at the same time, the same whatever it is; as many as pay here when not given")
         .within(1, 64);
     addInstructionSetFlag(options, flags.isa);
+}
+
+}  // namespace
+
+void addRenderFlags(Options& options, RenderFlags& flags) {
+    options.value("SCENE", flags.scene, "A scene file, or the name of a shipped scene").required();
+    options.group("Scene");
     addOverrideFlag(options, flags.overrides);
     addConfinedFlag(options, flags.isConfined);
+    addOutputFlags(options, flags);
+    addRangeFlags(options, flags);
+    addLookFlags(options, flags);
+    addGoingOnFlags(options, flags);
+    addMachineFlags(options, flags);
     options.footer(
         "Examples:\n"
-        "  taut render flag -o flag.mp4\n"
+        "  taut render flag\n"
         "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
         "  taut render flag -o still.png --at 2.5\n"
         "  taut render drape -o drape.webm --alpha\n"

@@ -31,11 +31,15 @@ struct RenderFlags {
 
 void addRenderFlags(Options& options, RenderFlags& flags);
 
+// Gives the output a name if it has none.
+void completeFlags(RenderFlags& flags);
+
 // Throws core::Error(usage) for flags that do not go together.
 void checkFlags(const RenderFlags& flags);
 
-// The files that --at draws, by number. Throws core::Error(usage) if their names have no place for a number.
-image::FramePattern stillPattern(const RenderFlags& flags);
+// The files of the pictures, by the number of the frame, or of the moment of --at. Throws core::Error(usage) if their
+// names have no place for a number and there may be several.
+image::FramePattern framePattern(const RenderFlags& flags);
 
 // The flags --fps, --seconds, --size and --camera in the words of the scene format.
 std::vector<std::string> allOverrides(const RenderFlags& flags);

@@ -16,10 +16,11 @@
 namespace taut::game {
 namespace {
 
-// What accompanies an output of that name, as image::FrameSink::companion has it.
-std::filesystem::path companionOf(const std::filesystem::path& output, const std::string& name) {
+// What accompanies the output, as image::FrameSink::companion has it.
+std::filesystem::path companionOf(const RenderFlags& flags, const std::string& name) {
+    const std::filesystem::path output = flags.output;
     if (image::isVideoPath(output)) return output.parent_path() / fmt::format("{}.{}", output.stem().string(), name);
-    return image::FramePattern(output).folder() / name;
+    return framePattern(flags).folder() / name;
 }
 
 // The records belong to the run: asked for or not, they are not replaced.
@@ -38,26 +39,31 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const Ru
     std::vector<std::unique_ptr<image::FrameSink>> sinks;
     for (const std::string& output : {flags.output, flags.video}) {
         if (output.empty()) continue;
+        if (image::isVideoPath(output)) {
+            if (!flags.noPictures) permitOverwritingFile(output, overwrite);
+            sinks.push_back(makeVideo(output, fps, flags.layers.alpha));
+            continue;
+        }
+        const image::FramePattern frames = framePattern(flags);
         if (!flags.noPictures)
-            permitOverwriting(output, part.frames.first, part.frames.last, overwrite,
-                              image::isVideoPath(output) ? std::vector<std::string>() : filesBeside(flags.layers));
-        sinks.push_back(makeSink(output, fps, flags.layers.alpha));
+            permitOverwriting(frames.with(filesBeside(flags.layers)), part.frames.first, part.frames.last, overwrite);
+        sinks.push_back(std::make_unique<image::FrameSequence>(frames));
     }
     if (overwrite == Overwrite::no && !flags.output.empty()) expectNoRecord(flags, part);
     if (sinks.empty()) return nullptr;
     if (!filesBeside(flags.layers).empty())
-        sinks.push_back(std::make_unique<image::LayerSequence>(image::FramePattern(flags.output)));
+        sinks.push_back(std::make_unique<image::LayerSequence>(framePattern(flags)));
     return std::make_unique<image::SeveralSinks>(std::move(sinks));
 }
 
 std::filesystem::path recordPath(const RenderFlags& flags, const RunPart& part, const std::string& stem,
                                  const std::string& extension) {
-    return companionOf(flags.output, part.companion(stem, extension));
+    return companionOf(flags, part.companion(stem, extension));
 }
 
 std::filesystem::path checkpointFolder(const RenderFlags& flags) {
     if (!flags.continuation.folder.empty()) return flags.continuation.folder;
-    return flags.output.empty() ? std::filesystem::path() : companionOf(flags.output, "checkpoints");
+    return flags.output.empty() ? std::filesystem::path() : companionOf(flags, "checkpoints");
 }
 
 void writeWith(const std::filesystem::path& path, const std::function<void(const pipeline::Write&)>& writeAll) {

@@ -103,7 +103,7 @@ class Walk {
 int renderStills(const RenderFlags& flags) {
     const world::SceneSpec spec = readScene(flags.scene, allOverrides(flags), flags.isConfined);
     const std::vector<std::int64_t> ticks = ticksOf(flags.at, spec.run);
-    const image::FramePattern pattern = stillPattern(flags);
+    const image::FramePattern pattern = framePattern(flags);
     permitStills(flags, pattern);
     const Interruption interruption;
     if (!flags.quiet) notePreparation(spec);

@@ -1,10 +1,12 @@
 #include "game/scene_search.h"
 
 #include "game/exit_code.h"
+#include "game/flags.h"
 #include "game/interruption.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
+#include "taut/core/private/parallel.h"
 #include "taut/core/whole_file.h"
 
 namespace taut::game {
@@ -14,11 +16,13 @@ void addSearchFlags(Options& options, SearchFlags& flags, const std::string& say
     options.value("-o,--json", flags.json, "Everything that was found, as JSON").typeName("FILE");
     options.flag("--write", flags.write, "Write the values found into the scene file; the rest of it stays");
     addOverrideFlag(options, flags.overrides, "Override a field of the scene; repeatable");
+    addThreadsFlag(options, flags.threads);
     options.flag("--quiet", flags.quiet, "No progress");
 }
 
 int searchScene(const SearchFlags& flags,
                 const std::function<Found(const SearchedScene& scene, const std::atomic<bool>& stop)>& search) {
+    const core::ThreadLimit limit(flags.threads);
     const std::filesystem::path file = sceneFile(flags.scene);
     const SearchedScene scene{file, core::fileContent(file), readScene(flags.scene, flags.overrides)};
     if (flags.write) expectWritable(file, scene.spec, flags.overrides);

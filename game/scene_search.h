@@ -18,6 +18,7 @@ struct SearchFlags {
     std::string scene, json;
     std::vector<std::string> overrides;
     bool write = false, quiet = false;
+    int threads = 0;
 };
 // `says` is the help of the scene.
 void addSearchFlags(Options& options, SearchFlags& flags, const std::string& says);

@@ -1,4 +1,5 @@
 #include "game/outputs.h"
+#include "game/render_flags.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ class WithoutTerminal {
 TEST(Outputs, ExistingFrameInTheRangeIsNotOverwrittenUnasked) {
     const WithoutTerminal noTerminal;
     const TemporaryFolder folder;
-    const auto pattern = folder / "f_##.png";
+    const std::vector pattern{image::FramePattern(folder / "f_##.png")};
     test::writeText(folder / "f_05.png", "old");
     const std::string message =
         messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(pattern, 0, 9, Overwrite::ask); });
@@ -41,16 +42,16 @@ TEST(Outputs, ExistingFrameInTheRangeIsNotOverwrittenUnasked) {
     messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(pattern, 5, 5, Overwrite::no); });
     EXPECT_NO_THROW(permitOverwriting(pattern, 0, 9, Overwrite::yes));
     EXPECT_NO_THROW(permitOverwriting(pattern, 6, 9, Overwrite::no));
-    EXPECT_NO_THROW(permitOverwriting(folder / "new", 0, 9, Overwrite::no));
+    EXPECT_NO_THROW(permitOverwriting({image::FramePattern(folder / "new")}, 0, 9, Overwrite::no));
 }
 
 // The folder is listed once: a lookup for each of these would take days.
 TEST(Outputs, VeryManyPicturesAreSaidAndLookedForAtOnce) {
     const TemporaryFolder folder;
     test::writeText(folder / "frame_000007.png", "");
-    permitOverwriting(folder.path(), 8, std::int64_t{1} << 40U, Overwrite::no);
-    messageOf(ErrorKind::inputOutput,
-              [&] { permitOverwriting(folder.path(), 7, std::int64_t{1} << 40U, Overwrite::no); });
+    const std::vector frames{image::FramePattern(folder.path())};
+    permitOverwriting(frames, 8, std::int64_t{1} << 40U, Overwrite::no);
+    messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(frames, 7, std::int64_t{1} << 40U, Overwrite::no); });
     EXPECT_EQ(largeRunText(1000, 640, 360), "");
     EXPECT_EQ(largeRunText(360000, 1000, 1000),
               "360000 pictures of 1000 x 1000 pixels: about 180 GB of PNG files, and 1 hours at 100 pictures a second");
@@ -82,16 +83,39 @@ TEST(Outputs, ExistingVideoIsNotOverwrittenUnasked) {
     const WithoutTerminal noTerminal;
     const TemporaryFolder folder;
     test::writeText(folder / "a.mp4", "old");
-    messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(folder / "a.mp4", 0, 9, Overwrite::ask); });
-    EXPECT_NO_THROW(permitOverwriting(folder / "b.mp4", 0, 9, Overwrite::ask));
+    messageOf(ErrorKind::inputOutput, [&] { permitOverwritingFile(folder / "a.mp4", Overwrite::ask); });
+    EXPECT_NO_THROW(permitOverwritingFile(folder / "b.mp4", Overwrite::ask));
 }
 
-TEST(Outputs, NameDecidesBetweenVideoAndFrames) {
-    const TemporaryFolder folder;
-    EXPECT_NE(dynamic_cast<image::VideoWriter*>(makeSink(folder / "a.mp4", 60.0).get()), nullptr);
-    EXPECT_NE(dynamic_cast<image::FrameSequence*>(makeSink(folder / "a_#.png", 60.0).get()), nullptr);
-    messageOf(ErrorKind::usage, [&] { checkOutputName(folder / "a.png"); });
-    EXPECT_NO_THROW(checkOutputName(folder / "a.mkv"));
+TEST(Outputs, OnePictureNeedsNoPlaceForItsNumber) {
+    RenderFlags flags;
+    flags.output = "out/still.png";
+    messageOf(ErrorKind::usage, [&] { framePattern(flags); });
+    flags.frames = "120";
+    EXPECT_EQ(framePattern(flags).pathOf(120), "out/still.png");
+    flags.frames = "120-121";
+    messageOf(ErrorKind::usage, [&] { framePattern(flags); });
+    flags.frames.clear();
+    flags.at = {"2.5"};
+    EXPECT_EQ(framePattern(flags).pathOf(0), "out/still.png");
+    flags.at = {"1", "2.5"};
+    messageOf(ErrorKind::usage, [&] { framePattern(flags); });
+    flags.output = "out/still_#.png";
+    EXPECT_EQ(framePattern(flags).pathOf(1), "out/still_1.png");
+}
+
+TEST(Outputs, ARunWithoutANameIsAVideoOfTheScenesName) {
+    RenderFlags flags;
+    flags.scene = "scenes/my.toml";
+    completeFlags(flags);
+    EXPECT_EQ(flags.output, "my.mp4");
+    flags.output = "out/show";
+    completeFlags(flags);
+    EXPECT_EQ(flags.output, "out/show");
+    flags.output.clear();
+    flags.noPictures = true;
+    completeFlags(flags);
+    EXPECT_EQ(flags.output, "");
 }
 
 }  // namespace

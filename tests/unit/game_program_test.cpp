@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "game/folders.h"
 #include "image_support.h"
 #include "program_support.h"
 #include "taut/pipeline/self_test.h"
@@ -55,7 +56,31 @@ TEST(Program, AloneItShowsHowToBegin) {
 TEST(Program, HelpIsAResult) {
     EXPECT_EQ(run({"--help"}).code, 0);
     EXPECT_TRUE(has(run({"--help"}).out, "doctor"));
+    EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+    EXPECT_EQ(run({"help", "render"}).out, run({"render", "--help"}).out);
+    EXPECT_EQ(run({"help", "rendr"}).code, 2);
+    EXPECT_TRUE(has(run({"help", "rendr"}).err, "did you mean render?"));
+    EXPECT_EQ(run({"-V"}).out, run({"--version"}).out);
     EXPECT_TRUE(has(run({"render", "--help"}).out, "--frames"));
+}
+
+TEST(Program, ListsShippedScenesWithALineEach) {
+    const Outcome outcome = run({"list"});
+    EXPECT_EQ(outcome.code, 0);
+    std::istringstream lines(outcome.out);
+    std::size_t files = 0;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("  ") && line.size() > 30) ++files;  // a name and a sentence
+    EXPECT_EQ(files, shippedScenes().size() + shippedScenarios().size()) << outcome.out;
+}
+
+TEST(Program, TheManualIsFoundByTheWordsOfItsHeadings) {
+    EXPECT_EQ(run({"manual", "sleep"}).out, run({"manual", "contact"}).out);
+    const std::string several = run({"manual", "colliders"}).out;
+    EXPECT_TRUE(has(several, "taut manual contact ") && has(several, "taut manual scenes-and-bodies ")) << several;
+    const Outcome none = run({"manual", "quarks"});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_TRUE(has(none.err, "contact")) << none.err;
 }
 
 TEST(Program, UnknownWordsAreUsageErrorsWithASuggestion) {
@@ -70,7 +95,6 @@ TEST(Program, UnknownWordsAreUsageErrorsWithASuggestion) {
     EXPECT_EQ(run({"render", "flag", "-y", "-n", "-o", "x.mp4"}).code, 2);
     EXPECT_EQ(run({"render", "flag", "--threads", "0", "-o", "x.mp4"}).code, 2);
     EXPECT_TRUE(has(run({"plan", "flag", "--effort", "2e8"}).err, "1000000.000000 times 1e9: 0.2 means 2e8"));
-    EXPECT_TRUE(has(run({"render", "flag"}).err, "-o out/frame_######.png"));
     EXPECT_TRUE(has(run({"render", "flag", "-o", "a.png"}).err, "a_######.png"));
 }
 
@@ -233,6 +257,40 @@ TEST(Program, CheckOfAFolderHasALineForEveryFileAndTheWorstCode) {
     EXPECT_TRUE(has(outcome.out, "spring.toml: ok\n")) << outcome.out;
     EXPECT_FALSE(has(outcome.out + outcome.err, "notes.txt")) << outcome.err;
     EXPECT_EQ(run({"check", (folder / "bad.toml").string()}).out, "");
+}
+
+TEST(Program, CheckForEditorsAndCi) {
+    const TemporaryFolder folder;
+    const std::string spring = springScene(folder).string(), bad = (folder / "bad.toml").string();
+    test::writeText(bad, "schema = 1\n[run]\nfps = -3\nsecond = 4\n");
+    const Outcome outcome = run({"check", bad, spring, "--json"});
+    EXPECT_EQ(outcome.code, 3);
+    const auto all = nlohmann::json::parse(outcome.out);
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0]["ok"], false);
+    ASSERT_EQ(all[0]["errors"].size(), 2U) << outcome.out;
+    EXPECT_EQ(all[0]["errors"][1]["file"], bad);
+    EXPECT_EQ(all[0]["errors"][1]["line"], 4);
+    EXPECT_EQ(all[0]["errors"][1]["column"], 1);
+    EXPECT_EQ(all[0]["errors"][1]["message"], "[run] has no key \"second\"");
+    EXPECT_EQ(all[0]["errors"][1]["remedy"], "did you mean \"seconds\"?");
+    EXPECT_EQ(all[1]["scene"], spring);
+    EXPECT_EQ(all[1]["ok"], true);
+    EXPECT_TRUE(all[1]["warnings"].empty()) << outcome.out;
+    // A wind above any storm is a warning of the world, which --quick does not build.
+    const std::string windy = (folder / "windy.toml").string();
+    test::writeText(windy, "schema = 1\nscene = \"spring.toml\"\n[wind.storm]\nvelocity = [200, 0, 0]\n");
+    const std::vector<std::string> storm{"check", windy};
+    const auto with = [&](const std::string& flag) {
+        std::vector<std::string> words = storm;
+        words.push_back(flag);
+        return run(words);
+    };
+    EXPECT_EQ(run(storm).code, 0);
+    EXPECT_TRUE(has(run(storm).err, "faster than any storm"));
+    EXPECT_EQ(with("--strict").code, 3);
+    EXPECT_TRUE(has(with("--strict").out, "windy.toml: wrong"));
+    EXPECT_FALSE(has(with("--quick").err, "storm"));
 }
 
 TEST(Program, ANewSceneIsRightAndIsNotOverwritten) {

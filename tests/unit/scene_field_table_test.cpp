@@ -190,6 +190,19 @@ TEST(SceneSchema, ListsEveryFieldWithItsHelpAndDefault) {
     EXPECT_FALSE(schemaOf(root, "need.horizon_s")->contains("default"));
 }
 
+TEST(SceneManual, SaysTheKeysOfATableOnce) {
+    const std::string text = manual();
+    const auto count = [&](const std::string& line) {
+        int times = 0;
+        for (std::size_t at = text.find(line); at != std::string::npos; at = text.find(line, at + 1)) ++times;
+        return times;
+    };
+    EXPECT_EQ(count("\n    integrator "), 1);  // of the solver of bodies
+    EXPECT_GT(count("\n  solver "), 3);
+    EXPECT_EQ(count("\n    roughness "), 1);  // of finish
+    EXPECT_GE(count("Its keys are those in [cloth.NAME]."), count("\n  solver ") - 1 + count("\n  finish ") - 1);
+}
+
 TEST(SceneManual, ListsEverySectionAndField) {
     const std::string text = manual();
     for (const SceneSection& section : allSections())

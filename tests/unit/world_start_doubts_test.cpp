@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "support/timelines.h"
+#include "taut/advice/figures.h"
+#include "taut/bodies/joints/joints.h"
+#include "taut/bodies/solid.h"
 
 namespace taut::world {
 namespace {
@@ -104,6 +107,105 @@ TEST(StartDoubts, AreOfARopeOfHalfTheSpan) {
     EXPECT_EQ(doubtsOf(ropeScene(rope)), Doubts());
     rope.length = 2;  // slack
     EXPECT_EQ(doubtsOf(ropeScene(rope)), Doubts());
+}
+
+// A cube of half a metre that touches others.
+SolidSpec crate(const char* name, dvec3 place) {
+    SolidSpec solid;
+    solid.name = name;
+    solid.position = place;
+    solid.touch = Touch::others;
+    return solid;
+}
+
+TEST(StartDoubts, AreOfASolidInTheGround) {
+    SceneSpec scene;
+    scene.bodies.add(crate("a", {0, 0, 0}));
+    scene.colliders = {support::ground()};
+    EXPECT_EQ(doubtsOf(scene), (Doubts{"warning: solid.a starts 0.25 m deep in collider.ground, and is pushed out of "
+                                       "it: move the body or the collider"}));
+    scene.bodies.of<SolidSpec>()[0].position.y = 0.25;
+    EXPECT_EQ(doubtsOf(scene), Doubts());
+}
+
+TEST(StartDoubts, SayHowFarSolidsReachIntoEachOther) {
+    SceneSpec scene;
+    scene.bodies.add(crate("a", {0, 1, 0}));
+    scene.bodies.add(crate("b", {0.1, 1.05, 0}));
+    const Doubts doubts = doubtsOf(scene);  // 0.4 m sideways, 0.45 m upwards
+    ASSERT_EQ(doubts.size(), 1U);
+    EXPECT_NE(doubts[0].find("start them 0.4 m further off"), std::string::npos) << doubts[0];
+    scene.bodies.of<SolidSpec>()[1].position = {0.1, 1.51, 0};
+    EXPECT_EQ(doubtsOf(scene), Doubts());
+}
+
+// 0.5 m to either side of the box, and 0.1 m of the ball.
+TEST(StartDoubts, AreOfASolidInsideAnother) {
+    SceneSpec scene;
+    scene.bodies.add(crate("box", {0, 1, 0}));
+    scene.bodies.of<SolidSpec>()[0].size = {1, 1, 1};
+    scene.bodies.add(crate("ball", {0, 1, 0}));
+    scene.bodies.of<SolidSpec>()[1].shape = "sphere";
+    scene.bodies.of<SolidSpec>()[1].radius = 0.1;
+    const Doubts doubts = doubtsOf(scene);
+    ASSERT_EQ(doubts.size(), 1U);
+    const std::string start =
+        "warning: solid.ball starts wholly inside solid.box, and nothing brings it out: move it by ";
+    EXPECT_TRUE(doubts[0].starts_with(start)) << doubts[0];
+    EXPECT_NEAR(std::stod(doubts[0].substr(start.size())), 0.6, 0.03);  // the ball as a polyhedron
+}
+
+TEST(StartDoubts, AreOfABodyInMillimetres) {
+    SceneSpec scene;
+    for (const char* name : {"a", "b", "c"}) scene.bodies.add(crate(name, {name[0] - 'a', 60, 0}));
+    EXPECT_EQ(doubtsOf(scene), Doubts());
+    SolidSpec& ball = scene.bodies.of<SolidSpec>()[2];
+    ball.shape = "sphere";
+    ball.radius = 40;
+    ball.position.x = 100;
+    const Doubts doubts = doubtsOf(scene);  // 4/3 π 40³ m³ of 500 kg/m³, and 62.5 kg
+    ASSERT_EQ(doubts.size(), 1U);
+    EXPECT_EQ(doubts[0],
+              "warning: solid.c weighs 1.3e+08 kg, 2.1e+06 times the median of the bodies: lengths are in "
+              "metres; give its size in metres, or less density");
+}
+
+TEST(StartDoubts, AreOfASeamLongerThanItsBodies) {
+    SceneSpec scene;
+    for (const char* name : {"a", "b"}) {
+        ClothSpec cloth = support::cloth(name, 4);
+        cloth.size = {1, 1};
+        cloth.origin.x = name[0] == 'a' ? 0 : 1.5;
+        scene.bodies.add(cloth);
+    }
+    SeamJoint seam;
+    seam.b = "cloth.b@left";
+    seam.over = 1;
+    seam.a = "cloth.a@left";
+    scene.joints = {seam};
+    EXPECT_EQ(World(scene).warnings(),
+              (Doubts{"warning: the seam \"cloth.a@left\" – \"cloth.b@left\" draws points together over 1.5 m, further "
+                      "than its bodies are large (1.41 m): move the bodies together, or name other edges"}));
+    seam.a = "cloth.a@right";
+    scene.joints = {seam};
+    EXPECT_EQ(World(scene).warnings(), Doubts());
+}
+
+TEST(StartDoubts, AreOfAFigureThatNothingMoves) {
+    SceneSpec scene;
+    ColliderSpec stone;
+    stone.name = "stone";
+    stone.shape = "figure";
+    stone.mesh = "models/stone.glb";
+    auto data = std::make_shared<MeshData>();
+    auto figure = std::make_shared<figure::Figure>();
+    data->figure = figure;
+    stone.meshData = data;
+    scene.colliders = {stone};
+    EXPECT_EQ(figureDoubts(scene), (Doubts{"warning: collider.stone: stone.glb has neither a skin nor an animation: it "
+                                           "never moves, and shape = \"mesh\" costs less"}));
+    figure->animations.emplace_back();
+    EXPECT_EQ(figureDoubts(scene), Doubts());
 }
 
 // ω of a chain of masses m and springs k is at most 2 sqrt(k / m): here k = 1e9 N / 0.1 m, m = 0.1 kg.

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 
+#include "taut/bodies/private/inside.h"
+#include "taut/bodies/private/ties.h"
 #include "taut/contact/closest_points.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"
@@ -73,12 +76,128 @@ void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies
                      "another body touch too, or this one touch = \"all\"");
 }
 
-void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
+// Solids of which one reaches into the other, in the order of the state hash, and how far they have to be moved apart
+// at least [m]. Of those that are not convex it is at most that.
+using Overlaps = std::map<std::pair<const Body*, const Body*>, double>;
+
+struct PlacedSolid {
+    const Body* body;
+    std::vector<dvec3> x;  // (points of the model) [m]
+    core::Aabb box;
+    double rounding;  // [m] how far beyond them it ends
+};
+
+std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
+    std::vector<PlacedSolid> solids;
+    for (const auto& island : world.islands)
+        for (const Body* body : island->plan().bodies) {
+            if (!body->spec->isRigid() || body->spec->touch == Touch::nothing) continue;
+            PlacedSolid& solid = solids.emplace_back(PlacedSolid{body, {}, {}, 0});
+            for (const mechanics::RigidPart& part : surfacesOf(*body))
+                solid.rounding = std::max(solid.rounding, part.rounding);
+            for (const int i : body->pointOf) {
+                solid.x.push_back(island->plan().positions[static_cast<std::size_t>(i)]);
+                solid.box.add(solid.x.back());
+            }
+        }
+    std::sort(solids.begin(), solids.end(),
+              [](const PlacedSolid& a, const PlacedSolid& b) { return sortsBefore(*a.body, *b.body); });
+    return solids;
+}
+
+// [m] Along the normal of a face across which it is least; 0: a face has them on its two sides.
+double leastOverlap(const PlacedSolid& a, const PlacedSolid& b) {
+    constexpr std::size_t mostFaces = 400;
+    double least = HUGE_VAL;
+    for (const PlacedSolid* of : {&a, &b}) {
+        const auto& triangles = of->body->model.triangles;
+        for (std::size_t t = 0; t < triangles.size() && least > 0; t += 1 + triangles.size() / mostFaces) {
+            const auto corner = [&](std::size_t k) { return of->x[static_cast<std::size_t>(triangles[t][k])]; };
+            const dvec3 across = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+            const double size = glm::length(across);
+            if (!(size > 0)) continue;
+            const auto extent = [&](const PlacedSolid& solid) {
+                std::pair<double, double> ends{HUGE_VAL, -HUGE_VAL};
+                for (const dvec3& x : solid.x) {
+                    const double along = glm::dot(x, across) / size;
+                    ends = {std::min(ends.first, along), std::max(ends.second, along)};
+                }
+                return ends;
+            };
+            const auto [lowA, highA] = extent(a);
+            const auto [lowB, highB] = extent(b);
+            least = std::max(0.0, std::min({least, highA - lowB, highB - lowA}));
+        }
+    }
+    return least;
+}
+
+Overlaps overlapsOf(const std::vector<PlacedSolid>& solids) {
+    Overlaps overlaps;
+    for (std::size_t i = 0; i < solids.size(); ++i)
+        for (std::size_t j = i + 1; j < solids.size(); ++j) {
+            const PlacedSolid &a = solids[i], &b = solids[j];
+            if (a.body->island == b.body->island || !a.box.overlaps(b.box, 0)) continue;
+            if (const double overlap = leastOverlap(a, b); overlap > 0)
+                overlaps[{a.body, b.body}] = overlap + a.rounding + b.rounding;
+        }
+    return overlaps;
+}
+
+// No face of them crosses, so that nothing parts them.
+void doubtSwallowed(const std::vector<PlacedSolid>& solids, const Overlaps& overlaps,
+                    std::vector<std::string>& doubts) {
+    const auto solidOf = [&](const Body* body) -> const PlacedSolid& {
+        return *std::find_if(solids.begin(), solids.end(), [&](const auto& solid) { return solid.body == body; });
+    };
+    std::size_t count = 0;
+    for (const auto& [pair, overlap] : overlaps)
+        for (const auto& [in, out] : {pair, std::pair(pair.second, pair.first)}) {
+            const PlacedSolid &inner = solidOf(in), &outer = solidOf(out);
+            const Inside inside(outer.x, outer.body->model.triangles, {8, 8});
+            const bool isInside =
+                std::all_of(inner.x.begin(), inner.x.end(), [&](const dvec3& x) { return inside.has(x); });
+            if (isInside && ++count <= mostDoubts)
+                doubts.push_back(asWarning(at(in->spec->source)) +
+                                 fmt::format("{} starts wholly inside {}, and nothing brings it out: move it by {}, or "
+                                             "give one of them touch = \"nothing\"",
+                                             in->fullName(), out->fullName(), inLength(overlap)));
+        }
+}
+
+// Of solids, whose points no island brings out.
+void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, std::vector<std::string>& doubts) {
+    constexpr double share = 0.02;  // of its size
+    std::vector<std::string> names;
+    world.registry.each<ColliderPart>(
+        [&](ecs::Entity, const ColliderPart& part) { names.push_back("collider." + part.spec.name); });
+    std::size_t count = 0;
+    for (const PlacedSolid& solid : solids) {
+        const collision::Colliders& colliders = solid.body->island->colliders();
+        collision::Colliders::Inside deepest;
+        for (const dvec3& x : solid.x)
+            if (const auto inside = colliders.inside(x); inside.depth > deepest.depth) deepest = inside;
+        const bool isCounted =
+            solid.body->spec->collide && deepest.depth > share * glm::length(solid.box.high - solid.box.low);
+        if (!isCounted) continue;
+        const std::string& collider = names[static_cast<std::size_t>(deepest.collider)];
+        const bool isMounted = std::any_of(world.spec.joints.begin(), world.spec.joints.end(), [&](const auto& joint) {
+            return isTie(joint) && colliderOf(joint) == collider && world::names(pointsOf(joint), *solid.body);
+        });
+        if (isMounted || solid.body->spec->holdOn == collider || ++count > mostDoubts) continue;
+        doubts.push_back(asWarning(at(solid.body->spec->source)) +
+                         fmt::format("{} starts {} deep in {}, and is pushed out of it: move the body or the collider",
+                                     solid.body->fullName(), inLength(deepest.depth + solid.rounding), collider));
+    }
+}
+
+void doubtCrossings(WorldImpl& world, const Overlaps& overlaps, std::vector<std::string>& doubts) {
     if (!touchesAny(world)) return;
     struct Pair {
         std::set<int> edges;
         double depth = -1;
-        dvec3 place{0.0};  // of the deepest
+        dvec3 place{0.0};    // of the deepest
+        double overlap = 0;  // [m] of two solids
     };
     std::map<std::pair<std::string, std::string>, Pair> pairs;
     makeContactStage(world);
@@ -88,6 +207,10 @@ void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
         if (!sides) continue;
         Pair& pair = pairs[{stage.nameOf(sides->first), stage.nameOf(sides->second)}];
         pair.edges.insert(crossing.edge);
+        if (stage.isOfBody(sides->first) && stage.isOfBody(sides->second))
+            if (const auto own = overlaps.find({&stage.bodyOf(sides->first), &stage.bodyOf(sides->second)});
+                own != overlaps.end())
+                pair.overlap = own->second;
         if (const double depth = stage.depthOf(crossing); depth > pair.depth) {
             pair.depth = depth;
             pair.place = crossing.place;
@@ -100,18 +223,24 @@ void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
         const dvec3 x = pair.place;
         doubts.push_back(
             fmt::format("{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
-                        "start {} further off",
+                        "start {} {} off",
                         isOne ? names.first + " goes through itself"
                               : names.first + " and " + names.second + " go through each other",
                         isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
-                        inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
+                        inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them",
+                        pair.overlap > 0 ? inLength(pair.overlap) + " further" : "further"));
     }
     if (pairs.size() > mostDoubts)
         doubts.push_back(fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));
 }
 
 void doubtPlaces(const ContactStage& stage, std::vector<std::string>& doubts) {
-    const auto found = pointsInOnePlace(stage);
+    auto found = pointsInOnePlace(stage);
+    // Solids have an inside, which tells the sides.
+    std::erase_if(found, [&](const auto& entry) {
+        const auto [a, b] = entry.first;
+        return stage.bodyOf(a).spec->isRigid() && stage.bodyOf(b).spec->isRigid();
+    });
     std::size_t count = 0;
     for (const auto& [surfaces, points] : found) {
         if (++count > mostDoubts) break;
@@ -199,7 +328,11 @@ std::vector<std::string> touchDoubts(World& world) {
     doubtLoneliness(w, bodies, doubts);
     doubtThickness(bodies, doubts);
     doubtInstants(w, doubts);
-    doubtCrossings(w, doubts);
+    const std::vector<PlacedSolid> solids = placedSolids(w);
+    const Overlaps overlaps = overlapsOf(solids);
+    doubtCrossings(w, overlaps, doubts);
+    doubtSwallowed(solids, overlaps, doubts);
+    doubtSunk(w, solids, doubts);
     if (touchesAny(w)) doubtPlaces(*w.contactStage, doubts);
     return doubts;
 }

@@ -13,8 +13,8 @@ class ContactStage;
 class World;
 struct WorldImpl;
 
-// Bodies that pass through each other or themselves at the start, or lie in one place; `touch` with nothing to touch;
-// thickness above the cell size. Expects a world that has not ticked.
+// Bodies that pass through each other or themselves at the start, or lie in one place; solids in colliders or in each
+// other; `touch` with nothing to touch; thickness above the cell size. Expects a world that has not ticked.
 std::vector<std::string> touchDoubts(World& world);
 
 // [m] The middle one of the three sizes of each collider but planes and figures: a post or a rod goes

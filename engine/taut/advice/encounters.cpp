@@ -5,6 +5,7 @@
 
 #include "taut/advice/contact_doubts.h"
 #include "taut/core/error.h"
+#include "taut/core/private/parallel.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
@@ -29,7 +30,7 @@ class LookAhead {
         }
     }
 
-    Encounters look(double most) {
+    Encounters look(double most, double end) {
         if (silent_.empty() || trial_.run.startState != nullptr) return {};  // a state knows which bodies touch
         if (!hasSeveral() && (pointwise_.empty() || trial_.colliders.empty())) return {};
         auto built = std::make_unique<World>(trial_);
@@ -43,7 +44,7 @@ class LookAhead {
         const std::int64_t last = Ticks(trial_.run).last();
         double work = 0;
         try {
-            while (world.tick() < last && work < most && !world.advance()) {
+            while (world.tick() < last && work < most && core::processorSeconds() < end && !world.advance()) {
                 for (const BodyContact& c : w.contactReport.contacts())
                     if (c.first != nullptr && c.second != nullptr) add(*c.first, *c.second);
                 addPosts(*w.contactStage);
@@ -53,7 +54,7 @@ class LookAhead {
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
         }
-        found_.seen = world.time();
+        found_.seen = world.tick() < last ? world.time() : trial_.run.seconds;
         return found_;
     }
 
@@ -135,8 +136,8 @@ class LookAhead {
 
 }  // namespace
 
-Encounters encounters(const SceneSpec& scene, double most) {
-    return LookAhead(scene).look(most);
+Encounters encounters(const SceneSpec& scene, double most, double end) {
+    return LookAhead(scene).look(most, end);
 }
 
 }  // namespace taut::world

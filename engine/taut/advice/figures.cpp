@@ -30,13 +30,28 @@ std::string textOf(const ColliderSpec& collider) {
     return text;
 }
 
+bool isFigure(const ColliderSpec& collider) {
+    return collider.shape == "figure" && collider.meshData != nullptr && collider.meshData->figure != nullptr;
+}
+
 }  // namespace
+
+std::vector<std::string> figureDoubts(const SceneSpec& scene) {
+    std::vector<std::string> doubts;
+    for (const ColliderSpec& collider : scene.colliders)
+        if (isFigure(collider) && collider.meshData->figure->skins.empty() &&
+            collider.meshData->figure->animations.empty())
+            doubts.push_back(asWarning(at(collider.source)) +
+                             fmt::format("collider.{}: {} has neither a skin nor an animation: it never moves, and "
+                                         "shape = \"mesh\" costs less",
+                                         collider.name, std::filesystem::path(collider.mesh).filename().string()));
+    return doubts;
+}
 
 std::vector<std::string> figureNotes(const SceneSpec& scene) {
     std::vector<std::string> notes;
     for (const ColliderSpec& collider : scene.colliders)
-        if (collider.shape == "figure" && collider.meshData != nullptr && collider.meshData->figure != nullptr)
-            notes.push_back(textOf(collider));
+        if (isFigure(collider)) notes.push_back(textOf(collider));
     return notes;
 }
 

@@ -8,6 +8,9 @@ namespace taut::world {
 
 struct SceneSpec;
 
+// Figures that nothing moves.
+std::vector<std::string> figureDoubts(const SceneSpec& scene);
+
 // A text for each figure: its size, the names of its animations and joints, and what of its file is not read.
 std::vector<std::string> figureNotes(const SceneSpec& scene);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "taut/advice/mesh_cells.h"
@@ -10,8 +11,10 @@
 #include "taut/advice/private/pins.h"
 #include "taut/advice/private/start_doubts.h"
 #include "taut/core/error.h"
+#include "taut/core/private/parallel.h"
 #include "taut/spec/kinds.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/world.h"
 
@@ -19,6 +22,7 @@ namespace taut::world {
 namespace {
 
 constexpr double mostPointSteps = 2e7;  // that it plays: about a second
+constexpr double mostSeconds = 2;       // of processor time for all that is played
 
 struct Refusal {
     std::int64_t tick = 0;
@@ -67,9 +71,9 @@ std::vector<Refusal> refusals(World& world, RehearsedPins& pins) {
 
 enum class Outcome { refused, fine, unknown };
 
-void warnOfEncounters(const SceneSpec& scene, Rehearsal& rehearsal) {
+void warnOfEncounters(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
     constexpr std::size_t most = 8;
-    const auto [pairs, posts, seen] = encounters(scene);
+    const auto [pairs, posts, seen] = encounters(scene, 1e9, end);
     std::size_t count = 0;
     for (const auto& [a, b] : pairs)
         if (++count <= most)
@@ -85,12 +89,13 @@ void warnOfEncounters(const SceneSpec& scene, Rehearsal& rehearsal) {
                 fmt::format("{} fits between the points of {}, which alone meet it: give {} collide = \"faces\", or "
                             "cells of at most {:.2g} m",
                             names.second, names.first, names.first, width));
-    if (seen > 0 && seen < 0.99 * scene.run.seconds)
-        rehearsal.advice.push_back(fmt::format("bodies were followed up to {:.2g} s to see which meet", seen));
+    if (seen > 0 && seen < scene.run.seconds)
+        rehearsal.advice.push_back(fmt::format("looked ahead until {:.2g} s for bodies that meet", seen));
 }
 
 // Plays up to the end of that tick. `why` gets the refusal, `warnings` the warnings of actions.
-Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why, std::vector<std::string>& warnings) {
+Outcome play(const SceneSpec& scene, std::int64_t tick, double end, std::string& why,
+             std::vector<std::string>& warnings) {
     World world(scene);
     double pointSteps = 0;
     for (const auto& island : WorldAccess::of(world).islands)
@@ -98,7 +103,7 @@ Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why, std::v
     if (pointSteps * static_cast<double>(tick + 1) > mostPointSteps) return Outcome::unknown;
     try {
         while (world.tick() <= tick)
-            if (world.advance()) return Outcome::unknown;
+            if (core::processorSeconds() > end || world.advance()) return Outcome::unknown;
     } catch (const core::Error& error) {
         if (error.kind() != core::ErrorKind::badContent) throw;
         why = error.what();
@@ -109,12 +114,40 @@ Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why, std::v
     return Outcome::fine;
 }
 
+// Plays the first second. Bodies that start in the picture and are outside after it.
+void warnOfLeaving(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
+    constexpr double seconds = 1, mostOf = 0.5;  // of its points, to be in the picture
+    constexpr std::size_t most = 8;
+    if (scene.run.seconds < seconds || scene.run.startState != nullptr || scene.cameras.empty()) return;
+    World world(scene);
+    WorldImpl& w = WorldAccess::of(world);
+    const auto shareOf = [&](const Body& body) { return world.shareInPicture(world.points(body.fullName()).x); };
+    std::map<std::string, const Body*> inside;
+    for (const Body* body : bodiesOf(w))
+        if (shareOf(*body) >= mostOf) inside[body->fullName()] = body;
+    try {
+        while (world.time() < seconds)
+            if (core::processorSeconds() > end || world.advance()) return;
+    } catch (const core::Error& error) {
+        if (error.kind() != core::ErrorKind::badContent) throw;
+        return;
+    }
+    std::size_t count = 0;
+    for (const Body* body : bodiesOf(w)) {
+        const auto before = inside.find(body->fullName());
+        if (before == inside.end() || before->second != body || shareOf(*body) > 0 || ++count > most) continue;
+        rehearsal.warnings.push_back(asWarning(at(body->spec->source)) + body->fullName() +
+                                     " leaves the picture in the first second: move the camera, or what holds it");
+    }
+}
+
 }  // namespace
 
 Rehearsal rehearse(const SceneSpec& scene) {
     Rehearsal rehearsal;
+    const double end = core::processorSeconds() + mostSeconds;
     World world(scene);
-    warnOfEncounters(scene, rehearsal);
+    warnOfEncounters(scene, end, rehearsal);
     for (std::string& doubt : startDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
     for (std::string& doubt : meshCellDoubts(scene)) rehearsal.warnings.push_back(std::move(doubt));
     for (const auto& island : WorldAccess::of(world).islands)
@@ -143,7 +176,8 @@ Rehearsal rehearse(const SceneSpec& scene) {
     std::vector<std::string>& warnings = rehearsal.warnings;
     std::string why;
     const bool isPlayed = lastDoubtful && rehearsal.faults.empty();
-    const Outcome outcome = isPlayed ? play(scene, *lastDoubtful, why, warnings) : Outcome::refused;
+    const Outcome outcome = isPlayed ? play(scene, *lastDoubtful, end, why, warnings) : Outcome::refused;
+    if (rehearsal.faults.empty()) warnOfLeaving(scene, end, rehearsal);
     if (outcome == Outcome::fine) return rehearsal;
     warnings.insert(warnings.end(), certain.begin(), certain.end());
     if (outcome == Outcome::unknown) warnings.insert(warnings.end(), doubts.begin(), doubts.end());

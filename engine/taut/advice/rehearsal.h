@@ -16,8 +16,9 @@ struct Rehearsal {
 };
 
 // Performs the timeline on bodies that stay at their starting places. This shows what can be held, cut or pushed at
-// all. Where the verdict depends on the later place of a body, it plays the scene up to there if that is cheap (a
-// second or two). Steps that will diverge are faults too. Throws core::Error if the scene cannot be built.
+// all. Where the verdict depends on the later place of a body, it plays the scene up to there if that is cheap. It
+// plays the first second too, to see what leaves the picture. All of it takes two seconds of processor time at most.
+// Steps that will diverge are faults too. Throws core::Error if the scene cannot be built.
 Rehearsal rehearse(const SceneSpec& scene);
 
 }  // namespace taut::world

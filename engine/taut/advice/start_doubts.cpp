@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "taut/advice/contact_doubts.h"
+#include "taut/advice/figures.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/joints/joints.h"
 #include "taut/bodies/net.h"
@@ -79,6 +81,31 @@ void doubtStrains(const Island& island, std::vector<std::string>& doubts) {
                                          longest[b].restLength));
 }
 
+// Lengths in millimetres make bodies of a billion times their mass.
+void doubtMasses(const WorldImpl& world, std::vector<std::string>& doubts) {
+    constexpr double mostTimes = 1000, most = 1e6;  // of the median; [kg]
+    std::vector<std::pair<double, const Body*>> all;
+    for (const auto& island : world.islands)
+        for (const Body* body : island->plan().bodies) {
+            double mass = 0;
+            for (const int i : body->pointOf) mass += island->plan().points[static_cast<std::size_t>(i)].weighedMass();
+            all.emplace_back(mass, body);
+        }
+    if (all.empty()) return;
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    const double median = all[all.size() / 2].first;
+    std::set<const BodySpec*> seen;  // copies would repeat the same
+    for (const auto& [mass, body] : all)
+        if ((mass > mostTimes * median || mass > most) && seen.insert(body->spec.get()).second)
+            doubts.push_back(asWarning(at(body->spec->source)) +
+                             fmt::format("{} weighs {:.2g} kg{}: lengths are in metres; give its size in metres, or "
+                                         "less density",
+                                         body->fullName(), mass,
+                                         mass > mostTimes * median
+                                             ? fmt::format(", {:.2g} times the median of the bodies", mass / median)
+                                             : ""));
+}
+
 void doubtSteps(const Island& island, double ticksPerSecond, std::vector<std::string>& doubts) {
     if (island.substeps() <= mostSteps) return;
     const StepChoice choice = island.choice();
@@ -144,6 +171,8 @@ std::vector<std::string> startDoubts(World& world) {
     doubtCameras(w, doubts);
     doubtCuts(w, doubts);
     doubtFillings(w, doubts);
+    doubtMasses(w, doubts);
+    for (std::string& doubt : figureDoubts(w.spec)) doubts.push_back(std::move(doubt));
     for (const auto& island : w.islands) {
         doubtStrains(*island, doubts);
         doubtSteps(*island, w.ticksPerSecond, doubts);

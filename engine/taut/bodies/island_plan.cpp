@@ -278,6 +278,7 @@ class Planner {
                                                        seam.b.text() + "\" starts " + std::to_string(apart) +
                                                        " m apart; say how long it takes to close, e.g. over_s = 1.0");
             if (seam.isWeld()) report.jump = std::max(report.jump, apart);
+            report.sewn.apart = std::max(report.sewn.apart, apart);
             if (apart > WeldJoint().furthest && isHeld(first) && isHeld(second)) ++report.sewn.heldApart;
             ++sewn[{first.body, second.body}];
             islands_.unite(first.body, second.body);

@@ -98,6 +98,7 @@ struct JointReport {
         std::array<int, 2> points{};      // of its two edges
         std::array<double, 2> lengths{};  // [m]
         double gap = 0;                   // [m] the largest in an edge of several, which no seam closes
+        double apart = 0;                 // [m] largest distance of points that it sews
         int heldApart = 0;                // pairs of points that are held, and not in one place
     };
     Sewn sewn;                                          // of a seam

@@ -1,6 +1,7 @@
 #include "taut/core/private/parallel.h"
 
 #include <cstddef>
+#include <ctime>
 #include <vector>
 
 namespace taut::core {
@@ -16,6 +17,10 @@ void parallelFor(int count, const std::function<bool(int)>& inTurn, const std::f
         if (i > 0) return task(others[static_cast<std::size_t>(i) - 1]);
         for (int k : ordered) task(k);
     });
+}
+
+double processorSeconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 }  // namespace taut::core

@@ -38,7 +38,7 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
     if (first == std::string::npos)
         fail(
             fmt::format("the frame number has no place; put '#' for each digit, for example {}_######.png, and for one "
-                        "picture alone --at with its moment",
+                        "picture alone --at with its moment, or --frames with its number",
                         (pattern.parent_path() / pattern.stem()).string()));
     const std::size_t last = std::min(name.find_first_not_of('#', first), name.size());
     if (name.find('#', last) != std::string::npos) fail("'#' may stand at one place only");
@@ -48,13 +48,14 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
     digits_ = last - first;
 }
 
-FramePattern FramePattern::ofOne(const std::filesystem::path& picture) {
+FramePattern FramePattern::ofOne(const std::filesystem::path& picture, std::int64_t frame) {
     TAUT_EXPECTS(picture.extension() == ".png");
     FramePattern pattern;
     pattern.folder_ = picture.parent_path();
     pattern.before_ = picture.stem().string();
     pattern.after_ = ".png";
     pattern.digits_ = 0;
+    pattern.only_ = frame;
     return pattern;
 }
 
@@ -70,7 +71,7 @@ std::string FramePattern::name() const {
 
 std::vector<std::int64_t> FramePattern::framesThere() const {
     std::error_code ignored;
-    if (digits_ == 0) return std::vector<std::int64_t>(std::filesystem::exists(pathOf(0), ignored) ? 1 : 0);
+    if (digits_ == 0) return std::vector<std::int64_t>(std::filesystem::exists(pathOf(only_), ignored) ? 1 : 0, only_);
     std::vector<std::int64_t> frames;
     for (const auto& entry : std::filesystem::directory_iterator(folder_.empty() ? "." : folder_, ignored)) {
         const std::string name = entry.path().filename().string();

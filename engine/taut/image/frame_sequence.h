@@ -17,8 +17,8 @@ class FramePattern {
     // A path that ends in ".png" must have one run of '#' in its file name; any other path is a folder, whose files
     // are then frame_######.png. Throws core::Error(usage) with an example.
     explicit FramePattern(const std::filesystem::path& pattern);
-    // One picture alone, whose name ends in ".png": whatever its number is.
-    static FramePattern ofOne(const std::filesystem::path& picture);
+    // One picture alone, whose name ends in ".png" and has no number.
+    static FramePattern ofOne(const std::filesystem::path& picture, std::int64_t frame);
 
     std::filesystem::path pathOf(std::int64_t frame) const;  // expects frame >= 0
     const std::filesystem::path& folder() const { return folder_; }
@@ -38,6 +38,7 @@ class FramePattern {
     std::filesystem::path folder_;
     std::string before_, after_;
     std::size_t digits_ = 6;  // 0: of one picture alone
+    std::int64_t only_ = 0;   // its number
 };
 
 // CRC-32 of the bytes of a frame's files, one after the other; none where one of them is missing. Throws

@@ -1,6 +1,8 @@
 // The manual of the scene format, made from the field table.
 #include <fmt/format.h>
 
+#include <map>
+
 #include "taut/check/check.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/load.h"
@@ -11,8 +13,12 @@ namespace taut::scene {
 
 namespace {
 
+// Titles of the sections that have had a table of these keys: "solver: integrator, dt" to "[cloth.NAME]".
+using TitlesOfTables = std::map<std::string, std::string>;
+
 // "    cells            a list of 2 whole numbers, above 0; default [20, 20]" and its help below.
-void writeFields(const Section& section, void* target, const std::string& indent, std::string& out) {
+void writeFields(const Section& section, const std::string& title, void* target, const std::string& indent,
+                 TitlesOfTables& titles, std::string& out) {
     for (const Field& field : section.fields) {
         std::string facts = description(field);
         const std::string range = description(field.range, "");
@@ -29,11 +35,18 @@ void writeFields(const Section& section, void* target, const std::string& indent
         out += fmt::format("{}{:<{}} {}\n", indent, field.key, 26 - static_cast<int>(indent.size()), facts);
         std::string help = field.help;
         if (!field.only.empty()) help += fmt::format(" Only for {}.", joined(field.only));
+        bool isFirst = true;
+        if (!field.inside.empty()) {
+            const std::string table = fmt::format("{}: {}", field.key, joined(field.inside.front().keys()));
+            const auto [known, isNew] = titles.try_emplace(table, title);
+            isFirst = isNew || known->second == title;
+            if (!isFirst) help += fmt::format(" Its keys are those in {}.", known->second);
+        }
         out += fmt::format("{:<27}{}\n", "", help);
         const bool isRepeated = section.name == "material" && field.inside.size() == 1 &&
                                 field.inside.front().layout == Layout::named;  // keys of a section that follows
-        if (!field.inside.empty() && !isRepeated)
-            writeFields(field.inside.front(), field.enter(target, {}), indent + "  ", out);
+        if (!field.inside.empty() && isFirst && !isRepeated)
+            writeFields(field.inside.front(), title, field.enter(target, {}), indent + "  ", titles, out);
     }
 }
 
@@ -44,6 +57,7 @@ std::string manual(const world::Kinds& kinds) {
         "A scene is a TOML file. Numbers are in SI units unless the key's name or the text below says otherwise;\n"
         "y points up. What is left out has its default.\n";
     world::SceneSpec scene;
+    TitlesOfTables titles;
     // Every section with its fields.
     for (const SceneSection& section : sceneSections(kinds)) {
         const std::string title = section.name.empty()              ? "the file"
@@ -53,7 +67,7 @@ std::string manual(const world::Kinds& kinds) {
                                                                     : fmt::format("[{}]", section.name);
         out += fmt::format("\n{}\n  {}\n\n", title, section.help);
         if (section.name != "defaults")  // it repeats the keys of the sections above
-            writeFields(section, section.enter(scene, "name", {}), "  ", out);
+            writeFields(section, title, section.enter(scene, "name", {}), "  ", titles, out);
     }
     // What several sections share.
     out +=

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "taut/bodies/private/ties.h"
+#include "taut/core/aabb.h"
 #include "taut/spec/targets.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
@@ -74,6 +75,13 @@ std::string idleWarning(const JointReport& report) {
            "it; name points of another body";
 }
 
+// [m] The diagonal of the box of its points.
+double sizeAtRest(const Body& body) {
+    core::Aabb box;
+    for (const dvec3& x : body.model.positions) box.add(x);
+    return glm::length(box.high - box.low);
+}
+
 // What a seam cannot do, or only by force.
 std::vector<std::string> seamWarnings(const JointReport& report) {
     constexpr double mostGathered = 2.5;  // times as long: ruffles are twice
@@ -91,6 +99,11 @@ std::vector<std::string> seamWarnings(const JointReport& report) {
         warn("sews " + metres(a) + " to " + metres(b) +
              ": the longer edge is crushed to the length of the shorter one, or stretches it; cut them alike, or name "
              "other edges");
+    double size = 0;
+    for (const auto& [a, b, points] : report.pairs) size = std::max({size, sizeAtRest(*a), sizeAtRest(*b)});
+    if (const double apart = report.sewn.apart; apart > size)
+        warn("draws points together over " + metres(apart) + ", further than its bodies are large (" + metres(size) +
+             "): move the bodies together, or name other edges");
     if (const double gap = report.sewn.gap; gap > 0)
         warn("leaves a gap of " + metres(gap) +
              " between edges of its list: they do not follow each other, and no seam brings their ends together; name "

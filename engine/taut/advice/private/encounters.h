@@ -2,6 +2,7 @@
 // nothing.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -21,7 +22,8 @@ struct Encounters {
 // Pairs of bodies of different islands that meet and do not both touch. Plays the scene, with its timeline and
 // colliders, as if all bodies touched, for at most about `most` nanoseconds. Keeps who presses on whom or is found in
 // another. Bodies that start inside each other pass through each other meanwhile. Likewise of bodies whose
-// points alone meet colliders and of colliders narrower than their cells.
-Encounters encounters(const SceneSpec& scene, double most = 1e9);
+// points alone meet colliders and of colliders narrower than their cells. Ends too when the processor time of the
+// process is `end` [s].
+Encounters encounters(const SceneSpec& scene, double most = 1e9, double end = HUGE_VAL);
 
 }  // namespace taut::world

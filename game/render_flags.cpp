@@ -202,7 +202,7 @@ void addRenderFlags(Options& options, RenderFlags& flags) {
     addMachineFlags(options, flags);
     options.footer(
         "Examples:\n"
-        "  taut render flag\n"
+        "  taut render flag -o flag.mp4\n"
         "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
         "  taut render flag -o still.png --at 2.5\n"
         "  taut render drape -o drape.webm --alpha\n"

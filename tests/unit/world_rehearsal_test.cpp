@@ -107,6 +107,21 @@ TEST(Rehearsal, HasNothingToSayOfCoarseCells) {
     EXPECT_TRUE(rehearse(scene).advice.empty());
 }
 
+// It falls by 4.9 m, and the picture is 2 m high where it is.
+TEST(Rehearsal, WarnsOfABodyThatLeavesThePictureInTheFirstSecond) {
+    SceneSpec scene = heldRope();
+    CameraSpec camera;
+    camera.eye = {0.5, 3, 3};
+    camera.target = {0.5, 3, 0};
+    scene.cameras = {camera};
+    scene.run.seconds = 2;
+    EXPECT_EQ(rehearse(scene).warnings, std::vector<std::string>());
+    scene.bodies[0].hold.clear();
+    EXPECT_EQ(rehearse(scene).warnings,
+              std::vector<std::string>{"warning: rope.line leaves the picture in the first second: move the camera, or "
+                                       "what holds it"});
+}
+
 // A mass of 1 kg that hangs by a spring of 1e6 N/m: ω = 1000 /s, of which leap-frog stands steps of 2 ms.
 SceneSpec stiffPair() {
     SceneSpec scene;

@@ -112,7 +112,7 @@ TEST(Goldens, OfAnotherRendererAreHeldAgainstTheToleranceForThat) {
         }
     image::writePng(file, picture);
     Manifest manifest = readManifest({folder / "golden"});
-    manifest.otherRenderer = {4, 0.01, 4, 0.2};
+    manifest.otherRenderer = {4, 0.01, 4, 0.2, 1.0};
     writeManifest(folder / "golden/manifest.json", manifest);
     EXPECT_EQ(testRun(folder).code, 1);
     manifest.scenarios["spring"].pictures["000003"].renderer = "Some Card, 4.6, egl";

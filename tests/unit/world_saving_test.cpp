@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
         testing::Values("[solid.b]\nshape = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [0.1, 0.16, 0]",
                         "[block.b]\nsize = [0.2, 0.2, 0.2]\ncells = [2, 2, 2]\nposition = [0.1, 0.16, 0]\n"
                         "touch = \"others\"\nspin_rad_per_s = [0, 0, 2]",
-                        "[block.b]\nmesh = \"../models/ball.obj\"\nscale = 0.3\ncells_m = 0.1\nposition = [0, 0.2, 0]\n"
+                        "[block.b]\nmesh = \"../models/ball.obj\"\nscale = 0.3\ncells_m = 0.2\nposition = [0, 0.36, 0]\n"
                         "touch = \"others\"",
                         "[material.m]\n[cloth.b]\nmaterial = \"m\"\nsize = [0.4, 0.4]\ncells = [4, 4]\n"
                         "origin = [-0.2, 0.08, -0.2]\ndown = [0, 0, 1]\ntouch = \"all\"\ncollide = \"faces\""),

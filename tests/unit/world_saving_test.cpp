@@ -123,8 +123,8 @@ class SavingOnColliders : public testing::TestWithParam<std::tuple<const char*, 
 
 TEST_P(SavingOnColliders, EveryTickGoesOnTheSame) {
     const auto& [body, motion] = GetParam();
-    const std::string text =
-        std::string("schema = 1\n[collider.tray]\nshape = \"box\"\nsize = [1, 0.1, 1]\nkeys = [") + motion + "]\n" + body;
+    const std::string text = std::string("schema = 1\n[collider.tray]\nshape = \"box\"\nsize = [1, 0.1, 1]\nkeys = [") +
+                             motion + "]\n" + body;
     const SceneSpec scene = scene::loadSceneText(text, TAUT_SOURCE_DIR "/assets/scenes/tray.toml", {}).spec;
     World through(scene);
     for (int i = 0; i < 30; ++i) {
@@ -139,13 +139,14 @@ TEST_P(SavingOnColliders, EveryTickGoesOnTheSame) {
 INSTANTIATE_TEST_SUITE_P(
     All, SavingOnColliders,
     testing::Combine(
-        testing::Values("[solid.b]\nshape = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [0.1, 0.16, 0]",
-                        "[block.b]\nsize = [0.2, 0.2, 0.2]\ncells = [2, 2, 2]\nposition = [0.1, 0.16, 0]\n"
-                        "touch = \"others\"\nspin_rad_per_s = [0, 0, 2]",
-                        "[block.b]\nmesh = \"../models/ball.obj\"\nscale = 0.3\ncells_m = 0.2\nposition = [0, 0.36, 0]\n"
-                        "touch = \"others\"",
-                        "[material.m]\n[cloth.b]\nmaterial = \"m\"\nsize = [0.4, 0.4]\ncells = [4, 4]\n"
-                        "origin = [-0.2, 0.08, -0.2]\ndown = [0, 0, 1]\ntouch = \"all\"\ncollide = \"faces\""),
+        testing::Values(
+            "[solid.b]\nshape = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [0.1, 0.16, 0]",
+            "[block.b]\nsize = [0.2, 0.2, 0.2]\ncells = [2, 2, 2]\nposition = [0.1, 0.16, 0]\n"
+            "touch = \"others\"\nspin_rad_per_s = [0, 0, 2]",
+            "[block.b]\nmesh = \"../models/ball.obj\"\nscale = 0.3\ncells_m = 0.2\nposition = [0, 0.36, 0]\n"
+            "touch = \"others\"",
+            "[material.m]\n[cloth.b]\nmaterial = \"m\"\nsize = [0.4, 0.4]\ncells = [4, 4]\n"
+            "origin = [-0.2, 0.08, -0.2]\ndown = [0, 0, 1]\ntouch = \"all\"\ncollide = \"faces\""),
         testing::Values(
             "{ t = 0.1, position = [0, 0, 0] }, { t = 0.25, position = [0, 0, 0], rotation_deg = [0, 0, 40] }, "
             "{ t = 0.4, position = [0, 0, 0], rotation_deg = [0, 0, -40] }",

@@ -84,8 +84,8 @@ TEST(Refinement, OfClothsAndBlocksIsOfSecondOrderWeightedAndOfFirstElse) {
     // Each point of 33² weighs M/33², should M/32².
     EXPECT_NEAR(errorAt(cloths, "cloth-membrane", "naive-mass", 32), std::pow(32.0 / 33, 2) - 1.0, 2e-3);
 
-    // Up to 16 cells: 0.3 % weighted, 15 % not. The masses have the inertia of the block, which costs statics 4/n²: with
-    // plain shares of cells it would be 0.03 %.
+    // Up to 16 cells: 0.3 % weighted, 15 % not. The masses have the inertia of the block, which costs statics 4/n²:
+    // with plain shares of cells it would be 0.03 %.
     const RefinementStudy block = studyRefinement({.bodies = {"block-column"}, .cells = {4, 8, 16}});
     EXPECT_LT(std::abs(errorAt(block, "block-column", "weighted", 16)), 4e-3);
     EXPECT_GT(measuredOrder(block, "block-column", "weighted"), 1.5);

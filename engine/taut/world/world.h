@@ -106,10 +106,10 @@ class World {
     void restore(std::span<const std::byte> bytes, std::span<const RampAction> applied = {});
 
     std::vector<IslandInfo> islands() const;
-    ContactInfo contact() const;                // of bodies that touch
-    std::vector<JointInfo> joints() const;      // in the order of the scene, those with colliders last
-    ode::Work work() const;                     // of all methods since the start
-    double asleepShare() const;                 // of the points, that sleep
+    ContactInfo contact() const;            // of bodies that touch
+    std::vector<JointInfo> joints() const;  // in the order of the scene, those with colliders last
+    ode::Work work() const;                 // of all methods since the start
+    double asleepShare() const;             // of the points, that sleep
     // Share of the places [m] that lie within the edges of the picture, hidden or not.
     double shareInPicture(std::span<const glm::dvec3> places) const;
     bool hasTouched() const;                    // a collider or a body, since it was made or restored

@@ -55,7 +55,7 @@ class JoinedBodies {
     std::vector<int> bodyOf_;  // (points) -1: none
     std::vector<Pair> pairs_;
     std::vector<glm::dvec3> p_, left_, way_, moved_;  // (pairs) impulse, what is left, direction, A times it
-    std::vector<glm::dvec3> best_;                     // (pairs) the impulses that left least
+    std::vector<glm::dvec3> best_;                    // (pairs) the impulses that left least
     std::vector<glm::dvec3> along_;                   // (pairs) unit, of a rod; 0
     std::vector<double> ease_;                        // (pairs) [1/kg] about what an impulse of 1 does
     std::vector<glm::dvec3> sum_, turn_;              // (bodies) of impulses, and of their moments

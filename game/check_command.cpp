@@ -112,8 +112,8 @@ void print(const Verdict& verdict, bool isAlone) {
     }
 }
 
-// "FILE:LINE:COLUMN: error: TEXT" with the line of the file, and a caret and a remedy below it: an entry each. What has
-// no place is a message alone.
+// "FILE:LINE:COLUMN: error: TEXT" with the line of the file, and a caret and a remedy below it, becomes one entry. A
+// message without a place has no line and column.
 Json entriesOf(const std::string& text) {
     static const std::regex place("(.*?):(\\d+):(\\d+): (?:error|warning): (.*)");
     Json entries = Json::array();

@@ -16,7 +16,7 @@
 namespace taut::game {
 namespace {
 
-// What accompanies the output, as image::FrameSink::companion has it.
+// The path of a file beside the output, named as by image::FrameSink::companion().
 std::filesystem::path companionOf(const RenderFlags& flags, const std::string& name) {
     const std::filesystem::path output = flags.output;
     if (image::isVideoPath(output)) return output.parent_path() / fmt::format("{}.{}", output.stem().string(), name);

@@ -60,7 +60,7 @@ TEST(Compare, WeakChangeOfATileIsFoundByItsShare) {
     EXPECT_EQ(compare(a, b).share, 0.0);
 }
 
-// What another processor's approximate reciprocals do to a gradient: pixels off by 1, some up and some down.
+// Approximate reciprocals differ between processors: pixels of a gradient are off by 1, some up and some down.
 TEST(Compare, ADifferenceOfOneSaysNothingUnlessMostHaveIt) {
     const Image a = grey(200, 100);
     Image b = a;

@@ -51,7 +51,7 @@ TEST(SelfTest, ABlankPictureIsNoRendererAndSaysWhatWasTried) {
         EXPECT_NE(message.find(nameOf(backend)), std::string::npos) << message;
 }
 
-// Memory for the blank picture, but not for what a renderer may take.
+// There is memory for the blank picture, but not for a renderer.
 TEST(SelfTest, TooLittleMemoryIsWhyNothingDraws) {
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;

@@ -117,8 +117,8 @@ TEST(SavingWhole, ABlockThatTearsWhereItBouncesGoesOnTheSame) {
     EXPECT_EQ(through.save(), restored.save());
 }
 
-// What a tick chooses, as the number of instants, follows from what is saved. Colliders under these bodies begin, turn
-// and end their motion.
+// The number of instants of a tick depends on the saved state alone. Colliders under these bodies begin, turn and end
+// their motion.
 class SavingOnColliders : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 TEST_P(SavingOnColliders, EveryTickGoesOnTheSame) {

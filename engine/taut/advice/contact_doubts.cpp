@@ -76,8 +76,8 @@ void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies
                      "another body touch too, or this one touch = \"all\"");
 }
 
-// Solids of which one reaches into the other, in the order of the state hash, and how far they have to be moved apart
-// at least [m]. Of those that are not convex it is at most that.
+// Pairs of solids that overlap, in the order of the state hash, with the least distance that parts them [m]; an upper
+// bound where one is not convex.
 using Overlaps = std::map<std::pair<const Body*, const Body*>, double>;
 
 struct PlacedSolid {

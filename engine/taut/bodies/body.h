@@ -73,6 +73,6 @@ std::vector<mechanics::RigidPart> surfacesOf(const Body& body);
 // [m] Shortest edge at the start of what other bodies touch: triangles, or structural springs if there are none.
 // Infinite if there are no edges.
 double shortestEdge(const Body& body);
-double longestEdge(const Body& body);  // likewise; 0 if there are none
+double longestEdge(const Body& body);  // [m] at rest; 0 if there are no edges
 
 }  // namespace taut::world

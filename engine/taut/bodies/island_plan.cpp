@@ -560,7 +560,7 @@ class Planner {
                 plan.velocities.push_back(model.velocities[k]);
             } else {
                 weldOnto(plan, island, model, k);
-                // What is welded to a solid comes to it: the solid keeps its shape.
+                // Points welded to a point of a solid move to it, so that the solid keeps its shape.
                 if (b.spec->isRigid()) plan.positions[static_cast<std::size_t>(island)] = model.positions[k];
                 whole = false;
             }

@@ -138,8 +138,8 @@ class GltfReader {
         hash_ = hash;
     }
 
-    // Refuses deep text from `first` to `last`, and takes base64 out of it, which tinygltf would copy several times: a
-    // name that takenAs() knows stays in its place. What is taken is a multiple of four.
+    // Refuses text from `first` to `last` that is nested too deep. Replaces its base64, which tinygltf would copy
+    // several times, by names for takenAs(). The replaced length is a multiple of four.
     void prepare(std::string& bytes, std::size_t first, std::size_t last) {
         std::size_t kept = first;
         int depth = 0;

@@ -8,9 +8,9 @@ namespace taut::world {
 
 class World;
 
-// Winds above any storm, cameras inside colliders, fillings in open seams, bodies that start overstretched or weigh far
-// more than the others, figures that nothing moves, too many steps, cuts of what does not touch itself, and all of
-// touchDoubts(), each with a remedy. Expects a world that has not ticked.
+// Warnings, each with a remedy: winds above any storm, cameras inside colliders, fillings with open seams, bodies that
+// start overstretched or weigh far more than the others, figures without animation, too many steps, cuts through bodies
+// that do not touch themselves; and those of touchDoubts(). Expects a world that has not ticked.
 std::vector<std::string> startDoubts(World& world);
 
 }  // namespace taut::world

@@ -31,7 +31,7 @@ CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Bod
 void sever(const CutEdges& crossing, IslandPlan& plan);
 
 // Assesses the damage of all bodies and breaks the springs whose edges it calls severed, each after calling
-// before(spring). What else damage changes, Dynamics makes anew when it takes Change::damage.
+// before(spring). Dynamics::take(Change::damage) makes the forces anew.
 void breakSevered(IslandPlan& plan, const std::function<void(int)>& before = {});
 
 }  // namespace taut::world

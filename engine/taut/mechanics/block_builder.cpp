@@ -145,19 +145,19 @@ class LatticeBuilder {
                 }
             }
         };
-        std::array<double, 3> centres{}, wanted{};
+        dvec3 centres, wanted;
         for (int axis = 0; axis < 3; ++axis) {
             sum(axis, 0.0);
-            sum(axis, centres[static_cast<std::size_t>(axis)] = sums[1] / sums[0]);
-            wanted[static_cast<std::size_t>(axis)] = sums[2] - sums[0] / 6.0;
+            sum(axis, centres[axis] = sums[1] / sums[0]);
+            wanted[axis] = sums[2] - sums[0] / 6.0;
         }
         for (int round = 0; round < rounds; ++round)
             for (int axis = 0; axis < 3; ++axis) {
-                const double centre = centres[static_cast<std::size_t>(axis)];
+                const double centre = centres[axis];
                 sum(axis, centre);
                 const glm::dmat3 moments{sums[0], sums[1], sums[2], sums[1], sums[2],
                                          sums[3], sums[2], sums[3], sums[4]};
-                const dvec3 scale = glm::inverse(moments) * dvec3(sums[0], 0.0, wanted[static_cast<std::size_t>(axis)]);
+                const dvec3 scale = glm::inverse(moments) * dvec3(sums[0], 0.0, wanted[axis]);
                 const auto scaleAt = [&](double x) {
                     return scale.x + (x - centre) * (scale.y + (x - centre) * scale.z);
                 };

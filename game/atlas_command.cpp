@@ -13,7 +13,6 @@
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "game/usage.h"
-#include "taut/core/private/parallel.h"
 #include "taut/pipeline/machine.h"
 #include "taut/study/atlas_chart.h"
 #include "taut/study/atlas_text.h"
@@ -32,7 +31,6 @@ struct AtlasFlags {
     double seconds = 0.0;
     std::vector<std::string> overrides;
     bool quiet = false;
-    int threads = 0;
 };
 
 std::vector<std::string> footOf(const pipeline::Machine& machine) {
@@ -126,17 +124,13 @@ Action declareAtlas(Options& options) {
     options.value("--seconds", flags->seconds, "Length of motion in each run of a scene; else 0.5 at most")
         .check(numberWithin(leastSeconds, mostSeconds));
     addOverrideFlag(options, flags->overrides, "Override a field of a scene; repeatable");
-    addThreadsFlag(options, flags->threads);
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"
         "  taut atlas\n"
         "  taut atlas rope\n"
         "  taut atlas flag --methods leapfrog,rk4 --seconds 0.5");
-    return [flags] {
-        const core::ThreadLimit limit(flags->threads);
-        return atlas(*flags);
-    };
+    return withThreads(options, [flags] { return atlas(*flags); });
 }
 
 }  // namespace

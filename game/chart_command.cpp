@@ -18,7 +18,6 @@
 #include "game/scene_file.h"
 #include "game/suggestion.h"
 #include "game/usage.h"
-#include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/machine.h"
 #include "taut/study/problems.h"
@@ -39,7 +38,6 @@ struct ChartFlags {
     double seconds = 0.0, budget = 40.0;
     std::vector<std::string> overrides;
     bool list = false, quiet = false;
-    int threads = 0;
 };
 
 void printProblems() {
@@ -159,7 +157,6 @@ Action declareChart(Options& options) {
         .check(numberWithin(leastSeconds, mostSeconds));
     options.value("--budget", flags->budget, "Wall time to aim at, in seconds").check(numberWithin(0.5, mostSeconds));
     addOverrideFlag(options, flags->overrides, "Override a field of a scene; repeatable");
-    addThreadsFlag(options, flags->threads);
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"
@@ -167,10 +164,7 @@ Action declareChart(Options& options) {
         "  taut chart growth --methods euler,rk4 -o out/growth\n"
         "  taut chart flag --seconds 0.5 --precision double\n"
         "  taut chart refinement");
-    return [flags] {
-        const core::ThreadLimit limit(flags->threads);
-        return chart(*flags);
-    };
+    return withThreads(options, [flags] { return chart(*flags); });
 }
 
 }  // namespace

@@ -21,7 +21,6 @@
 #include "taut/advice/figures.h"
 #include "taut/advice/rehearsal.h"
 #include "taut/core/error.h"
-#include "taut/core/private/parallel.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario.h"
 #include "taut/scene/load.h"
@@ -35,7 +34,6 @@ struct CheckFlags {
     std::vector<std::string> scenes;
     std::vector<std::string> overrides;
     bool isConfined = false, quick = false, strict = false, json = false;
-    int threads = 0;
 };
 
 struct Verdict {
@@ -174,7 +172,6 @@ Action declareCheck(Options& options) {
     options.flag("--quick", flags->quick, "Look at the files alone: build nothing, look ahead at nothing");
     options.flag("--strict", flags->strict, "Warnings are errors");
     options.flag("--json", flags->json, "Print it as JSON, with file, line and column, for editors and CI");
-    addThreadsFlag(options, flags->threads);
     options.footer(
         "Of a folder every file NAME.toml in it, a line each. The exit code is that of the worst. Looks ahead for two\n"
         "seconds of processor time at most.\n"
@@ -182,10 +179,7 @@ Action declareCheck(Options& options) {
         "  taut check my.toml\n"
         "  taut check my --confined --strict\n"
         "  taut check hammock --set 'rope.*.radius=0.01' --set defaults.rope.segments=20");
-    return [flags] {
-        const core::ThreadLimit limit(flags->threads);
-        return check(*flags);
-    };
+    return withThreads(options, [flags] { return check(*flags); });
 }
 
 }  // namespace

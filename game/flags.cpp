@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <memory>
 #include <string_view>
+#include <utility>
 
 #include "game/command_line.h"
 #include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/private/instruction_set.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::game {
 namespace {
@@ -87,6 +90,15 @@ void addSmoothOverride(int smooth, std::vector<std::string>& overrides) {
 
 void addThreadsFlag(Options& options, int& threads) {
     options.value("--threads", threads, "Threads to use; all of the machine when not given").within(1, 1024);
+}
+
+std::function<int()> withThreads(Options& options, std::function<int()> action) {
+    const auto threads = std::make_shared<int>(0);
+    addThreadsFlag(options, *threads);
+    return [threads, action = std::move(action)] {
+        const core::ThreadLimit limit(*threads);
+        return action();
+    };
 }
 
 void addInstructionSetFlag(Options& options, std::string& isa) {

@@ -45,6 +45,8 @@ class Options;
 
 // --threads; 0: not given.
 void addThreadsFlag(Options& options, int& threads);
+// Adds --threads; the action that is returned does what this one does, on so many.
+std::function<int()> withThreads(Options& options, std::function<int()> action);
 
 // --isa, which sets the instruction set of the kernels before anything asks for it. `isa` holds the given value.
 void addInstructionSetFlag(Options& options, std::string& isa);

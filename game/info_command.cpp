@@ -35,7 +35,6 @@ struct InfoFlags {
     std::vector<std::string> overrides;
     bool json = false;
     bool methods = false;
-    int threads = 0;
 };
 
 // Of processor time, all threads together [s].
@@ -404,11 +403,7 @@ Action declareInfo(Options& options) {
     addOverrideFlag(options, flags->overrides);
     options.flag("--methods", flags->methods, "List the methods of integration instead");
     options.flag("--json", flags->json, "Print it as JSON");
-    addThreadsFlag(options, flags->threads);
-    return [flags] {
-        const core::ThreadLimit limit(flags->threads);
-        return info(*flags);
-    };
+    return withThreads(options, [flags] { return info(*flags); });
 }
 
 }  // namespace

@@ -15,7 +15,6 @@
 #include "game/scene_file.h"
 #include "game/suggestion.h"
 #include "game/usage.h"
-#include "taut/core/private/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/reality/chart.h"
@@ -31,7 +30,6 @@ struct RealityFlags {
     std::string beside;
     int cells = 0;
     bool isLong = false, list = false, quiet = false;
-    int threads = 0;
 };
 
 void printRows() {
@@ -107,7 +105,6 @@ Action declareReality(Options& options) {
     options.value("--beside", flags->beside, "Show beside taut's cantilevers those of other programs, as measured")
         .typeName("PEERS.csv");
     options.flag("--list", flags->list, "List the rows");
-    addThreadsFlag(options, flags->threads);
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "The exit code is 1 where a quantity is beyond its tolerance.\n"
@@ -116,10 +113,7 @@ Action declareReality(Options& options) {
         "  taut reality --only R1,R8 -o out/strips\n"
         "  taut reality --only R1 --cells 5\n"
         "  taut reality --only R1 --beside assets/charts/peers.csv");
-    return [flags] {
-        const core::ThreadLimit limit(flags->threads);
-        return compareWithReality(*flags);
-    };
+    return withThreads(options, [flags] { return compareWithReality(*flags); });
 }
 
 }  // namespace

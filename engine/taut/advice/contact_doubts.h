@@ -17,8 +17,8 @@ struct WorldImpl;
 // other; `touch` with nothing to touch; thickness above the cell size. Expects a world that has not ticked.
 std::vector<std::string> touchDoubts(World& world);
 
-// [m] The middle one of the three sizes of each collider but planes and figures: a post or a rod goes
-// between points that are further apart.
+// [m] The middle one of the three sizes of each collider but planes and figures: a post or a rod fits between points
+// that are further apart.
 std::map<std::string, double> colliderWidths(const WorldImpl& world);
 
 // For pairs of surfaces: the points of either that lie in the other, so near that nothing tells which belongs on which

@@ -15,7 +15,8 @@
 namespace taut::world {
 namespace {
 
-// [ns] Rough cost of the work in a tick. Work is counted, since a clock would not say the same twice.
+// [ns] Rough cost of the work in a tick. A limit of counted work gives the same verdict each time; the clock is a guard
+// for scenes that cost more than this says.
 constexpr double perEvaluation = 15, perIteration = 60, perPointInstant = 80;  // for each point
 constexpr double perPair = 250;
 

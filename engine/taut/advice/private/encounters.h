@@ -19,11 +19,10 @@ struct Encounters {
     double seen = 0;  // [s] of the scene: all of it, or as much as is cheap
 };
 
-// Pairs of bodies of different islands that meet and do not both touch. Plays the scene, with its timeline and
-// colliders, as if all bodies touched, for at most about `most` nanoseconds. Keeps who presses on whom or is found in
-// another. Bodies that start inside each other pass through each other meanwhile. Likewise of bodies whose
-// points alone meet colliders and of colliders narrower than their cells. Ends too when the processor time of the
-// process is `end` [s].
+// Pairs of bodies of different islands that meet and do not both touch, and colliders that fit between the points of
+// bodies that meet them by points alone. Plays the scene, with its timeline and colliders, as if all bodies touched,
+// for some `most` nanoseconds, or until the process has spent `end` seconds of processor time. Keeps who presses on
+// whom or is found in another. Bodies that start inside each other pass through each other meanwhile.
 Encounters encounters(const SceneSpec& scene, double most = 1e9, double end = HUGE_VAL);
 
 }  // namespace taut::world

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <utility>
 
 #include "taut/core/error.h"
@@ -15,6 +16,8 @@ namespace taut::study {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double coarse = 3e-2;  // of the motion's size: larger errors do not show a method's order
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -65,6 +68,23 @@ class Gathering {
     int beyond_ = 0;
 };
 
+// The points of a curve that are at a floor, whatever sets it: from the first point on after which the error falls less
+// than a third as fast with the step as it did, to the next point and on average to the last. Points above `most` are
+// too coarse to show one.
+std::span<RunPoint> floorOf(std::span<RunPoint> curve, double RunPoint::*error, double most, int order) {
+    const auto slope = [&](std::size_t i, std::size_t j) {
+        return std::log(curve[i].*error / curve[j].*error) / std::log(curve[i].step / curve[j].step);
+    };
+    double steepest = 1;
+    for (std::size_t i = 2; i < curve.size(); ++i)
+        if (curve[i - 2].*error < most) steepest = std::max(steepest, slope(i - 2, i));
+    const double slow = std::min<double>(steepest, order) / 3;
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i)
+        if (curve[i].*error < most && slope(i, i + 1) < slow && slope(i, curve.size() - 1) < slow)
+            return curve.subspan(i);
+    return {};
+}
+
 class Sweep {
   public:
     Sweep(const Subject& subject, const StudySettings& settings, WorkPrecision& study, double secondsPerCurve)
@@ -78,8 +98,6 @@ class Sweep {
     double firstStep(const MethodFacts& method) const;
     RunPoint run(const RunPlan& plan, double& seconds);
     void time(const RunPlan& plan, double estimate, RunPoint& point);
-    // Whether smaller steps tell nothing new: twice no better than before.
-    bool hasLevelled(std::size_t first) const;
 
     const Subject& subject_;
     const StudySettings& settings_;
@@ -150,18 +168,6 @@ void Sweep::time(const RunPlan& plan, double estimate, RunPoint& point) {
     point.repeats = repeats;
 }
 
-bool Sweep::hasLevelled(std::size_t first) const {
-    double best = HUGE_VAL;
-    int worse = 0;
-    for (std::size_t i = first; i < study_.points.size(); ++i) {
-        const RunPoint& point = study_.points[i];
-        if (point.status != RunStatus::ok || point.rmsError > 1e-3 * study_.reference.extent) continue;
-        worse = point.isAtFloor || point.rmsError > 0.8 * best ? worse + 1 : 0;
-        best = std::min(best, point.rmsError);
-    }
-    return worse >= 2;
-}
-
 void Sweep::curve(const MethodFacts& method, Precision precision) {
     constexpr double leastSolverShare = 1e-8;
     const double runLimit = secondsPerCurve_ / 8;  // with its repeats and all the longer steps together eight times
@@ -171,6 +177,10 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
     plan.precision = precision;
     plan.grid = study_.grid;
     plan.stepsPerSample = stepsPerSample(subject_, study_.grid, firstStep(method));
+    const auto floor = [&] {
+        return floorOf(std::span(study_.points).subspan(first), &RunPoint::rmsError, coarse * study_.reference.extent,
+                       method.order);
+    };
     double spent = 0, lastRun = 0;
     int good = 0;
     const bool isFixed = settings_.halvings > 0;
@@ -192,8 +202,13 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
         study_.points.push_back(point);
         spent += secondsSince(start);
         if (report) report(std::min(0.95, spent / secondsPerCurve_));
-        if (!isFixed && hasLevelled(first)) break;
+        // Smaller steps tell nothing new.
+        const bool isUnresolved = study_.points.size() > first + 1 && std::prev(study_.points.end(), 2)->isAtFloor;
+        if (!isFixed && ((point.isAtFloor && isUnresolved) || floor().size() > 2)) break;
     }
+    for (RunPoint& point : floor()) point.isAtFloor = true;
+    const auto curve = std::span(study_.points).subspan(first);
+    for (RunPoint& point : floorOf(curve, &RunPoint::energyError, coarse, method.order)) point.isEnergyAtFloor = true;
 }
 
 std::vector<MethodFacts> chosenMethods(const Subject& subject, const StudySettings& settings) {
@@ -233,9 +248,10 @@ void addRemarks(const Subject& subject, WorkPrecision& study) {
                                 number(duration) + " s only energy, extent and mean height are compared.");
     if (study.window < 10)
         study.remarks.push_back("Only " + std::to_string(study.window) + " sample times lie within the horizon.");
-    const bool anyAtFloor =
-        std::any_of(study.points.begin(), study.points.end(), [](const RunPoint& point) { return point.isAtFloor; });
-    if (anyAtFloor)
+    const bool anyUnresolved = std::any_of(study.points.begin(), study.points.end(), [&](const RunPoint& point) {
+        return point.rmsError < study.reference.floor;
+    });
+    if (anyUnresolved)
         study.remarks.push_back("Errors below " + number(study.reference.floor) +
                                 ", 100 times the reference's own, are marked: they are not resolved.");
     if (study.hasContacts) study.remarks.push_back("There are contacts. " + subject.caution());
@@ -299,14 +315,12 @@ double measuredOrder(const WorkPrecision& study, std::string_view method, Precis
         if (p.method == method && p.precision == precision && p.status == RunStatus::ok) curve.push_back(&p);
     double least = HUGE_VAL;
     for (const RunPoint* p : curve) least = std::min(least, p->rmsError);
-    // A curve that has come down to rounding or to the reference's own error says nothing near that.
-    const bool hasLevelled = curve.size() > 1 && (curve.back()->isAtFloor ||
-                                                  curve.back()->rmsError > 0.8 * curve[curve.size() - 2]->rmsError);
-    const double low = hasLevelled ? 30 * least : 0, extent = study.reference.extent;
+    const bool hasFloor = !curve.empty() && curve.back()->isAtFloor;
+    const double low = hasFloor ? 30 * least : 0, extent = study.reference.extent;
     const double unit = precision == Precision::single_ ? 1.2e-7 : 2.2e-16;  // of rounding, each step may add one
     std::erase_if(curve, [&](const RunPoint* p) {
         return p->isAtFloor || p->rmsError < low || p->rmsError < unit * static_cast<double>(p->steps) * extent ||
-               p->rmsError > 3e-2 * extent;
+               p->rmsError > coarse * extent;
     });
     if (curve.size() > 3) curve.erase(curve.begin(), curve.end() - 3);
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;

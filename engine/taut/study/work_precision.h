@@ -31,7 +31,7 @@ struct RunPoint {
     RunStatus status = RunStatus::ok;
     // Over the sample times within the horizon.
     double rmsError = unset, finalError = unset, maxError = unset;
-    bool isAtFloor = false;  // too close to the reference to be told apart from its own error
+    bool isAtFloor = false;  // of the reference's own error, of rounding or of a solver's tolerance
     // Largest |E - E_ref| over the largest kinetic energy of the reference: of an undamped motion the drift.
     double energyError = unset;
     bool isEnergyAtFloor = false;
@@ -86,9 +86,9 @@ struct StudySettings {
 // Throws core::Error(usage) for a method that is not there or does not fit the subject.
 WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& settings);
 
-// The slope of log error over log step of a method's curve, over its last three points before rounding (a unit a step)
-// or the reference's own error are felt, and thirty times above where the curve levels off. NaN with fewer than three
-// such points below 3 % of the motion's size.
+// The slope of log error over log step of a method's curve, over its last three points above its floor: thirty times
+// above the least error if points are at the floor, and above rounding by a unit a step. NaN with fewer than three such
+// points below 3 % of the motion's size.
 double measuredOrder(const WorkPrecision& study, std::string_view method, Precision precision);
 
 }  // namespace taut::study

@@ -282,7 +282,8 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
     const bool hasFailed = std::any_of(study.points.begin(), study.points.end(), isFailed);
     const std::string failures =
         hasFailed ? "Top strip: runs that diverged, or whose error exceeds the whole motion." : "";
-    const std::string floors = " White dot: not told apart from the reference's own error.";
+    const std::string floors =
+        " White dot: at a floor of rounding, solver or reference, which smaller steps hardly better.";
     const std::string ring = " Ring: the largest step within the method's stability bound.";
     const bool hasFloor = std::any_of(
         study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.isAtFloor; });

@@ -13,6 +13,7 @@
 #include "game/live_line.h"
 #include "game/usage.h"
 #include "taut/core/error.h"
+#include "taut/core/private/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/read.h"
 #include "taut/pipeline/ordered_handover.h"
@@ -104,8 +105,9 @@ void expectUnchanged(const FrameJoin& join) {
 // Reads pictures ahead, on several threads, and hands them on in order.
 class Reading {
   public:
-    explicit Reading(const FrameJoin& join) : join_(join), next_(join.frames.first), pictures_(2 * threadCount()) {
-        for (std::size_t i = 0; i < threadCount(); ++i) workers_.emplace_back([this] { work(); });
+    explicit Reading(const FrameJoin& join)
+        : join_(join), next_(join.frames.first), pictures_(2 * static_cast<std::size_t>(core::threadCount())) {
+        for (int i = 0; i < core::threadCount(); ++i) workers_.emplace_back([this] { work(); });
     }
     ~Reading() { pictures_.abandon(); }
 
@@ -117,8 +119,6 @@ class Reading {
     }
 
   private:
-    static std::size_t threadCount() { return std::max(1U, std::thread::hardware_concurrency()); }
-
     image::Image read(std::int64_t frame) const {
         const std::filesystem::path path = join_.pattern.pathOf(frame);
         return join_.hasAlpha() ? image::readImageWithAlpha(path) : image::readImage(path);

@@ -8,6 +8,7 @@
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "game/flags.h"
 #include "game/frame_join.h"
 #include "game/interruption.h"
 #include "game/messages.h"
@@ -108,7 +109,7 @@ Action declareJoin(Options& options) {
         "  taut join out/show -o show.mp4        likewise, then the video that taut render -o show.mp4 makes\n"
         "  taut join out/test                    the report of all shards of taut test, and its exit code\n"
         "What is missing, or not of one run, is named, and the exit code is 6.");
-    return [flags] { return join(*flags); };
+    return withThreads(options, [flags] { return join(*flags); });
 }
 
 }  // namespace

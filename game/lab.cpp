@@ -49,6 +49,11 @@ void LabProgress::show(double done, const std::string& doing) {
 LabFolder::LabFolder(std::filesystem::path folder, bool isQuiet)
     : folder_(std::move(folder)), draws_(!report::gnuplotVersion().empty()), isQuiet_(isQuiet) {
     std::error_code ignored;  // what cannot be looked at is reported when the folder is made
+    const std::string ending = folder_.extension().string();
+    for (const char* ofOne : {".csv", ".json", ".svg", ".png", ".html"})
+        if (ending == ofOne && !std::filesystem::is_directory(folder_, ignored))
+            failUsage("-o {}: several charts and tables are written, into a folder: -o {}", folder_.string(),
+                      std::filesystem::path(folder_).replace_extension().string());
     for (std::filesystem::path at = folder_; !at.empty() && !std::filesystem::exists(at, ignored);
          at = at.parent_path())
         made_.push_back(at);

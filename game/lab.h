@@ -42,7 +42,7 @@ class LabProgress {
 // The folder for results. Without gnuplot it holds tables only, and says so.
 class LabFolder {
   public:
-    // Makes the folder; throws core::Error(inputOutput).
+    // Makes the folder; throws core::Error: inputOutput, and usage for the name of one picture or table.
     LabFolder(std::filesystem::path folder, bool isQuiet);
     void write(const std::string& name, const std::string& text) const;
     void draw(const std::string& name, const report::Chart& chart) const;

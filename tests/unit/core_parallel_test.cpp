@@ -38,6 +38,7 @@ TEST(ParallelFor, HandsOnAnException) {
 
 TEST(ThreadLimit, SevenThreadsAreMoreThanTheMachineMayHave) {
     ThreadLimit limit(7);
+    EXPECT_EQ(threadCount(), 7);
     std::mutex mutex;
     std::set<std::thread::id> seen;
     limit.run([&] {
@@ -58,6 +59,7 @@ TEST(ThreadLimit, SevenThreadsAreMoreThanTheMachineMayHave) {
 
 TEST(ThreadLimit, OneThreadRunsEverythingOnTheCaller) {
     const ThreadLimit limit(1);
+    EXPECT_EQ(threadCount(), 1);
     const auto caller = std::this_thread::get_id();
     parallelFor(100, [&](int) { EXPECT_EQ(std::this_thread::get_id(), caller); });
 }

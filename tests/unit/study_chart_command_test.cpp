@@ -70,6 +70,17 @@ TEST(ChartCommand, WritesTablesAndPictures) {
     EXPECT_TRUE(has(test::contentOf(folder / "charts/growth.csv"), "growth,euler,single,"));
 }
 
+TEST(ChartCommand, RefusesTheNameOfOneFile) {
+    const TemporaryFolder folder;
+    const std::string place = (folder / "ch").string();
+    for (const char* ending : {".png", ".svg", ".csv"}) {
+        const Outcome outcome = run({"chart", "growth", "--methods", "rk4", "--budget", "0.5", "-o", place + ending});
+        EXPECT_EQ(outcome.code, 2) << ending;
+        EXPECT_TRUE(has(outcome.err, "into a folder: -o " + place)) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(place + ending));
+    }
+}
+
 TEST(ChartCommand, TakesAnySceneFile) {
     const TemporaryFolder folder;
     test::writeText(folder / "spring.toml", R"(schema = 1

@@ -7,6 +7,10 @@ void parallelFor(int count, const std::function<void(int)>& task) {
     for (int i = 0; i < count; ++i) task(i);
 }
 
+int threadCount() {
+    return 1;
+}
+
 struct ThreadLimit::Impl {};
 
 ThreadLimit::ThreadLimit(int) {}

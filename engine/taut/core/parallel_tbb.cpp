@@ -33,6 +33,11 @@ void parallelFor(int count, const std::function<void(int)>& task) {
     });
 }
 
+int threadCount() {
+    using oneapi::tbb::global_control;
+    return static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+}
+
 struct ThreadLimit::Impl {
     explicit Impl(int threads)
         : control(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),

@@ -26,7 +26,10 @@ void parallelFor(int count, int atOnce, const Each& each) {
 // [s] Spent so far by all threads of the process.
 double processorSeconds();
 
-// How many threads parallelFor uses: at most that many in the whole process while a limit lives, and that many, even
+// How many threads parallelFor uses.
+int threadCount();
+
+// Sets how many: at most that many in the whole process while a limit lives, and that many, even
 // if the machine has fewer processors, within its run(). 0 leaves it to the machine.
 class ThreadLimit {
   public:

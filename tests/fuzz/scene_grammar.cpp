@@ -63,6 +63,8 @@ class Growing {
             bodies_.pop_back();
         }
         for (int i = choices_.below(4); i > 0; --i) addAction();
+        addFilling();
+        addFigure(colliders);
         return {text_ + timeline_, isClosed_ && timeline_.empty()};
     }
 
@@ -250,6 +252,34 @@ class Growing {
         if (choices_.oneIn(6))
             add({"[anchor.a]\ntarget = \"{}\"\nat = {}\nstiffness_N_per_m = {:.6g}\n", points(), choices_.vector(0.5),
                  choices_.magnitude(0.1, 1e4)});
+    }
+
+    // Of a block, whose surface is closed.
+    void addFilling() {
+        const auto block =
+            std::find_if(bodies_.begin(), bodies_.end(), [](const Own& own) { return own.name.starts_with("block"); });
+        if (block == bodies_.end() || !choices_.oneIn(2)) return;
+        isClosed_ = false;
+        add({"[filling.f]\nin = [\"{}\"]\npressure_Pa = {:.6g}\n", block->name, choices_.magnitude(1, 1e5)});
+        const std::string keeps = choices_.of({"pressure", "amount", "volume"});
+        add({"keeps = \"{}\"\n", keeps});
+        if (keeps == "volume") add({"bulk_modulus_Pa = {:.6g}\n", choices_.magnitude(10, 1e6)});
+    }
+
+    // Some half a metre high, with a skin over two joints, or a shape that changes.
+    void addFigure(int colliders) {
+        if (!choices_.oneIn(4)) return;
+        isClosed_ = false;
+        add({"[collider.f]\nshape = \"figure\"\nmesh = \"arm.gltf\"\nscale = {:.6g}\nposition = {}\n",
+             choices_.between(0.1, 0.3), choices_.vector(0.15)});
+        if (choices_.oneIn(2)) add({"rotation_deg = {}\n", choices_.vector(180)});
+        add({"animation = \"{}\"\nstart_s = {:.6g}\nspeed = {:.6g}\n", choices_.of({"bend", "grow"}),
+             choices_.between(-0.05, 1), choices_.magnitude(0.1, 30)});
+        if (choices_.oneIn(2)) add({"loop = false\n"});
+        if (choices_.oneIn(2)) add({"friction = {:.6g}\n", choices_.magnitude(1e-3, 10)});
+        if (colliders == 0 && !bodies_[0].isHeld && choices_.oneIn(3))
+            add({"[[joint]]\na = \"{}@{}\"\nb = \"collider.f.upper\"\nkind = \"weld\"\n", bodies_[0].name,
+                 choices_.of(bodies_[0].selectors)});
     }
 
     // Of each field one: two at a time are refused.

@@ -81,7 +81,11 @@ Verdict judge(const std::string& argument, const CheckFlags& flags) {
         verdict.warnings = loaded.warnings;
         verdict.large = largeRunText(pipeline::frameCount(spec.run), spec.picture.size.x, spec.picture.size.y);
         verdict.notes = world::figureNotes(spec);
-        if (!flags.quick) {
+        if (world::isTooLarge(spec)) {
+            verdict.advice.push_back(
+                "these are too many points to build them only to look ahead: the file alone is looked at; taut info "
+                "builds them");
+        } else if (!flags.quick) {
             if (!flags.json) notePreparation(spec);
             world::Rehearsal rehearsal = world::rehearse(spec);
             std::ranges::move(rehearsal.warnings, std::back_inserter(verdict.warnings));
@@ -174,7 +178,7 @@ Action declareCheck(Options& options) {
     options.flag("--json", flags->json, "Print it as JSON, with file, line and column, for editors and CI");
     options.footer(
         "Of a folder every file NAME.toml in it, a line each. The exit code is that of the worst. Looks ahead for two\n"
-        "seconds of processor time at most.\n"
+        "seconds of processor time at most, and not at more than 100 000 points.\n"
         "Examples:\n"
         "  taut check my.toml\n"
         "  taut check my --confined --strict\n"

@@ -293,6 +293,18 @@ TEST(Program, CheckForEditorsAndCi) {
     EXPECT_FALSE(has(with("--quick").err, "storm"));
 }
 
+TEST(Program, CheckDoesNotBuildMorePointsThanItHasTimeFor) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "large.toml").string();
+    test::writeText(file,
+                    "schema = 1\n[block.wall]\nsize = [100, 100, 1]\ncells = [1000, 1000, 1]\n"
+                    "[wind.storm]\nvelocity = [200, 0, 0]\n");  // 2 000 000 points; the world would warn of the storm
+    const Outcome outcome = run({"check", file});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_TRUE(has(outcome.err, "too many points to build")) << outcome.err;
+    EXPECT_FALSE(has(outcome.err, "storm")) << outcome.err;
+}
+
 TEST(Program, ANewSceneIsRightAndIsNotOverwritten) {
     const TemporaryFolder folder;
     const std::string file = (folder / "own/first.toml").string();

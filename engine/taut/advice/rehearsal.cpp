@@ -96,6 +96,7 @@ void warnOfEncounters(const SceneSpec& scene, double end, Rehearsal& rehearsal) 
 // Plays up to the end of that tick. `why` gets the refusal, `warnings` the warnings of actions.
 Outcome play(const SceneSpec& scene, std::int64_t tick, double end, std::string& why,
              std::vector<std::string>& warnings) {
+    if (core::processorSeconds() > end) return Outcome::unknown;
     World world(scene);
     double pointSteps = 0;
     for (const auto& island : WorldAccess::of(world).islands)
@@ -119,6 +120,7 @@ void warnOfLeaving(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
     constexpr double seconds = 1, mostOf = 0.5;  // of its points, to be in the picture
     constexpr std::size_t most = 8;
     if (scene.run.seconds < seconds || scene.run.startState != nullptr || scene.cameras.empty()) return;
+    if (core::processorSeconds() > end) return;
     World world(scene);
     WorldImpl& w = WorldAccess::of(world);
     const auto shareOf = [&](const Body& body) { return world.shareInPicture(world.points(body.fullName()).x); };
@@ -143,11 +145,21 @@ void warnOfLeaving(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
 
 }  // namespace
 
+bool isTooLarge(const SceneSpec& scene) {
+    constexpr double mostPoints = 100'000;
+    double points = 0;
+    for (const BodySpec& body : scene.bodies) points += body.outline(scene).points;
+    return points > mostPoints;
+}
+
 Rehearsal rehearse(const SceneSpec& scene) {
     Rehearsal rehearsal;
     const double end = core::processorSeconds() + mostSeconds;
     World world(scene);
-    warnOfEncounters(scene, end, rehearsal);
+    if (core::processorSeconds() > end)
+        rehearsal.advice.push_back("building the bodies took all the time there is: looked ahead at nothing");
+    else
+        warnOfEncounters(scene, end, rehearsal);
     for (std::string& doubt : startDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
     for (std::string& doubt : meshCellDoubts(scene)) rehearsal.warnings.push_back(std::move(doubt));
     for (const auto& island : WorldAccess::of(world).islands)

@@ -142,6 +142,44 @@ TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergyWhereItIsCut) {
         }
 }
 
+// Springs of 2 m and 0.1 m: 5 m and 0.5 m long they pull 30 N and 4 N, along them with their dashpots.
+TEST(Anchor, OfALengthPullsBeyondItAlongItsLine) {
+    PlanarState<double> state(farAndNear, twoMasses);
+    Anchor<double> anchor({0, 1}, {0, 0, 0}, {10.0, 10.0}, {3.0, 0.0}, {}, {}, {2.0, 0.1});
+    EXPECT_NEAR(anchor.potentialEnergy(state.motion()), 0.5 * 10 * (9 + 0.16), 1e-12);
+    const std::vector<dvec3> f = state.forces(anchor);
+    EXPECT_NEAR(glm::length(f[0] - dvec3(-18.0, -24.0, 0.0)), 0.0, anchorRounding);
+    EXPECT_NEAR(glm::length(f[1] - dvec3(0.0, 0.0, -4.0)), 0.0, anchorRounding);
+    state.set(state.v, 0, {-4.0, 3.0, 1.0});  // across
+    EXPECT_NEAR(glm::length(state.forces(anchor)[0] - f[0]), 0.0, anchorRounding);
+    state.set(state.v, 0, {0.6, 0.8, 0.0});
+    EXPECT_NEAR(glm::length(state.forces(anchor)[0] - f[0] + dvec3(1.8, 2.4, 0.0)), 0.0, anchorRounding);
+    state.set(state.v, 0, {0.0, 0.0, 0.0});
+    // k n nᵀ + k (1 - L/d)(1 - n nᵀ) is the slope of the force; with the dashpot also c n nᵀ.
+    anchor.linearise(state.motion(), 1.0, 0.5);
+    core::AlignedArray<double> diagonal(state.planes());
+    anchor.addDiagonal(state.stride, diagonal.data());
+    for (int axis = 0; axis < 3; ++axis) {
+        core::AlignedArray<double> u(state.planes()), product(state.planes()), weighted(state.planes());
+        u[state.index(0, axis)] = 1.0;
+        anchor.addStiffnessProduct(state.motion(), u.data(), product.data());
+        anchor.addProduct(state.stride, u.data(), weighted.data());
+        EXPECT_NEAR(weighted[state.index(0, axis)], diagonal[state.index(0, axis)], 1e-14);
+        const dvec3 along(0.6, 0.8, 0.0);
+        double& x = state.x[state.index(0, axis)];
+        const double h = 1e-4, here = x;
+        x = here + h;
+        const dvec3 up = state.forces(anchor)[0];
+        x = here - h;
+        const dvec3 slope = (state.forces(anchor)[0] - up) / (2 * h);
+        x = here;
+        for (int other = 0; other < 3; ++other) {
+            EXPECT_NEAR(product[state.index(0, other)], slope[other], 1e-7);
+            EXPECT_NEAR(weighted[state.index(0, other)], slope[other] + 0.5 * 3.0 * along[axis] * along[other], 1e-7);
+        }
+    }
+}
+
 TEST(Anchor, SharesItsStiffnessAndDampingRate) {
     const PlanarState<float> state(threePlaces, threeMasses);
     const Anchor<float> anchor({1}, {0, 0, 0}, 10.0, 3.0);

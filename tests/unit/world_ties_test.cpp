@@ -375,6 +375,53 @@ TEST(Ties, WhatCannotBeTiedIsRefused) {
                   "or give the body hold_on = \"collider.other\"");
 }
 
+// A place is in the axes of the collider, which stands at (0, 1, 0), turned by a quarter about z. At rest a spring of
+// 200 N/m that bears 1 kg is longer by g/200; a rod keeps its length; a weld starts at its place.
+TEST(Ties, APlaceIsInTheAxesOfTheColliderForEveryKind) {
+    const dvec3 place(0.3, 0.1, 0), there(-0.1, 1.3, 0);
+    const auto sceneOf = [&](auto joint) {
+        SceneSpec scene;
+        scene.solver.precision = Precision::double_;
+        NetSpec net;
+        net.name = "n";
+        net.drag = 4;
+        net.points = {{"p", there - dvec3(0, 0.01, 0), 1, false, {}}};
+        scene.bodies.add(net);
+        scene.colliders = {support::ball("arm", {0, 1, 0}, 0.01)};
+        scene.colliders[0].rotation = {0, 0, pi / 2};
+        joint.a = "collider.arm";
+        joint.b = "net.n@p";
+        joint.place = place;
+        scene.joints.add(joint);
+        return scene;
+    };
+    const auto restsAt = [](SceneSpec scene) {
+        World world(scene);
+        run(world, 900);
+        EXPECT_NEAR(world.metrics().kinetic, 0, 1e-12);
+        return world.points("net.n@p").x[0];
+    };
+    SpringJoint spring;
+    spring.stiffness = 200;
+    spring.dampingTime = 0.1;
+    for (const double length : {0.0, 0.4}) {
+        spring.restLength = length;
+        EXPECT_NEAR(glm::length(restsAt(sceneOf(spring)) - (there - dvec3(0, length + support::g / 200, 0))), 0, 1e-9);
+    }
+    EXPECT_NEAR(glm::length(restsAt(sceneOf(RodJoint())) - (there - dvec3(0, 0.01, 0))), 0, 1e-12);
+    for (const std::string name : {"", "pin"}) {  // carried, or pinned
+        WeldJoint weld;
+        weld.name = name;
+        EXPECT_NEAR(glm::length(restsAt(sceneOf(weld)) - there), 0, 1e-12) << name;
+    }
+    WeldJoint weld;
+    SceneSpec far = sceneOf(weld);
+    far.bodies.of<NetSpec>()[0].points[0].position.y -= 1;
+    EXPECT_NE(refusal(far).find("place is 1.010000 m from point #0 of net.n, further than a weld reaches"),
+              std::string::npos)
+        << refusal(far);
+}
+
 TEST(Ties, AnIslandThatIsFrozenStaysWhereItIs) {
     SceneSpec scene = carriedPair("leapfrog", 0.25 / 60);
     scene.solver.onDivergence = OnDivergence::freeze;

@@ -38,6 +38,7 @@ struct Grip {
     std::vector<dvec3> offsets;              // (points) [m] from the holder, as it is unturned
     std::vector<double> stiffness, damping;  // (points) [N/m], [kg/s]; empty for rigid grips
     std::vector<double> mostForce;           // (points) [N] > 0; empty: no limit
+    std::vector<double> lengths;             // (points) [m] of the springs; empty: none has any
     mechanics::PosePath path;                // of the holder; its place moves on a line during each tick
     int tie = -1;                            // of the plan, if the grip belongs to this tie alone; -1: to none
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "taut/core/error.h"
 #include "taut/spec/spec.h"
@@ -50,14 +51,16 @@ class Tying {
                 points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
         if (points.empty()) return;
         const std::string& collider = colliderOf(joint);
-        if (joint.isWeld() && !joint.hasOwnTies()) return lead(collider, std::move(points), joint.source);
         sort(points);
         expectHolder(collider, holders_, joint.source);
+        if (joint.isWeld() && joint.place) moveToPlace(joint, points);
+        if (joint.isWeld() && !joint.hasOwnTies()) return lead(collider, std::move(points), joint.source);
         const std::size_t grips = plan_.grips.size();
         for (const int point : points) {
             const std::size_t own = plan_.grips.size();
             const int tie = static_cast<int>(plan_.ties.size());
             Grip grip = std::move(tieTo(holders_, collider, std::span(&point, 1), plan_.positions).front());
+            if (joint.place) grip.offsets.front() = *joint.place;
             addTie(plan_,
                    {.joint = number,
                     .a = point,
@@ -76,6 +79,20 @@ class Tying {
         points.erase(std::unique(points.begin(), points.end()), points.end());
     }
 
+    // Points of a weld start at its place.
+    void moveToPlace(const JointSpec& joint, std::span<const int> points) {
+        for (const int point : points) {
+            dvec3& x = plan_.positions[static_cast<std::size_t>(point)];
+            const collision::Pose pose = *holders_.poseOf(holders_.nearest(colliderOf(joint), x));
+            const dvec3 place = pose.position + mechanics::PosePath::rotated(pose.rotation, *joint.place);
+            if (const double away = glm::distance(x, place); away > joint.reach())
+                fail(joint.source, "place is " + std::to_string(away) + " m from " + nameOf(point) +
+                                       ", further than a weld reaches, " + std::to_string(joint.reach()) +
+                                       " m; move one of them, or use kind = \"spring\"");
+            x = place;
+        }
+    }
+
     // Merges all grips from `first` on, of ascending points, into one if one thing carries them.
     void join(std::size_t first) {
         if (plan_.grips.size() <= first + 1) return;
@@ -89,6 +106,7 @@ class Tying {
             all.offsets.insert(all.offsets.end(), own.offsets.begin(), own.offsets.end());
             all.stiffness.insert(all.stiffness.end(), own.stiffness.begin(), own.stiffness.end());
             all.damping.insert(all.damping.end(), own.damping.begin(), own.damping.end());
+            all.lengths.insert(all.lengths.end(), own.lengths.begin(), own.lengths.end());
         }
         plan_.grips.resize(first + 1);
     }
@@ -221,6 +239,7 @@ bool untie(IslandPlan& plan, std::span<const int> points) {
         left.offsets.clear();
         left.stiffness.clear();
         left.damping.clear();
+        left.lengths.clear();
         for (std::size_t i = 0; i < grip.points.size(); ++i) {
             if (std::find(points.begin(), points.end(), grip.points[i]) != points.end()) continue;
             left.points.push_back(grip.points[i]);
@@ -228,6 +247,7 @@ bool untie(IslandPlan& plan, std::span<const int> points) {
             if (grip.rigid) continue;
             left.stiffness.push_back(grip.stiffness[i]);
             left.damping.push_back(grip.damping[i]);
+            if (!grip.lengths.empty()) left.lengths.push_back(grip.lengths[i]);
         }
         any = any || left.points.size() < grip.points.size();
         grip = std::move(left);

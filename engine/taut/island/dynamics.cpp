@@ -362,8 +362,9 @@ class DynamicsOf final : public Dynamics {
         for (const Grip& grip : plan_.grips) {
             anchors_.push_back(nullptr);
             if (grip.rigid) continue;
-            auto anchor = std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.place.from, grip.stiffness,
-                                                                    grip.damping, grip.offsets, grip.mostForce);
+            auto anchor =
+                std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.place.from, grip.stiffness,
+                                                          grip.damping, grip.offsets, grip.mostForce, grip.lengths);
             anchor->setPlace(grip.path);
             anchors_.back() = anchor.get();
             system_.add(std::move(anchor));

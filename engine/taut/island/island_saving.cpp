@@ -18,10 +18,14 @@ constexpr std::uint64_t mostForceMark = 0xfff8'7461'7574'0006ULL;
 // Marks the tie of a grip that belongs to one tie; differs likewise.
 constexpr std::uint64_t tieMark = 0xfff8'7461'7574'0005ULL;
 
+// Marks the lengths of a grip's springs; differs likewise.
+constexpr std::uint64_t lengthsMark = 0xfff8'7461'7574'0008ULL;
+
 void visitPart(StateBytes& bytes, Grip& grip, const IslandPlan& plan) {
     const std::size_t pointCount = plan.points.size();
     mechanics::PosePath& path = grip.path;
     if (bytes.mark(mostForceMark, !grip.mostForce.empty())) bytes.list(grip.mostForce);
+    if (bytes.mark(lengthsMark, !grip.lengths.empty())) bytes.list(grip.lengths);
     if (bytes.mark(tieMark, grip.tie >= 0)) {
         bytes(grip.tie);
         bytes.require(grip.tie >= 0 && grip.tie < static_cast<int>(plan.ties.size()));
@@ -44,10 +48,11 @@ void visitPart(StateBytes& bytes, Grip& grip, const IslandPlan& plan) {
     bytes.require(count > 0 && grip.offsets.size() == count && grip.stiffness.size() == forces &&
                   grip.damping.size() == forces);
     bytes.require(grip.mostForce.empty() || grip.mostForce.size() == forces);
+    bytes.require(grip.lengths.empty() || (grip.lengths.size() == forces && grip.mostForce.empty()));
     for (std::size_t i = 0; i < count; ++i)
         bytes.require(grip.points[i] > (i == 0 ? -1 : grip.points[i - 1]) &&
                       static_cast<std::size_t>(grip.points[i]) < pointCount);
-    for (const std::vector<double>* list : {&grip.stiffness, &grip.damping})
+    for (const std::vector<double>* list : {&grip.stiffness, &grip.damping, &grip.lengths})
         for (double number : *list) bytes.require(number >= 0 && std::isfinite(number));
     for (double number : grip.mostForce) bytes.require(number > 0 && std::isfinite(number));
 }

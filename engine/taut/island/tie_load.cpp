@@ -16,8 +16,11 @@ double pullOf(const mechanics::Spring& spring, const Dynamics& dynamics) {
 dvec3 pullOf(const Grip& grip, const Dynamics& dynamics, double t) {
     const mechanics::PosePath::Frame frame = grip.path.at(t);
     dvec3 sum(0.0);
-    for (std::size_t i = 0; i < grip.points.size(); ++i)
-        sum += grip.stiffness[i] * (frame.place + frame.arm(grip.offsets[i]) - dynamics.position(grip.points[i]));
+    for (std::size_t i = 0; i < grip.points.size(); ++i) {
+        const dvec3 way = frame.place + frame.arm(grip.offsets[i]) - dynamics.position(grip.points[i]);
+        const double length = grip.lengths.empty() ? 0.0 : grip.lengths[i];
+        sum += grip.stiffness[i] * (length > 0 ? (1.0 - length / std::sqrt(glm::dot(way, way))) * way : way);
+    }
     return sum;
 }
 

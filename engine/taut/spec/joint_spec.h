@@ -50,6 +50,7 @@ struct JointSpec {
     JointSide a, b;
     std::string name;                  // several joints may share a name; empty: none
     std::optional<double> breakForce;  // [N] at which a tie lets go
+    std::optional<dvec3> place;        // [m] on the collider, in its own axes; none: as the kind says
     JointLook look;
     Source source;
 
@@ -75,7 +76,8 @@ struct JointSpec {
     virtual bool isSeam() const { return false; }
     // Adds to the plan springs or constraints that tie two of its points, `distance` [m] apart.
     virtual void tie(IslandPlan& plan, int a, int b, double distance) const = 0;
-    // The same between a point and a collider. The rigid grip has that point and the present pose of the collider.
+    // The same between a point and a collider. The rigid grip has that point, the present pose of the collider, and the
+    // place there: `place`, or that of the point.
     virtual void carry(IslandPlan& plan, Grip grip) const = 0;
 
     // The same for every kind.

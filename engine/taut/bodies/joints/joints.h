@@ -27,19 +27,16 @@ struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
     static constexpr std::string_view kindName = "spring";
     double stiffness = 1e4;            // [N/m] of each spring
     double dampingTime = 1e-4;         // [s]
-    std::optional<double> restLength;  // [m]; none: the distance at the start
-    std::optional<glm::dvec3> place;   // [m] on the collider at the start; none: where each point is
+    std::optional<double> restLength;  // [m]; none: the distance at the start, to a collider 0
 
     std::string_view title() const override { return "a spring joint"; }
     void tie(IslandPlan& plan, int a, int b, double distance) const override;
     void carry(IslandPlan& plan, Grip grip) const override;
 };
 
-// Keeps a distance, between points or from a place on a collider.
+// Keeps a distance, between points or from a place on a collider, its centre if not given.
 struct RodJoint final : SpecOf<RodJoint, JointSpec> {
     static constexpr std::string_view kindName = "rod";
-    std::optional<glm::dvec3> place;  // [m] on the collider at the start; none: its centre
-
     std::string_view title() const override { return "a rod"; }
     bool tiesWithin() const override { return true; }
     void tie(IslandPlan& plan, int a, int b, double distance) const override;

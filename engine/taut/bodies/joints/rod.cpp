@@ -27,8 +27,7 @@ void RodJoint::tie(IslandPlan& plan, int first, int second, double) const {
 
 void RodJoint::carry(IslandPlan& plan, Grip grip) const {
     const mechanics::PosePath::Frame frame = grip.path.at(0.0);
-    const dvec3 end = place.value_or(frame.place);
-    const dvec3 offset = frame.offsetOf(end);
+    const dvec3 offset = place.value_or(dvec3(0.0)), end = frame.place + frame.arm(offset);
     changeOnly<Rods>(plan, [&](Rods& rods) {
         for (const int point : grip.points)
             rods.tie(point, Constraint::Place{grip.holder, offset},
@@ -40,11 +39,7 @@ void RodJoint::carry(IslandPlan& plan, Grip grip) const {
 Kind<JointSpec> rodKind() {
     return jointKind<RodJoint>(
         "Rods keep the distance that points have as the scene starts, from each other, which may be of one body, or "
-        "from a place on a collider.",
-        fields::FieldList<RodJoint>()
-            .vector("place", &RodJoint::place, "m", placeRange,
-                    "Where on the collider a rod is fixed, as the scene starts; its centre if not given.")
-            .only({"a rod to a collider"}));
+        "from a place on a collider, its centre if not given.");
 }
 
 }  // namespace taut::world

@@ -11,13 +11,10 @@ void SpringJoint::tie(IslandPlan& plan, int first, int second, double distance) 
 
 // Springs draw each point to a place on the collider.
 void SpringJoint::carry(IslandPlan& plan, Grip grip) const {
-    if (place) {
-        const mechanics::PosePath::Frame frame = grip.path.at(0.0);
-        grip.offsets.assign(grip.points.size(), frame.offsetOf(*place));
-    }
     grip.rigid = false;
     grip.stiffness.assign(grip.points.size(), stiffness);
     grip.damping.assign(grip.points.size(), stiffness * dampingTime);
+    if (restLength.value_or(0.0) > 0.0) grip.lengths.assign(grip.points.size(), *restLength);
     plan.grips.push_back(std::move(grip));
 }
 
@@ -27,12 +24,9 @@ Kind<JointSpec> springKind() {
         fields::FieldList<SpringJoint>()
             .number("stiffness_N_per_m", &SpringJoint::stiffness, "N/m", fields::positive, "Of each spring.")
             .number("damping_time_s", &SpringJoint::dampingTime, "s", dampingTimeRange, "Of each spring.")
-            .number("rest_length_m", &SpringJoint::restLength, "m", fields::notNegative,
-                    "At which a spring pulls no more; the distance as the scene starts if not given.")
-            .only({"a spring joint"})
-            .vector("place", &SpringJoint::place, "m", placeRange,
-                    "Where on the collider springs without length end, as the scene starts.")
-            .only({"a spring joint to a collider"}));
+            .number(
+                "rest_length_m", &SpringJoint::restLength, "m", fields::notNegative,
+                "At which a spring pulls no more; the distance as the scene starts if not given, to a collider 0."));
 }
 
 }  // namespace taut::world

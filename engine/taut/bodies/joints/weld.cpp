@@ -19,9 +19,9 @@ void WeldJoint::tie(IslandPlan& plan, int first, int second, double) const {
         });
     const auto held = std::find_if(cluster.begin(), cluster.end(),
                                    [&](int i) { return plan.points[static_cast<std::size_t>(i)].held; });
-    const int place = held != cluster.end() ? *held : cluster.front();
+    const int leader = held != cluster.end() ? *held : cluster.front();
     for (const int i : cluster)
-        plan.positions[static_cast<std::size_t>(i)] = plan.positions[static_cast<std::size_t>(place)];
+        plan.positions[static_cast<std::size_t>(i)] = plan.positions[static_cast<std::size_t>(leader)];
 }
 
 void WeldJoint::carry(IslandPlan& plan, Grip grip) const {
@@ -35,7 +35,8 @@ void WeldJoint::carry(IslandPlan& plan, Grip grip) const {
 Kind<JointSpec> weldKind() {
     return jointKind<WeldJoint>(
         "A weld makes points one; a collider carries all points that are welded to it as they lie when the scene "
-        "starts. Of one body, or with a name, break_N or a finish, it keeps points in one place, and they stay two. "
+        "starts, or at `place`. Of one body, or with a name, break_N or a finish, it keeps points in one place, and "
+        "they stay two. "
         "A whole solid (solid.NAME@all) carries points as they lie, like a collider; two whole solids become one rigid "
         "body, each of a with the nearest of b, as far as that is.",
         fields::FieldList<WeldJoint>()

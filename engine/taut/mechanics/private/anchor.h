@@ -1,4 +1,4 @@
-// Springs of zero rest length, each with a dashpot, from points to a place that may move. A hand holds cloth by them.
+// Springs, each with a dashpot, from points to a place that may move. A hand holds cloth by those of no length.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,6 +13,9 @@ namespace taut::mechanics {
 // turns with the place. If there is a largest force, a longer force is cut to that length. The cut is a projection onto
 // a ball, which is monotone. So the slopes of F are no steeper than without it. With U = ∫ min(k d, most) dd,
 // d = |x - p|, the dashpot still takes energy and never adds any.
+//
+// With a length L, F = -(k (d - L) + c ḋ) n along n = (x - p)/d. Its stiffness is k n nᵀ + k (1 - L/d)(1 - n nᵀ), where
+// slopes leave out the second part if it is negative.
 template <class Real>
 class Anchor final : public ForceGenerator<Real> {
   public:
@@ -20,9 +23,10 @@ class Anchor final : public ForceGenerator<Real> {
     // apart; without offsets all are drawn to the place itself. Expects different points.
     Anchor(std::vector<int> points, const glm::dvec3& place, double stiffness, double damping,
            std::vector<glm::dvec3> offsets = {});
-    // The same with a k and c for each point (points), and the largest force on each point (points) [N] > 0, if any.
+    // The same with a k and c for each point (points), and for each point the largest force [N] > 0 or the length [m]
+    // >= 0, or neither (points).
     Anchor(std::vector<int> points, const glm::dvec3& place, std::vector<double> stiffness, std::vector<double> damping,
-           std::vector<glm::dvec3> offsets = {}, std::vector<double> most = {});
+           std::vector<glm::dvec3> offsets = {}, std::vector<double> most = {}, std::vector<double> lengths = {});
 
     // The place stays, moves evenly from `from` to `to` between t0 and t1 [s], or follows the path.
     void setPlace(const glm::dvec3& place) { path_ = LinearPath{place, place, 0.0, 0.0}; }
@@ -45,15 +49,20 @@ class Anchor final : public ForceGenerator<Real> {
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
   private:
-    // How a cut force changes with the force before the cut: by `share`, and not at all along it.
+    // How the force changes with that of a spring without length or largest force: by `share` across a direction, and
+    // by `alongShare` along it.
     struct Slope {
         double share = 1.0;
-        glm::dvec3 along{0.0};  // unit; 0 where nothing is cut
+        glm::dvec3 along{0.0};  // unit; 0: the force is that one
+        double alongShare = 0.0;
     };
 
     glm::dvec3 pull(const Motion<Real>& motion, const PosePath::Frame& frame, std::size_t p) const;  // before the cut
-    Slope slope(const glm::dvec3& pull, std::size_t p) const;
-    double energy(std::size_t p, double distance) const;  // [J] of a force that may be cut
+    Slope slope(const Motion<Real>& motion, const PosePath::Frame& frame, std::size_t p) const;
+    Slope cut(const glm::dvec3& pull, std::size_t p) const;
+    glm::dvec3 away(const Motion<Real>& motion, const PosePath::Frame& frame,
+                    std::size_t p) const;                 // [m] from its place
+    double energy(std::size_t p, double distance) const;  // [J]
     // Adds weight · slope · u of one point to out.
     void addProduct(std::size_t p, Real weight, const Slope& slope, int stride, const Real* u, Real* out) const;
 
@@ -62,6 +71,7 @@ class Anchor final : public ForceGenerator<Real> {
     PosePath path_;
     std::vector<double> stiffness_, damping_;  // (points) [N/m], [kg/s]
     std::vector<double> most_;                 // (points) [N]; empty: nothing is cut
+    std::vector<double> lengths_;              // (points) [m]; empty: none has any
     std::vector<Real> weight_;                 // (points) s k + d c for the s and d of linearise()
     std::vector<Slope> slopes_;                // (points) at the configuration of linearise()
 };

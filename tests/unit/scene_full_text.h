@@ -74,6 +74,7 @@ lumping = "uniform"
 yield_strain = 0.05
 break_strain = 0.5
 break_cell_m = 0.05
+strain_limit = 0.5
 [cloth.flag]
 size = [1.8, 1.2]
 cells = [36, 24]
@@ -125,6 +126,7 @@ lumping = "uniform"
 yield_strain = 0.06
 break_strain = 0.6
 break_cell_m = 0.06
+strain_limit = 0.6
 hold = ["ends", "25%"]
 [block.jelly]
 size = [0.1, 0.2, 0.3]
@@ -141,6 +143,7 @@ lumping = "uniform"
 yield_strain = 0.07
 break_strain = 0.7
 break_cell_m = 0.07
+strain_limit = 0.7
 [block.rubber]
 poisson = 0.45
 [block.teddy]
@@ -158,6 +161,7 @@ ball = 0.07
 yield_strain = 0.08
 break_strain = 0.8
 break_cell_m = 0.08
+strain_limit = 0.8
 [solid.crate]
 shape = "box"
 size = [0.3, 0.4, 0.5]

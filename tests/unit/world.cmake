@@ -40,6 +40,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_start_test.cpp
   world_step_choice_test.cpp
   world_step_following_test.cpp
+  world_strain_limit_test.cpp
   world_targets_test.cpp
   world_tearing_test.cpp
   world_ties_test.cpp

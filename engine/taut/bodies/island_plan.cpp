@@ -12,6 +12,7 @@
 #include "taut/bodies/joints/joints.h"
 #include "taut/bodies/private/rigid_constraint.h"
 #include "taut/bodies/private/seam_pairing.h"
+#include "taut/bodies/private/strain_limit.h"
 #include "taut/bodies/private/ties.h"
 #include "taut/core/error.h"
 #include "taut/core/rigid_motion.h"
@@ -481,6 +482,7 @@ class Planner {
         addSolids(plan, members);
         plan.origins.resize(plan.springs.size());
         plan.broken.resize(plan.springs.size(), false);
+        if (StrainLimit::isIn(plan)) plan.constraints.push_back(std::make_shared<StrainLimit>(plan));
         plan.solver = solverOf(plan);
         return plan;
     }

@@ -57,7 +57,10 @@ class DynamicsOf final : public Dynamics {
             system_.setPoints(massesOf(plan_));
             lead();
         }
-        if (isShape) constraints_.take();
+        if (isShape)
+            constraints_.take();
+        else if (isDamage || changes.has(Change::lengths))
+            constraints_.follow();
         if (isDamage) return setForces(forces);
         if (isMaterial) contacts_.rewatch();
         if (isMaterial)
@@ -69,6 +72,7 @@ class DynamicsOf final : public Dynamics {
 
     void changeSprings(std::span<const int> springs) override {
         system_.changeSprings(springs, plan_.springs);
+        constraints_.follow();
         bound_.forgetWeights();
     }
     void watchLengths(std::span<const mechanics::LengthLimits> limits) override {

@@ -27,6 +27,7 @@ class BodyDrawing;
 struct PlasticitySpec {
     std::optional<double> yieldStrain;  // |l - L|/L beyond which a spring's rest length yields; none: never
     std::optional<double> breakStrain;  // (l - L)/L beyond which a spring breaks; none: never
+    std::optional<double> strainLimit;  // (l - L)/L that no spring but those of bending exceeds; none: any
     double breakCell = 0.02;            // [m] cell size for which breakStrain is stated; matters at the tip of a tear
 };
 

@@ -45,7 +45,11 @@ fields::FieldList<Spec> withPlasticity(fields::FieldList<Spec> list) {
             "cells of break_cell_m.")
         .number("break_cell_m", &Spec::plasticity, &PlasticitySpec::breakCell, "m", lengthRange,
                 "Side of the cells for which break_strain holds at the tip of a tear. With smaller ones it is larger "
-                "there, as their square root, so that a tear takes the same load to run.");
+                "there, as their square root, so that a tear takes the same load to run.")
+        .number(
+            "strain_limit", &Spec::plasticity, &PlasticitySpec::strainLimit, "", strainRange,
+            "Strain that no stretched spring but those of bending exceeds: it is stopped there, and the energy with "
+            "which it went on is lost. Any if not given.");
     return list;
 }
 

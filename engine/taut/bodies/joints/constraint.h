@@ -19,6 +19,7 @@
 
 namespace taut::world {
 
+struct IslandPlan;
 using glm::dvec3;
 
 class Constraint {
@@ -82,6 +83,8 @@ class Constraint {
     // Whether a part of it waits for a time up to t [s]. begin() starts it between ticks, from x [m] of the plan.
     virtual bool isDue(double /*t*/) const { return false; }
     virtual void begin(double /*t*/, std::span<const dvec3> /*x*/) {}
+    // Takes over lengths of springs of the plan, and which are broken.
+    virtual void follow(const IslandPlan&) {}
     // Throws core::Error(badContent) if it can never hold.
     virtual void check() const {}
 

@@ -49,6 +49,7 @@ class ConstraintSlot {
         for (const auto& constraint : plan_.constraints) {
             Tie& tie = ties_.emplace_back();
             tie.constraint = constraint->copy();
+            tie.constraint->follow(plan_);
             for (const int point : tie.constraint->points())
                 tie.numbers.push_back(static_cast<std::size_t>(std::lower_bound(points_.begin(), points_.end(), point) -
                                                                points_.begin()));
@@ -64,6 +65,11 @@ class ConstraintSlot {
         inverseMass_.assign(points_.size() + places_.size(), 0.0);
         from_ = x_ = v_ = reached_ = placed_ = stored_ = std::vector<dvec3>(inverseMass_.size());
         impulse_.assign(pull_.size(), dvec3(0.0));
+    }
+
+    // Lengths of springs of the plan have changed, or some are broken.
+    void follow() {
+        for (Tie& tie : ties_) tie.constraint->follow(plan_);
     }
 
     // [N s] The impulse by which a tie has pulled its first end since forgetImpulses(). Some constraints give it in

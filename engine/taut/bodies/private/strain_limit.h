@@ -5,7 +5,7 @@
 // along the line n of both ends when the step began, so that impulses keep momentum and angular momentum (rods.h). Each
 // of these sets holds the state in which nothing moves, so a projection onto any of them, over-relaxed or not, takes
 // kinetic energy and never adds any, in whatever order and however often (Agmon 1954). Springs take turns until none is
-// too long.
+// too long: all of them now and then, in between those that are nearly as long as they may be.
 #pragma once
 
 #include "taut/bodies/joints/constraint.h"
@@ -27,12 +27,14 @@ class StrainLimit final : public ConstraintOf<StrainLimit> {
         int a, b;     // of points_
         double most;  // [m]
     };
-    // Calls project(link), which returns whether it changed anything, until none does. Returns whether any did.
+    // Calls project(link), which returns whether it changed anything, until none does. Returns whether any did. x: as
+    // in Moment.
     template <class Project>
-    bool takeTurns(const Project& project) const;
+    bool takeTurns(std::span<const dvec3> x, int mostTurns, const Project& project);
 
     std::vector<int> points_;
     std::vector<Link> links_;
+    std::vector<Link> long_;  // of links_, nearly as long as they may be
 };
 
 }  // namespace taut::world

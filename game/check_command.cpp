@@ -81,11 +81,12 @@ Verdict judge(const std::string& argument, const CheckFlags& flags) {
         verdict.warnings = loaded.warnings;
         verdict.large = largeRunText(pipeline::frameCount(spec.run), spec.picture.size.x, spec.picture.size.y);
         verdict.notes = world::figureNotes(spec);
-        if (world::isTooLarge(spec)) {
+        const bool isTooLarge = !flags.quick && world::isTooLarge(spec);
+        if (isTooLarge)
             verdict.advice.push_back(
                 "these are too many points to build them only to look ahead: the file alone is looked at; taut info "
                 "builds them");
-        } else if (!flags.quick) {
+        if (!flags.quick && !isTooLarge) {
             if (!flags.json) notePreparation(spec);
             world::Rehearsal rehearsal = world::rehearse(spec);
             std::ranges::move(rehearsal.warnings, std::back_inserter(verdict.warnings));

@@ -29,7 +29,8 @@ if [ "${1-film}" = stills ]; then
     "$taut" render "$root/assets/pictures/fabrics.toml" -o "$out/fabrics.png" --at 2.5 --size 1400x680 --samples 16 \
         -y --quiet
     ffmpeg -v error -y -i "$out/fabrics.png" -q:v 3 "$root/assets/pictures/fabrics.jpg"
-    "$taut" render dress -o "$out/dress-#.png" --at 0,0.6,1.5,4 --size 480x720 --samples 16 -y --quiet
+    "$taut" render dress -o "$out/dress-#.png" --at 0,0.6,1.5,4 --set camera.main.fov_deg=12 --size 480x720 \
+        --samples 16 -y --quiet
     ffmpeg -v error -y -i "$out/dress-%d.png" -vf tile=4x1 -frames:v 1 -q:v 3 "$root/assets/pictures/dress.jpg"
     # Scene and moment, twelve of them side by side; the last one as its springs.
     inputs= n=0

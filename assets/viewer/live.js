@@ -287,7 +287,7 @@ class LivePage {
     const {camera} = this.picture, way = camera.getWorldDirection(new THREE.Vector3());
     return {
       eye: camera.position.toArray(), target: way.add(camera.position).toArray(), up: camera.up.toArray(),
-      fieldOfView: camera.fov * Math.PI / 180,
+      fieldOfView: this.picture.fieldOfView,
     };
   }
 

@@ -200,11 +200,12 @@ class Picture {
     this.resize();
   }
 
-  // At least as much is seen as the scene's camera sees, up and across.
+  // The angle of verticalField(), engine/taut/view/camera_axes.h.
   fit() {
     const {camera} = this.film, canvas = this.renderer.domElement;
     const aspect = canvas.clientWidth / Math.max(canvas.clientHeight, 1);
-    const half = Math.tan(camera.fov * Math.PI / 360) * Math.max(1, camera.aspect / aspect);
+    const half = Math.tan(camera.fov * Math.PI / 360) * Math.max(1, 16 / 9 / aspect);
+    this.fieldOfView = camera.fov * Math.PI / 180;
     Object.assign(this.camera, {fov: Math.atan(half) * 360 / Math.PI, aspect});
     this.camera.updateProjectionMatrix();
   }

@@ -102,6 +102,7 @@ export interface Camera {
   eye: Vector;
   target: Vector;
   up?: Vector;
+  /** [rad] vertical in pictures of 16:9 and wider; a narrower one shows the width that 16:9 does. */
   fieldOfView?: number;
 }
 

@@ -92,8 +92,7 @@ def looks_like_taut(driver):
                           "taut.seek(arguments[0])", SHADED)
     seen = picture(driver)
     rows, columns, _ = seen.shape
-    # Wider than the scene's camera, so that up and down as much is seen.
-    done("render", "small.toml", "--frames", SHADED, "-o", "own_#.png", "--size", "%dx%d" % (columns, rows))
+    done("render", "small.toml", "-y", "--frames", SHADED, "-o", "own_#.png", "--size", "%dx%d" % (columns, rows))
     own = pixels(next(pathlib.Path(".").glob("own_*.png")))
     # Edges, noise, and sky that what stands on the ground hides from it: 0.3. Front and back swapped are 2.
     off = numpy.abs(seen - own).mean()
@@ -145,6 +144,7 @@ def has_a_drawer_on_a_phone(driver):
     expect(driver.find_element(By.ID, "reset").is_displayed(), "Reset view stays")
     until(lambda: driver.execute_script("const c = document.getElementById('picture');"
                                         "return c.height === c.clientHeight;"), "the picture has its pixels")
+    looks_like_taut(driver)
     driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 

@@ -78,11 +78,12 @@ TEST(CheckFunctions, SolidsEndWhereTheyAreDrawn) {
 }
 
 // Of a camera 2 m away whose picture is 2 tan(0.5) m high at 1 m, and twice as wide: ends at 2 m × tan(0.5) = 1.09 m.
+// An upright picture ends where one of 16:9 does to the left and right: at 1.94 m, and at twice that above.
 TEST(CheckFunctions, PicturesEndAtTheirEdges) {
-    const auto shareOf = [](const char* ends) {
-        const world::World world(sceneOf(std::string("[picture]\nsize = [200, 100]\n[camera.main]\neye = [0, 0, 2]\n"
-                                                     "target = [0, 0, 0]\nfov_deg = 57.295779513\n"
-                                                     "[rope.r]\nsegments = 1\nends = ") +
+    const auto shareOf = [](const std::string& ends, const std::string& size = "[200, 100]") {
+        const world::World world(sceneOf("[picture]\nsize = " + size +
+                                         "\n[camera.main]\neye = [0, 0, 2]\ntarget = [0, 0, 0]\n"
+                                         "fov_deg = 57.295779513\n[rope.r]\nsegments = 1\nends = " +
                                          ends));
         return valueIn(world, "in_picture(rope.r)");
     };
@@ -91,6 +92,8 @@ TEST(CheckFunctions, PicturesEndAtTheirEdges) {
     EXPECT_EQ(shareOf("[[2.18, 0, 0], [-2.18, 0, 0]]"), 1.0);
     EXPECT_EQ(shareOf("[[2.19, 0, 0], [-2.19, 0, 0]]"), 0.0);
     EXPECT_EQ(shareOf("[[0, 0, 1], [0, 0, 3]]"), 0.5);  // one is behind
+    EXPECT_EQ(shareOf("[[1.94, 3.88, 0], [-1.95, 0, 0]]", "[100, 200]"), 0.5);
+    EXPECT_EQ(shareOf("[[1.94, 3.89, 0], [-1.94, 0, 0]]", "[100, 200]"), 0.5);
 }
 
 // A push of (2, 0, 0) N s on 1 kg and of (0, 3, 0) N s on 3 kg.

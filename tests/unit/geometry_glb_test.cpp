@@ -186,6 +186,20 @@ TEST(Glb, CompactMovementsAreRoundedToSixteenBits) {
     }
 }
 
+TEST(Glb, UprightPicturesAreAsWideAs16To9) {
+    const auto path = test::emptyFolder("upright") / "film.glb";
+    geometry::GeometryOptions options;
+    options.aspect = 9.0 / 16.0;
+    geometry::GlbWriter writer(path, options);
+    test::Film film;
+    const view::FrameView view = film.frame(0, 1.0F);
+    writer.write(view);
+    writer.finish();
+    const double high = Glb(path).text["cameras"][0]["perspective"]["yfov"];
+    const auto field = static_cast<double>(view.camera.fieldOfView);
+    EXPECT_NEAR(std::tan(0.5 * high) * 9.0 / 16.0, std::tan(0.5 * field) * 16.0 / 9.0, 1e-6);  // floats
+}
+
 TEST(Glb, TextureCoordinatesAreOfWhatTheyChange) {
     const auto has = [](const auto& change) {
         view::Finish finish;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "taut/live/orbit.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::live {
 namespace {
@@ -54,6 +55,24 @@ TEST(Picking, APlaceIsSeenWhereTheRayThroughItGoes) {
         EXPECT_NEAR(at->x, place.x, 1e-6);  // a camera has floats
         EXPECT_NEAR(at->y, place.y, 1e-6);
         EXPECT_FALSE(seenAt(camera, ray.from - ray.along, 1.5));
+    }
+}
+
+// What 16:9 shows at its left and right edge is at the edges of an upright picture too, as drawing has it.
+TEST(Picking, UprightPicturesAreAsWideAs16To9) {
+    const view::Camera camera = ahead();
+    for (const double x : {0.001, 0.5, 0.999}) {
+        const Ray ray = rayThrough(camera, {x, 0.5}, 16.0 / 9.0);
+        for (const double aspect : {390.0 / 780.0, 405.0 / 720.0, 4.0 / 3.0, 16.0 / 9.0, 2.4}) {
+            const glm::dvec3 place = ray.from + 3.0 * ray.along + glm::dvec3(0.0, 0.3, 0.0);
+            const auto at = seenAt(camera, place, aspect);
+            ASSERT_TRUE(at);
+            const double share = std::min(16.0 / 9.0 / aspect, 1.0);      // of a wider picture
+            EXPECT_NEAR(at->x, 0.5 + (x - 0.5) * share, 1e-6) << aspect;  // a camera has floats
+            const glm::vec4 clip = projectionOf(camera, static_cast<float>(aspect)) * glm::vec4(place, 1.0F);
+            EXPECT_NEAR(at->x, 0.5 + 0.5 * static_cast<double>(clip.x / clip.w), 1e-6) << aspect;
+            EXPECT_NEAR(at->y, 0.5 - 0.5 * static_cast<double>(clip.y / clip.w), 1e-6) << aspect;
+        }
     }
 }
 

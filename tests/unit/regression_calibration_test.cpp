@@ -142,21 +142,21 @@ TEST(Mutants, ChangeWhatTheySay) {
     view::FrameView view;
     view.camera.eye = {0.0F, 0.0F, 10.0F};
     view.camera.target = {0.0F, 0.0F, 0.0F};
-    all[3].ofView(view, 100);
+    all[3].ofView(view, {200, 100});
     // 10 m away a hundred pixels span 2 · 10 · tan(fov / 2).
     EXPECT_NEAR(view.camera.target.x, 0.2F * std::tan(0.35F), 1e-5);
     // One light at a time.
     view.lamps.resize(2);
     const glm::vec3 sun = view.light.colour, sky = view.light.sky;
-    all[4].ofView(view, 100);
+    all[4].ofView(view, {200, 100});
     EXPECT_EQ(view.light.colour, 0.98F * sun);
     EXPECT_EQ(view.light.sky, sky);
-    all[5].ofView(view, 100);
+    all[5].ofView(view, {200, 100});
     EXPECT_EQ(view.light.sky, 0.98F * sky);
-    all[7].ofView(view, 100);
+    all[7].ofView(view, {200, 100});
     EXPECT_EQ(view.lamps[0].colour, glm::vec3(1.0F));
     EXPECT_EQ(view.lamps[1].colour, glm::vec3(0.98F));
-    all[8].ofView(view, 100);
+    all[8].ofView(view, {200, 100});
     EXPECT_EQ(view.light.softness, 1.5F * view::Light{}.softness);
 }
 

@@ -19,6 +19,7 @@
 #include "taut/geometry/private/gltf_text.h"
 #include "taut/geometry/private/parts.h"
 #include "taut/geometry/private/poses.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::geometry {
 namespace {
@@ -300,7 +301,7 @@ std::string GlbWriter::Impl::json() {
         jsonText(options.generator), shining.text(), joinedNumbers(nodes.count()), sceneExtras(), nodes.text());
     text += fmt::format(
         R"(,"cameras":[{{"type":"perspective","perspective":{{"aspectRatio":{},"yfov":{},"znear":{},"zfar":{}}}}}])",
-        options.aspect, camera.fieldOfView, camera.nearPlane, camera.farPlane);
+        options.aspect, verticalField(camera, static_cast<float>(options.aspect)), camera.nearPlane, camera.farPlane);
     const auto add = [&](const char* key, const JsonItems& items) {
         if (items.count() > 0) text += fmt::format(R"(,"{}":[{}])", key, items.text());
     };

@@ -17,6 +17,7 @@
 #include "taut/geometry/private/parts.h"
 #include "taut/geometry/private/poses.h"
 #include "taut/geometry/private/usda_samples.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::geometry {
 namespace {
@@ -178,7 +179,8 @@ void UsdaWriter::write(const view::FrameView& view) {
     w.last = view.frame;
     const glm::mat4 eye = looking(view.camera.eye, view.camera.target - view.camera.eye, view.camera.up);
     w.camera.update(w.last, matrixText(eye), w.scratch);
-    const double length = 0.5 * aperture / std::tan(0.5 * static_cast<double>(view.camera.fieldOfView));
+    const float field = verticalField(view.camera, static_cast<float>(w.options.aspect));
+    const double length = 0.5 * aperture / std::tan(0.5 * static_cast<double>(field));
     w.focalLength.update(w.last, fmt::format("{:.6g}", length), w.scratch);
     std::vector<std::string> seen;
     for (const Part& part : w.finder.partsOf(view)) {

@@ -67,7 +67,7 @@ PickedPoint nearestTo(const BodyPoints& body, const glm::dvec3& place) {
 
 Ray rayThrough(const view::Camera& camera, glm::dvec2 place, double aspect) {
     const view::CameraAxes axes = view::axesOf(camera);
-    const double half = std::tan(0.5 * static_cast<double>(camera.fieldOfView));
+    const double half = std::tan(0.5 * static_cast<double>(verticalField(camera, static_cast<float>(aspect))));
     const glm::dvec2 offset = half * glm::dvec2((2.0 * place.x - 1.0) * aspect, 1.0 - 2.0 * place.y);
     return {glm::dvec3(camera.eye), glm::normalize(glm::dvec3(axes.forward) + offset.x * glm::dvec3(axes.right) +
                                                    offset.y * glm::dvec3(axes.up))};
@@ -78,7 +78,7 @@ std::optional<glm::dvec2> seenAt(const view::Camera& camera, glm::dvec3 place, d
     const glm::dvec3 offset = place - glm::dvec3(camera.eye);
     const double ahead = glm::dot(offset, glm::dvec3(axes.forward));
     if (!(ahead > 0.0)) return std::nullopt;
-    const double half = ahead * std::tan(0.5 * static_cast<double>(camera.fieldOfView));
+    const double half = ahead * std::tan(0.5 * static_cast<double>(verticalField(camera, static_cast<float>(aspect))));
     return glm::dvec2(0.5 + 0.5 * glm::dot(offset, glm::dvec3(axes.right)) / (half * aspect),
                       0.5 - 0.5 * glm::dot(offset, glm::dvec3(axes.up)) / half);
 }

@@ -160,7 +160,7 @@ class Calibration {
         Drawer& drawer = mutant.withoutShadows ? *shadowless_ : drawer_;
         for (const PlayedPicture& picture : right_.pictures) {
             view::FrameView view = picture.view;
-            if (mutant.ofView) mutant.ofView(view, picture.request.size.y);
+            if (mutant.ofView) mutant.ofView(view, picture.request.size);
             const image::Image now = drawer.draw(view, scenario_->spec.picture, picture.request.size);
             CalibrationRow found = row(picture, mutant.name, &now);
             found.isMutant = true;

@@ -6,6 +6,7 @@
 #include "taut/bodies/net.h"
 #include "taut/scene/private/by_key.h"
 #include "taut/spec/actions.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::regression {
 namespace {
@@ -68,29 +69,29 @@ std::optional<world::SceneSpec> withoutOneSpring(world::SceneSpec spec, const Is
 }
 
 // Turned about the eye by what one pixel spans in the middle of the picture.
-void turnByOnePixel(view::FrameView& view, int height) {
+void turnByOnePixel(view::FrameView& view, glm::ivec2 size) {
     const glm::vec3 ahead = view.camera.target - view.camera.eye;
     const glm::vec3 right = glm::normalize(glm::cross(ahead, view.camera.up));
-    const float pixel = 2.0F * std::tan(0.5F * view.camera.fieldOfView) / static_cast<float>(height);
+    const float pixel = 2.0F * std::tan(0.5F * verticalField(view.camera, size)) / static_cast<float>(size.y);
     view.camera.target += right * (glm::length(ahead) * pixel);
 }
 
 // Too weak for any pixel to count alone in most pictures.
 constexpr float dimmed = 0.98F;
-void dimSun(view::FrameView& view, int) {
+void dimSun(view::FrameView& view, glm::ivec2) {
     view.light.colour *= dimmed;
 }
-void dimSurroundings(view::FrameView& view, int) {
+void dimSurroundings(view::FrameView& view, glm::ivec2) {
     for (glm::vec3* light : {&view.light.sky, &view.light.ground}) *light *= dimmed;
     if (view.environment) view.environment->strength *= dimmed;
 }
 template <std::size_t number>
-void dimLamp(view::FrameView& view, int) {
+void dimLamp(view::FrameView& view, glm::ivec2) {
     if (number < view.lamps.size()) view.lamps[number].colour *= dimmed;
 }
 static_assert(view::mostLamps == 2);
 
-void widenPenumbra(view::FrameView& view, int) {
+void widenPenumbra(view::FrameView& view, glm::ivec2) {
     view.light.softness *= 1.5F;
 }
 

@@ -22,7 +22,7 @@ struct Mutant {
         ofScene{};
 
     // Of the picture: its view, or the renderer.
-    std::function<void(view::FrameView& view, int height)> ofView{};
+    std::function<void(view::FrameView& view, glm::ivec2 size)> ofView{};
     bool withoutShadows = false;
 
     bool isOfState() const { return static_cast<bool>(ofScene); }

@@ -19,7 +19,8 @@ class GroundRays {
   public:
     GroundRays(const view::FrameView& view, int width, int height) : view_(view) {
         const view::CameraAxes axes = axesOf(view.camera);
-        const double pixel = 2.0 * std::tan(0.5 * static_cast<double>(view.camera.fieldOfView)) / height;  // 1 m ahead
+        const double pixel = 2.0 * std::tan(0.5 * static_cast<double>(verticalField(view.camera, {width, height}))) /
+                             height;  // 1 m ahead
         right_ = pixel * glm::dvec3(axes.right);
         up_ = pixel * glm::dvec3(axes.up);
         first_ = glm::dvec3(axes.forward) - 0.5 * width * right_ - 0.5 * height * up_;

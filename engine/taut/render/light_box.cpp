@@ -14,7 +14,7 @@ namespace {
 Bounds seenPart(const view::FrameView& view, const glm::mat3& toLight, float aspect) {
     const view::Camera& camera = view.camera;
     const view::CameraAxes axes = axesOf(camera);
-    const float tangent = std::tan(0.5F * camera.fieldOfView);
+    const float tangent = std::tan(0.5F * verticalField(camera, aspect));
     const float far = std::min(farPlaneOf(camera), glm::distance(camera.eye, camera.target) + fadeOf(view).end);
     Bounds seen;
     seen.include(toLight * camera.eye);

@@ -221,8 +221,8 @@ RendererInfo Renderer::info() const {
 
 Scene Renderer::Impl::sceneOf(const view::FrameView& view) {
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-    Scene scene{view,   parts->meshes.items(view.surfaces),     {}, {}, {}, {}, {}, {},
-                aspect, PixelScale(view.camera, options.height)};
+    const PixelScale scale(view.camera, {options.width, options.height});
+    Scene scene{view, parts->meshes.items(view.surfaces), {}, {}, {}, {}, {}, {}, aspect, scale};
     sortByDistance(scene.items, view.camera.eye);
     for (const DrawItem& item : scene.items) {
         scene.casters.push_back(item.bounds);
@@ -357,8 +357,7 @@ Drawn Renderer::Impl::drawAll(const Scene& scene) {
         if (hasLens) {
             const glm::vec2 place = view.camera.lensRadius * view::placeOnLens(i);
             moveAside(seen.camera, place);
-            aside = place * (0.5F * static_cast<float>(options.height) /
-                             (std::tan(0.5F * view.camera.fieldOfView) * view.camera.focus));
+            aside = place * scene.scale.pixels(1.0F, view.camera.focus);
         }
         const Scene moment = sceneOf(seen);
         mean.add(draw(moment, passOf(moment, i % shifts, aside)));

@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "taut/render/private/edge_pass.h"
+#include "taut/view/camera_axes.h"
 
 namespace taut::render {
 
@@ -104,7 +105,8 @@ void SurfacePass::light(const LightKind& kind, const view::Camera& camera, const
     if (materials_.empty() || part.width == 0 || part.height == 0) return;
     uploadMaterials();
     const view::CameraAxes axes = axesOf(camera);
-    const float pixel = 2.0F * std::tan(0.5F * camera.fieldOfView) / static_cast<float>(size.y);  // [m] 1 m ahead
+    const float pixel =
+        2.0F * std::tan(0.5F * verticalField(camera, size)) / static_cast<float>(size.y);  // [m] 1 m ahead
     const glm::vec2 half = 0.5F * glm::vec2(size) + shift;
     Program& light = programUnder(kind);
     light.use();

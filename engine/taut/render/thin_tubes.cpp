@@ -109,10 +109,10 @@ void layTile(const PixelBox& tile, const CoveredTile& covered, const ThinLayer& 
 
 }  // namespace
 
-PixelScale::PixelScale(const view::Camera& camera, int height)
+PixelScale::PixelScale(const view::Camera& camera, glm::ivec2 size)
     : eye_(camera.eye),
       forward_(axesOf(camera).forward),
-      focal_(0.5F * static_cast<float>(height) / std::tan(0.5F * camera.fieldOfView)) {}
+      focal_(0.5F * static_cast<float>(size.y) / std::tan(0.5F * verticalField(camera, size))) {}
 
 bool isThin(const DrawItem& item, const PixelScale& scale) {
     const float radius = item.surface->tubeRadius;

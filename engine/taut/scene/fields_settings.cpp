@@ -304,7 +304,7 @@ SceneSection cameraSection() {
                      .vector("target", &CameraKey::target, "m", Range{-1e6, 1e6}, "What it looks at.")
                      .required()
                      .degrees("fov_deg", &CameraKey::fieldOfView, fieldOfView,
-                              "Vertical field of view; the camera's own if not given.")
+                              "Field of view, as that of the camera, which counts if not given.")
                      .choice("ease", &CameraKey::ease, easeNames(), "Way from the key before to this one.")
                      .take();
     SceneSection section;
@@ -326,7 +326,8 @@ SceneSection cameraSection() {
                          .vector("target", &CameraSpec::target, "m", Range{-1e6, 1e6}, "What it looks at.")
                          .ramps(inPicture)
                          .only({"a still camera", "an orbiting camera"})
-                         .degrees("fov_deg", &CameraSpec::fieldOfView, fieldOfView, "Vertical field of view.")
+                         .degrees("fov_deg", &CameraSpec::fieldOfView, fieldOfView,
+                                  "Vertical field of view; pictures narrower than 16:9 show the width that 16:9 does.")
                          .ramps(inPicture)
                          .number("orbit_period_s", &CameraSpec::orbitPeriod, "s", Range{-1e6, 1e6},
                                  "Time of one turn about the vertical through the target.")

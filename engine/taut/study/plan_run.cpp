@@ -13,6 +13,7 @@
 #include "taut/ecs/registry.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/ticks.h"
+#include "taut/view/camera_axes.h"
 #include "taut/world/components.h"
 #include "taut/world/world.h"
 
@@ -152,7 +153,7 @@ double pixelAt(const world::World& world, const world::SceneSpec& model, const S
         const double depth = glm::dot(x - dvec3(camera.eye), ahead);
         if (depth > static_cast<double>(camera.nearPlane)) nearest = std::min(nearest, depth);
     }
-    const double height = 2 * std::tan(0.5 * static_cast<double>(camera.fieldOfView));
+    const double height = 2 * std::tan(0.5 * static_cast<double>(verticalField(camera, model.picture.size)));
     return nearest < HUGE_VAL ? nearest * height / model.picture.size.y : 0.0;
 }
 

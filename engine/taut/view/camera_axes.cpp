@@ -31,6 +31,15 @@ Fade fadeOf(const FrameView& view) {
     return {scale * background.fadeStart, scale * background.fadeEnd};
 }
 
+float verticalField(const Camera& camera, float aspect) {
+    constexpr float least = 16.0F / 9.0F;
+    if (aspect >= least) return camera.fieldOfView;
+    return 2.0F * std::atan(std::tan(0.5F * camera.fieldOfView) * (least / aspect));
+}
+float verticalField(const Camera& camera, glm::ivec2 size) {
+    return verticalField(camera, static_cast<float>(size.x) / static_cast<float>(size.y));
+}
+
 float farPlaneOf(const Camera& camera) {
     return std::max(camera.farPlane, 4.0F * glm::distance(camera.eye, camera.target));
 }
@@ -40,7 +49,7 @@ glm::mat4 projectionOf(const Camera& camera, float aspect) {
     glm::mat4 view(glm::transpose(glm::mat3(axes.right, axes.up, -axes.forward)));
     view[3] = view * glm::vec4(-camera.eye, 1.0F);
     const float nearPlane = std::max(camera.nearPlane, 1e-3F * glm::distance(camera.eye, camera.target));
-    return glm::perspective(camera.fieldOfView, aspect, nearPlane, farPlaneOf(camera)) * view;
+    return glm::perspective(verticalField(camera, aspect), aspect, nearPlane, farPlaneOf(camera)) * view;
 }
 
 glm::vec2 placeOnLens(std::size_t number) {

@@ -21,8 +21,12 @@ struct Fade {
 };
 Fade fadeOf(const FrameView& view);
 
-// The matrix from world to GL clip coordinates, with near and far planes that suit the camera's distance. `aspect` is
-// width / height of the picture, above zero.
+// The vertical angle of a picture [rad]; `aspect` is width / height, above zero. It is the camera's in pictures of 16:9
+// and wider. A narrower picture shows the width that 16:9 does, and so more above and below.
+float verticalField(const Camera& camera, float aspect);
+float verticalField(const Camera& camera, glm::ivec2 size);  // of the picture
+
+// The matrix from world to GL clip coordinates, with near and far planes that suit the camera's distance.
 float farPlaneOf(const Camera& camera);  // [m]
 glm::mat4 projectionOf(const Camera& camera, float aspect);
 

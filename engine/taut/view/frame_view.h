@@ -63,7 +63,7 @@ struct Camera {
     glm::vec3 eye{0.0F, 1.5F, 5.0F};     // [m]
     glm::vec3 target{0.0F, 1.0F, 0.0F};  // [m]
     glm::vec3 up{0.0F, 1.0F, 0.0F};
-    float fieldOfView = 0.7F;  // [rad] vertical
+    float fieldOfView = 0.7F;  // [rad] vertical in pictures of 16:9 and wider: verticalField()
     float nearPlane = 0.05F;   // [m]
     float farPlane = 200.0F;   // [m]
     float lensRadius = 0.0F;   // [m] of a thin lens; 0: all is sharp

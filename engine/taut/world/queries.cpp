@@ -7,6 +7,7 @@
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island_report.h"
 #include "taut/spec/targets.h"
+#include "taut/view/camera_axes.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/joints.h"
@@ -175,15 +176,11 @@ double World::asleepShare() const {
 
 double World::shareInPicture(std::span<const dvec3> places) const {
     const view::Camera camera = cameraOfPictures(*impl_, impl_->seconds());
-    const dvec3 eye(camera.eye), ahead = glm::normalize(dvec3(camera.target) - eye);
-    const dvec3 right = glm::normalize(glm::cross(ahead, dvec3(camera.up))), up = glm::cross(right, ahead);
-    const ivec2 size = impl_->spec.picture.size;
-    const double high = std::tan(0.5 * static_cast<double>(camera.fieldOfView)), wide = high * size.x / size.y;
+    const glm::vec2 size(impl_->spec.picture.size);
+    const glm::dmat4 toClip(view::projectionOf(camera, size.x / size.y));
     const auto count = std::count_if(places.begin(), places.end(), [&](const dvec3& place) {
-        const dvec3 way = place - eye;
-        const double depth = glm::dot(way, ahead);
-        return depth > 0 && std::abs(glm::dot(way, right)) <= wide * depth &&
-               std::abs(glm::dot(way, up)) <= high * depth;
+        const glm::dvec4 clip = toClip * glm::dvec4(place, 1.0);
+        return std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
     });
     return static_cast<double>(count) / static_cast<double>(places.size());
 }

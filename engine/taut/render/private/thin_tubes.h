@@ -19,7 +19,7 @@ inline constexpr float coveringRadius = 0.6F, shadedRadius = 1.5F;
 // How large things are seen.
 class PixelScale {
   public:
-    PixelScale(const view::Camera& camera, int height);
+    PixelScale(const view::Camera& camera, glm::ivec2 size);  // of the picture
 
     float ahead(glm::vec3 place) const { return glm::dot(place - eye_, forward_); }  // [m] along the camera's axis
     float pixels(float length, float ahead) const { return length * focal_ / ahead; }

@@ -1,13 +1,20 @@
 // The film in the page: what is in it, and where that is at a time. It draws nothing.
 'use strict';
 
-function filmBytes() {
-  const element = document.getElementById('film');
-  const text = atob(element.textContent);
-  element.textContent = '';  // it is no longer needed, and large
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < bytes.length; ++i) bytes[i] = text.charCodeAt(i);
-  return bytes.buffer;
+// (targets) (numbers) whole numbers of steps from the first shape, as addMoves() of glb_writer.cpp packs them.
+function movesIn(bytes, count) {
+  const targets = [], changes = new Int16Array(count);
+  let before = new Int16Array(count);
+  for (let low = 0; low < bytes.length; low += 2 * count) {
+    const now = new Int16Array(count);
+    for (let i = 0; i < count; ++i) {
+      const kept = bytes[low + i] | bytes[low + count + i] << 8;
+      changes[i] = ((kept >> 1) ^ -(kept & 1)) + (i < 3 ? 0 : changes[i - 3]);
+      now[i] = before[i] + changes[i];
+    }
+    targets.push(before = now);
+  }
+  return targets;
 }
 
 // Something whose vertices move: it has the places of all keys, and shows those of one time.
@@ -16,20 +23,18 @@ class MovingShape {
     const loaded = mesh.geometry;
     this.mesh = mesh;
     this.first = loaded.attributes.position.array;
-    this.targets = [];      // whole numbers of steps [m] from the first shape
+    this.targets = [];
     this.targetOf = null;   // (keys) 0 is the first shape; null: it does not change shape
-    if (!loaded.morphAttributes.position) return;
-    this.targets = loaded.morphAttributes.position.map((attribute) => attribute.array);
-    Object.assign(this, mesh.userData.taut);
+    if (!mesh.userData.taut) return;
     // Vertices are moved here, not by morph targets on the graphics card, which has room for 256 of them at most.
+    const {step, moves, targetOf} = mesh.userData.taut;
+    Object.assign(this, {step, targetOf, targets: movesIn(moves, this.first.length)});  // step: [m]
     const geometry = new THREE.BufferGeometry();
     geometry.setIndex(loaded.index);
     if (loaded.attributes.uv) geometry.setAttribute('uv', loaded.attributes.uv);
     for (const name of ['position', 'normal'])
       geometry.setAttribute(name, new THREE.BufferAttribute(loaded.attributes[name].array.slice(), 3));
     mesh.geometry = geometry;
-    delete mesh.morphTargetInfluences;
-    delete mesh.morphTargetDictionary;
     this.findSmooth(loaded.attributes.normal.array);
   }
 
@@ -48,13 +53,13 @@ class MovingShape {
   // Between key and key + 1, by a share of 0 … 1.
   show(key, share) {
     if (!this.targetOf) return;
-    const {first, targets, steps, targetOf} = this, attribute = this.mesh.geometry.attributes.position;
+    const {first, targets, targetOf} = this, attribute = this.mesh.geometry.attributes.position;
     const a = targetOf[key], b = targetOf[Math.min(key + 1, targetOf.length - 1)];
     const out = attribute.array;
     out.set(first);
     for (const [target, part] of [[a, 1 - share], [b, share]]) {
       if (target === 0 || part === 0) continue;
-      const moves = targets[target - 1], step = part * steps[target - 1];
+      const moves = targets[target - 1], step = part * this.step;
       for (let i = 0; i < out.length; ++i) out[i] += step * moves[i];
     }
     attribute.needsUpdate = true;
@@ -85,8 +90,8 @@ class MovingShape {
 
   // Grows `box` by all that is ever reached, in the frame of the world where the node rests.
   addTo(box) {
-    const point = new THREE.Vector3(), first = this.first;
-    const add = (moves, step) => {
+    const point = new THREE.Vector3(), {first, step} = this;
+    const add = (moves) => {
       for (let i = 0; i < first.length; i += 3) {
         point.set(first[i], first[i + 1], first[i + 2]);
         if (moves) point.set(point.x + step * moves[i], point.y + step * moves[i + 1], point.z + step * moves[i + 2]);
@@ -94,7 +99,7 @@ class MovingShape {
       }
     };
     add(null);
-    this.targets.forEach((moves, i) => add(moves, this.steps[i]));
+    this.targets.forEach(add);
   }
 }
 
@@ -163,8 +168,11 @@ class Film {
   }
 }
 
-function readFilm() {
-  return new Promise((resolve, reject) => {
-    new THREE.GLTFLoader().parse(filmBytes(), '', (gltf) => resolve(new Film(gltf)), reject);
-  });
+async function readFilm() {
+  const bytes = await unpacked('film');
+  const gltf = await new Promise((resolve, reject) => new THREE.GLTFLoader().parse(bytes, '', resolve, reject));
+  const moving = [];
+  gltf.scene.traverse((node) => { if (node.isMesh && node.userData.taut) moving.push(node.userData.taut); });
+  for (const own of moving) own.moves = new Uint8Array(await gltf.parser.getDependency('bufferView', own.moves));
+  return new Film(gltf);
 }

@@ -19,12 +19,6 @@ const help = [
 
 function element(name) { return document.getElementById(name); }
 
-function bytesOf(base64) {
-  const text = atob(base64), bytes = new Uint8Array(text.length);
-  for (let i = 0; i < bytes.length; ++i) bytes[i] = text.charCodeAt(i);
-  return bytes;
-}
-
 function download(name, text) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([text], {type: 'text/plain'}));
@@ -457,14 +451,6 @@ class LivePage {
   }
 }
 
-// What the page holds in base64 of a gzip file.
-async function engineBytes() {
-  const held = element('engine'), bytes = bytesOf(held.textContent);
-  held.textContent = '';  // it is no longer needed, and large
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Response(stream).arrayBuffer();
-}
-
 // The modules of the engine, which the page holds as texts: one asks for the other by its name.
 function engineModule(modules) {
   const place = (text) => URL.createObjectURL(new Blob([text], {type: 'text/javascript'}));
@@ -493,7 +479,7 @@ async function startLive() {
     const given = JSON.parse(element('live').textContent);
     for (const [name, content] of Object.entries(given.scene.files)) given.scene.files[name] = bytesOf(content);
     const taut = await engineModule(given.modules);
-    await taut.start(await engineBytes());
+    await taut.start(await unpacked('engine'));
     const page = new LivePage(taut, new THREE.WebGLRenderer({canvas, context}), given);
     window.taut = page;  // for scripts
     await page.open(page.scene, {});

@@ -11,6 +11,20 @@ const finenesses = [
 const skyMargin = 0.8;  // [m] how far things darken the ground around them
 const widestNarrow = 0.07, widestReach = 32;  // [rad], [128ths of the map], as lights.h and lights.cpp have them
 
+function bytesOf(base64) {
+  const text = atob(base64), bytes = new Uint8Array(text.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+// What the page holds in base64 of a gzip file.
+async function unpacked(name) {
+  const held = document.getElementById(name), bytes = bytesOf(held.textContent);
+  held.textContent = '';  // it is no longer needed, and large
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Response(stream).arrayBuffer();
+}
+
 // A shader in the page, with what it includes.
 function shaderText(name) {
   return document.getElementById(name).textContent.replace(/^#include "(.*)"$/gm, (_, other) => shaderText(other));

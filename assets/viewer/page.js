@@ -127,6 +127,10 @@ function startPage() {
     message.textContent = 'This page draws with WebGL 2, which this browser lacks or has turned off.';
     return;
   }
+  if (typeof DecompressionStream !== 'function') {
+    message.textContent = 'This page needs DecompressionStream, which browsers from 2023 on have.';
+    return;
+  }
   readFilm().then((film) => {
     const picture = new Picture(new THREE.WebGLRenderer({canvas, context}), film);
     const player = new Player(film, picture);

@@ -15,7 +15,7 @@ struct GeometryOptions {
     double fps = 60.0;               // frames a second of scene time
     double aspect = 16.0 / 9.0;      // width of the picture over its height
     bool normals = true;             // written with every frame
-    bool isCompact = false;          // GLB for taut's own pages: movements of 16 bits, normals of the first frame alone
+    bool isCompact = false;          // GLB for taut's own pages: moves of 16 bits, normals of the first frame alone
     int digits = 5;                  // behind the point, in formats of text; 1 … 9
     std::string generator = "taut";  // named in the file
     // Of what is wanted, by its full name: "cloth.flag", "collider.ball", "ground"; null: everything.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -69,7 +71,9 @@ struct GlbWriter::Impl {
         std::string attributes;
         std::size_t indices = 0;
         JsonItems targets;
-        JsonItems steps;  // (targets) [m], compact: of one of its whole numbers
+        std::size_t targetCount = 0;
+        std::vector<ScratchFile::Piece> moves;  // (targets) in `shapes`, compact: as vectors
+        float farthest = 0.0F;                  // [m] along an axis, of all moves
         std::shared_ptr<const view::Geometry> last;
         std::vector<std::size_t> targetOf;  // (keys) 0: the shape at first, else the number of the target, from 1
         std::vector<glm::mat4> transforms;  // (keys)
@@ -77,12 +81,17 @@ struct GlbWriter::Impl {
     };
 
     Impl(std::filesystem::path file, GeometryOptions given)
-        : path(std::move(file)), options(std::move(given)), finder(options.isWanted), data(path) {}
+        : path(std::move(file)),
+          options(std::move(given)),
+          finder(options.isWanted),
+          data(path),
+          shapes(path.string() + ".moves") {}
 
     std::filesystem::path path;
     GeometryOptions options;
     PartFinder finder;
     GltfData data;
+    ScratchFile shapes;  // until the farthest move of all frames is known
     std::vector<Track> tracks;
     std::map<std::string, std::size_t> trackOf;  // by identifier
     std::vector<float> times;                    // (keys) [s]
@@ -103,6 +112,7 @@ struct GlbWriter::Impl {
 
     void addTrack(const Part& part);
     void addTarget(Track& track, const view::Geometry& now, std::size_t view);
+    std::size_t addMoves(const Track& track, float step);
     void checkSize() const;
 
     std::size_t material(const Part& part);
@@ -149,15 +159,11 @@ void GlbWriter::Impl::addTarget(Track& track, const view::Geometry& now, std::si
     };
     const view::Geometry& first = *track.part.geometry;
     const std::vector<glm::vec3> moves = differences(now.positions, first.positions);
+    track.targetOf.push_back(++track.targetCount);
     if (options.isCompact) {
-        float most = 0.0F;
         for (const glm::vec3& move : moves)
-            for (int axis = 0; axis < 3; ++axis) most = std::max(most, std::abs(move[axis]));
-        const float step = std::max(most, 1e-30F) / 32767.0F;
-        std::vector<glm::i16vec3> steps;
-        for (const glm::vec3& move : moves) steps.emplace_back(glm::round(move / step));
-        track.targets.add(fmt::format(R"({{"POSITION":{}}})", data.addVectors(steps, view)));
-        track.steps.add(fmt::format("{}", step));
+            for (int axis = 0; axis < 3; ++axis) track.farthest = std::max(track.farthest, std::abs(move[axis]));
+        track.moves.push_back(shapes.add(std::as_bytes(std::span(moves))));
         return;
     }
     std::string target = fmt::format(R"({{"POSITION":{})", data.addVectors(moves, true, view));
@@ -166,12 +172,41 @@ void GlbWriter::Impl::addTarget(Track& track, const view::Geometry& now, std::si
     track.targets.add(target + "}");
 }
 
+// The moves of all targets as whole numbers of steps, in a form that packs well; movesIn() of film.js reads it. Of each
+// number there are 16 bits of its change since the target before, less that of the vertex before, with the sign in the
+// lowest bit: all low bytes of a target, then all high ones.
+std::size_t GlbWriter::Impl::addMoves(const Track& track, float step) {
+    const std::size_t count = 3 * track.part.geometry->positions.size();
+    std::vector<float> moves(count);
+    std::vector<std::uint16_t> before(count), changes(count);
+    std::vector<std::byte> content;
+    for (const ScratchFile::Piece& piece : track.moves) {
+        auto to = std::as_writable_bytes(std::span(moves));
+        shapes.visit(piece, [&](std::span<const std::byte> bytes) {
+            std::copy(bytes.begin(), bytes.end(), to.begin());
+            to = to.subspan(bytes.size());
+        });
+        const std::size_t low = content.size(), high = low + count;
+        content.resize(high + count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto now = static_cast<std::uint16_t>(std::lround(moves[i] / step));
+            changes[i] = static_cast<std::uint16_t>(now - before[i]);
+            before[i] = now;
+            const int more = static_cast<std::int16_t>(changes[i] - (i < 3 ? 0 : changes[i - 3]));
+            const auto kept = static_cast<std::uint16_t>(more < 0 ? -2 * more - 1 : 2 * more);
+            content[low + i] = static_cast<std::byte>(kept & 255U);
+            content[high + i] = static_cast<std::byte>(kept >> 8U);
+        }
+    }
+    return data.addBytes(content);
+}
+
 void GlbWriter::Impl::checkSize() const {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     // The JSON half, and weights: a number a key and target.
     const std::uint64_t rest = data.views.text().size() + data.accessors.text().size() +
                                4 * times.size() * times.size() + (std::uint64_t{1} << 20U);
-    if (data.bytes.size() + rest * 2 < most) return;
+    if (data.bytes.size() + shapes.size() / 2 + rest * 2 < most) return;
     throw core::Error(core::ErrorKind::badContent,
                       fmt::format("{}: more than 4 GB, the most that GLB holds, at {} frames: leave frames out with "
                                   "--every, take some of them with --frames or some bodies with --only, or write .usda",
@@ -205,9 +240,9 @@ std::size_t GlbWriter::Impl::material(const Part& part) {
 std::size_t GlbWriter::Impl::weights(const Track& track) {
     const auto [entry, isNew] = weightsOf.try_emplace(track.targetOf, 0);
     if (!isNew) return entry->second;
-    std::vector<float> values(track.targetOf.size() * track.targets.count(), 0.0F);
+    std::vector<float> values(track.targetOf.size() * track.targetCount, 0.0F);
     for (std::size_t key = 0; key < track.targetOf.size(); ++key)
-        if (track.targetOf[key] > 0) values[key * track.targets.count() + track.targetOf[key] - 1] = 1.0F;
+        if (track.targetOf[key] > 0) values[key * track.targetCount + track.targetOf[key] - 1] = 1.0F;
     return entry->second = data.addScalars(values, false);
 }
 
@@ -237,19 +272,20 @@ std::string GlbWriter::Impl::pose(const std::vector<glm::mat4>& matrices, std::s
 
 void GlbWriter::Impl::addNode(const Track& track) {
     const std::string name = jsonText(track.part.identifier);
-    const std::size_t targets = track.targets.count();
-    std::string shapes, more;
-    if (targets > 0) shapes = ",\"targets\":[" + track.targets.text() + "]";
+    const std::size_t targets = track.targetCount;
+    std::string morphs, more;
     if (targets > 0 && options.isCompact) {
-        more = fmt::format(R"(,"extras":{{"taut":{{"steps":[{}],"targetOf":[{}]}}}})", track.steps.text(),
-                           fmt::join(track.targetOf, ","));
+        const float step = std::max(track.farthest, 1e-30F) / 32767.0F;  // [m]
+        more = fmt::format(R"(,"extras":{{"taut":{{"step":{},"moves":{},"targetOf":[{}]}}}})", step,
+                           addMoves(track, step), fmt::join(track.targetOf, ","));
     } else if (targets > 0) {
+        morphs = ",\"targets\":[" + track.targets.text() + "]";
         for (std::size_t i = 0; i < targets; ++i) more += i > 0 ? ",0" : "0";
         more = ",\"weights\":[" + more + "]";  // the default, without which some readers fail
     }
     const std::size_t mesh =
         meshes.add(fmt::format(R"({{"name":{},"primitives":[{{"attributes":{{{}}},"indices":{},"material":{}{}}}]{}}})",
-                               name, track.attributes, track.indices, material(track.part), shapes, more));
+                               name, track.attributes, track.indices, material(track.part), morphs, more));
     const std::size_t node = nodes.count();
     if (targets > 0 && !options.isCompact) animate(node, "weights", weights(track), "LINEAR");
     const std::string placed = pose(track.transforms, node);
@@ -362,11 +398,8 @@ void GlbWriter::write(const view::FrameView& view) {
     }
     if (!moved.empty()) {
         const std::size_t shared = w.data.openView();
-        for (const auto& [number, geometry] : moved) {
-            w.addTarget(w.tracks[number], *geometry, shared);
-            w.tracks[number].targetOf.push_back(w.tracks[number].targets.count());
-        }
-        w.data.closeView(w.options.isCompact ? sizeof(glm::i16vec3) : sizeof(glm::vec3));
+        for (const auto& [number, geometry] : moved) w.addTarget(w.tracks[number], *geometry, shared);
+        if (!w.options.isCompact) w.data.closeView(sizeof(glm::vec3));
     }
     for (Impl::Track& track : w.tracks)
         if (track.transforms.size() < w.times.size()) {

@@ -7,7 +7,7 @@
 namespace taut::geometry {
 namespace {
 
-constexpr int componentShort = 5122, componentUnsigned = 5125, componentFloat = 5126;
+constexpr int componentUnsigned = 5125, componentFloat = 5126;
 constexpr int targetVertices = 34962, targetIndices = 34963;
 
 // glTF is little-endian, as is every processor that this is compiled for.
@@ -16,10 +16,9 @@ std::span<const std::byte> bytesOf(std::span<const T> values) {
     return std::as_bytes(values);
 }
 
-template <class Vector>
-std::string boundsOf(std::span<const Vector> values) {
-    Vector least = values.front(), most = values.front();
-    for (const Vector& value : values) {
+std::string boundsOf(std::span<const glm::vec3> values) {
+    glm::vec3 least = values.front(), most = values.front();
+    for (const glm::vec3& value : values) {
         least = glm::min(least, value);
         most = glm::max(most, value);
     }
@@ -99,11 +98,6 @@ std::size_t GltfData::addVectors(std::span<const glm::vec3> values, bool hasBoun
     const ScratchFile::Piece piece = bytes.add(bytesOf(values));
     return addAccessor(view, piece.offset - viewStart_, componentFloat, values.size(), "VEC3",
                        hasBounds ? boundsOf(values) : "");
-}
-
-std::size_t GltfData::addVectors(std::span<const glm::i16vec3> values, std::size_t view) {
-    const ScratchFile::Piece piece = bytes.add(bytesOf(values));
-    return addAccessor(view, piece.offset - viewStart_, componentShort, values.size(), "VEC3", boundsOf(values));
 }
 
 void GltfData::closeView(std::size_t stride) {

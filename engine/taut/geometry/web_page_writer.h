@@ -1,5 +1,5 @@
-// A film as one page for browsers: the GLB of it, as text, between two halves of a page that somebody else has written.
-// It does not know what the page does with it.
+// A film as one page for browsers: the GLB of it, packed, as text, between two halves of a page that somebody else has
+// written. It does not know what the page does with it.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace taut::geometry {
 
 struct WebPage {
-    std::string before, after;  // the GLB in base64 stands between them
+    std::string before, after;  // the gzip file of the GLB in base64 stands between them
 };
 
 class WebPageWriter : public GeometrySink {
@@ -23,7 +23,7 @@ class WebPageWriter : public GeometrySink {
     // Throws core::Error(badContent), too: more than mostBytes.
     void finish() override;
 
-    // The longest text that Chromium makes of a part of a page is 512 MiB; three of its letters are four here.
+    // Whatever packing gains, its text is shorter than 512 MiB, the longest that Chromium makes of a part of a page.
     static constexpr std::uint64_t mostBytes = std::uint64_t{384} << 20U;  // [bytes] of the GLB
 
   private:

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include <glm/glm.hpp>
-#include <glm/gtc/type_precision.hpp>
 
 #include "taut/geometry/private/scratch_file.h"
 
@@ -43,8 +42,6 @@ class GltfData {
     // Of the attributes of vertices; several may share a view, of which `view` is the number.
     std::size_t addVectors(std::span<const glm::vec3> values, bool hasBounds, std::size_t view);
     std::size_t addVectors(std::span<const glm::vec3> values);  // of animations
-
-    std::size_t addVectors(std::span<const glm::i16vec3> values, std::size_t view);
 
     // A view of attributes of one kind that follow: openView(), accessors, closeView(bytes of a vector).
     std::size_t openView();

@@ -29,12 +29,12 @@ if [ "${1-film}" = stills ]; then
     "$taut" render "$root/assets/pictures/fabrics.toml" -o "$out/fabrics.png" --at 2.5 --size 1400x680 --samples 16 \
         -y --quiet
     ffmpeg -v error -y -i "$out/fabrics.png" -q:v 3 "$root/assets/pictures/fabrics.jpg"
-    "$taut" render dress -o "$out/dress-#.png" --at 0,0.6,1.5,4 --set camera.main.fov_deg=12 --size 480x720 \
+    "$taut" render dress -o "$out/dress-#.png" --at 0,0.6,1.5,4 --set camera.main.fov_deg=15 --size 480x600 \
         --samples 16 -y --quiet
     ffmpeg -v error -y -i "$out/dress-%d.png" -vf tile=4x1 -frames:v 1 -q:v 3 "$root/assets/pictures/dress.jpg"
     # Scene and moment, twelve of them side by side; the last one as its springs.
     inputs= n=0
-    for still in bear:4.4 domino:1.75 balloon:1.35 dress:10.9 bridge:2 cradle:1 curtain:1.5 twist:3.8 jelly:1 \
+    for still in bear:3.5 domino:1.45 balloon:1.35 dress:10.9 bridge:2 cradle:1 curtain:1.5 twist:3.8 jelly:1 \
         ring:2.8 drape:1.7 drape:1.7:--debug; do
         scene=${still%%:*} rest=${still#*:}
         moment=${rest%%:*} flag=${rest#"$moment"}

@@ -101,7 +101,11 @@ struct SizedShape::Part {
 };
 inline SizedShape::operator Shape() const {
     Shape made;
-    if (kind != "compound") made.form = builtInShapes().find(kind)->form(*this);
+    if (kind != "compound") {
+        const ShapeKind& row = *builtInShapes().find(kind);
+        made.form = row.form(*this);
+        if (row.convex) made.convex = row.convex(*this, 0.0);
+    }
     for (const Part& part : parts) made.parts.push_back({part.shape, part.pose});
     return made;
 }

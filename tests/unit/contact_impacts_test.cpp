@@ -353,7 +353,7 @@ TEST(ContactImpact, TakesOverlapBackNotIntoWhatHoldsIt) {
     ContactConstraint pair = restingPair(0, {1, 2, 3});
     pair.weights = {1.0, -1.0, 0.0, 0.0};
     pair.distance = pair.thickness - 0.005;
-    const KinematicContact held{1, {0.0, 1.0, 0.0}, 0.0};
+    const KinematicContact held{.points = {1, -1, -1}, .normal = {0.0, 1.0, 0.0}};
     const std::vector<double> inverseMass{1.0, 1.0, 0.0, 0.0};
     std::vector<dvec3> u(4, dvec3(0.0)), v = u, shift = u;
     SolverOptions options;
@@ -488,7 +488,7 @@ TEST(ContactFriction, OfTheGroundBearsWhatIsOnTop) {
         pair.normal = {0.0, 1.0, 0.0};
         pair.distance = pair.thickness = 0.01;
         pair.isPoint = pair.isActive = true;
-        KinematicContact held{1, {0.0, 1.0, 0.0}, 0.0};
+        KinematicContact held{.points = {1, -1, -1}, .normal = {0.0, 1.0, 0.0}};
         held.friction = 0.4;
         const std::vector<double> inverseMass{1.0, 2.0, 0.0, 0.0};
         std::vector<dvec3> u{{0.0, -1.0, 0.0}, {slide, 0.0, 0.0}, dvec3(0.0), dvec3(0.0)}, v = u, shift(4, dvec3(0.0));
@@ -543,7 +543,7 @@ TEST(ContactGuard, SlidesAPinchClearOfRoundingAndNotIntoWhatHoldsIt) {
         const std::vector<dvec3> before = x;
         std::vector<KinematicContact> held;
         for (const int i : {1, 2, 3})
-            if (isHeld) held.push_back({i, {0, 1, 0}, 0.0});
+            if (isHeld) held.push_back({.points = {i, -1, -1}, .normal = {0, 1, 0}});
         std::vector<int> moved;
         EXPECT_TRUE(slideApart(pair, inverseMass, held, x, v, moved));
         const auto other = static_cast<std::size_t>(isHeld ? 1 : moved.back());

@@ -149,10 +149,10 @@ TEST(StartDoubts, AreOfASolidInsideAnother) {
     scene.bodies.of<SolidSpec>()[1].radius = 0.1;
     const Doubts doubts = doubtsOf(scene);
     ASSERT_EQ(doubts.size(), 1U);
-    const std::string start =
-        "warning: solid.ball starts wholly inside solid.box, and nothing brings it out: move it by ";
-    EXPECT_TRUE(doubts[0].starts_with(start)) << doubts[0];
-    EXPECT_NEAR(std::stod(doubts[0].substr(start.size())), 0.6, 0.03);  // the ball as a polyhedron
+    EXPECT_NE(doubts[0].find("solid.ball and solid.box start in each other: they will be pushed apart, start them 0.6 "
+                             "m further off"),
+              std::string::npos)
+        << doubts[0];
 }
 
 TEST(StartDoubts, AreOfABodyInMillimetres) {

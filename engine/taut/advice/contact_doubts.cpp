@@ -76,10 +76,6 @@ void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies
                      "another body touch too, or this one touch = \"all\"");
 }
 
-// Pairs of solids that overlap, in the order of the state hash, with the least distance that parts them [m]; an upper
-// bound where one is not convex.
-using Overlaps = std::map<std::pair<const Body*, const Body*>, double>;
-
 struct PlacedSolid {
     const Body* body;
     std::vector<dvec3> x;  // (points of the model) [m]
@@ -105,64 +101,44 @@ std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
     return solids;
 }
 
-// [m] Along the normal of a face across which it is least; 0: a face has them on its two sides.
-double leastOverlap(const PlacedSolid& a, const PlacedSolid& b) {
-    constexpr std::size_t mostFaces = 400;
-    double least = HUGE_VAL;
-    for (const PlacedSolid* of : {&a, &b}) {
-        const auto& triangles = of->body->model.triangles;
-        for (std::size_t t = 0; t < triangles.size() && least > 0; t += 1 + triangles.size() / mostFaces) {
-            const auto corner = [&](std::size_t k) { return of->x[static_cast<std::size_t>(triangles[t][k])]; };
-            const dvec3 across = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-            const double size = glm::length(across);
-            if (!(size > 0)) continue;
-            const auto extent = [&](const PlacedSolid& solid) {
-                std::pair<double, double> ends{HUGE_VAL, -HUGE_VAL};
-                for (const dvec3& x : solid.x) {
-                    const double along = glm::dot(x, across) / size;
-                    ends = {std::min(ends.first, along), std::max(ends.second, along)};
-                }
-                return ends;
-            };
-            const auto [lowA, highA] = extent(a);
-            const auto [lowB, highB] = extent(b);
-            least = std::max(0.0, std::min({least, highA - lowB, highB - lowA}));
-        }
-    }
-    return least;
-}
-
-Overlaps overlapsOf(const std::vector<PlacedSolid>& solids) {
-    Overlaps overlaps;
-    for (std::size_t i = 0; i < solids.size(); ++i)
-        for (std::size_t j = i + 1; j < solids.size(); ++j) {
-            const PlacedSolid &a = solids[i], &b = solids[j];
-            if (a.body->island == b.body->island || !a.box.overlaps(b.box, 0)) continue;
-            if (const double overlap = leastOverlap(a, b); overlap > 0)
-                overlaps[{a.body, b.body}] = overlap + a.rounding + b.rounding;
-        }
-    return overlaps;
-}
-
-// No face of them crosses, so that nothing parts them.
-void doubtSwallowed(const std::vector<PlacedSolid>& solids, const Overlaps& overlaps,
-                    std::vector<std::string>& doubts) {
-    const auto solidOf = [&](const Body* body) -> const PlacedSolid& {
-        return *std::find_if(solids.begin(), solids.end(), [&](const auto& solid) { return solid.body == body; });
+// Where one is not convex, and no face of them crosses, nothing parts them.
+void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<std::string>& doubts) {
+    const auto isConvex = [](const PlacedSolid& solid) {
+        const auto& pieces = solid.body->pieces;
+        return std::all_of(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.shape != nullptr; });
     };
     std::size_t count = 0;
-    for (const auto& [pair, overlap] : overlaps)
-        for (const auto& [in, out] : {pair, std::pair(pair.second, pair.first)}) {
-            const PlacedSolid &inner = solidOf(in), &outer = solidOf(out);
+    for (const PlacedSolid& inner : solids)
+        for (const PlacedSolid& outer : solids) {
+            if (inner.body->island == outer.body->island || !inner.box.overlaps(outer.box, 0)) continue;
+            if (isConvex(inner) && isConvex(outer)) continue;
             const Inside inside(outer.x, outer.body->model.triangles, {8, 8});
-            const bool isInside =
-                std::all_of(inner.x.begin(), inner.x.end(), [&](const dvec3& x) { return inside.has(x); });
-            if (isInside && ++count <= mostDoubts)
-                doubts.push_back(asWarning(at(in->spec->source)) +
-                                 fmt::format("{} starts wholly inside {}, and nothing brings it out: move it by {}, or "
-                                             "give one of them touch = \"nothing\"",
-                                             in->fullName(), out->fullName(), inLength(overlap)));
+            if (!std::all_of(inner.x.begin(), inner.x.end(), [&](const dvec3& x) { return inside.has(x); })) continue;
+            if (++count <= mostDoubts)
+                doubts.push_back(asWarning(at(inner.body->spec->source)) +
+                                 fmt::format("{} starts wholly inside {}, and nothing brings it out: move it, or give "
+                                             "one of them touch = \"nothing\"",
+                                             inner.body->fullName(), outer.body->fullName()));
         }
+}
+
+// Convex solids.
+void doubtOverlaps(ContactStage& stage, std::vector<std::string>& doubts) {
+    std::map<std::pair<std::string, std::string>, double> pairs;
+    for (const RigidTouch& touch : stage.overlaps()) {
+        const std::string first = stage.nameOf(touch.surface), second = stage.nameOf(touch.other);
+        double& depth = pairs[std::minmax(first, second)];
+        depth = std::max(depth, -touch.gap);
+    }
+    std::size_t count = 0;
+    for (const auto& [names, depth] : pairs)
+        if (++count <= mostDoubts)
+            doubts.push_back(
+                fmt::format("{} and {} start in each other: they will be pushed apart, start them {} "
+                            "further off",
+                            names.first, names.second, inLength(depth)));
+    if (pairs.size() > mostDoubts)
+        doubts.push_back(fmt::format("{} more pairs of solids start in each other", pairs.size() - mostDoubts));
 }
 
 // Of solids, whose points no island brings out.
@@ -191,13 +167,12 @@ void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, s
     }
 }
 
-void doubtCrossings(WorldImpl& world, const Overlaps& overlaps, std::vector<std::string>& doubts) {
+void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
     if (!touchesAny(world)) return;
     struct Pair {
         std::set<int> edges;
         double depth = -1;
-        dvec3 place{0.0};    // of the deepest
-        double overlap = 0;  // [m] of two solids
+        dvec3 place{0.0};  // of the deepest
     };
     std::map<std::pair<std::string, std::string>, Pair> pairs;
     makeContactStage(world);
@@ -207,15 +182,12 @@ void doubtCrossings(WorldImpl& world, const Overlaps& overlaps, std::vector<std:
         if (!sides) continue;
         Pair& pair = pairs[{stage.nameOf(sides->first), stage.nameOf(sides->second)}];
         pair.edges.insert(crossing.edge);
-        if (stage.isOfBody(sides->first) && stage.isOfBody(sides->second))
-            if (const auto own = overlaps.find({&stage.bodyOf(sides->first), &stage.bodyOf(sides->second)});
-                own != overlaps.end())
-                pair.overlap = own->second;
         if (const double depth = stage.depthOf(crossing); depth > pair.depth) {
             pair.depth = depth;
             pair.place = crossing.place;
         }
     }
+    doubtOverlaps(stage, doubts);
     std::size_t count = 0;
     for (const auto& [names, pair] : pairs) {
         if (++count > mostDoubts) break;
@@ -223,12 +195,11 @@ void doubtCrossings(WorldImpl& world, const Overlaps& overlaps, std::vector<std:
         const dvec3 x = pair.place;
         doubts.push_back(
             fmt::format("{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
-                        "start {} {} off",
+                        "start {} further off",
                         isOne ? names.first + " goes through itself"
                               : names.first + " and " + names.second + " go through each other",
                         isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
-                        inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them",
-                        pair.overlap > 0 ? inLength(pair.overlap) + " further" : "further"));
+                        inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
     }
     if (pairs.size() > mostDoubts)
         doubts.push_back(fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));
@@ -259,13 +230,13 @@ void doubtPlaces(const ContactStage& stage, std::vector<std::string>& doubts) {
 std::map<std::string, double> colliderWidths(const WorldImpl& world) {
     std::map<std::string, double> widths;
     for (const TouchedCollider& collider : touchedColliders(world)) {
-        if (collider.outlines.empty()) continue;
         core::Aabb box;
         for (const collision::Outline& outline : collider.outlines)
-            for (const dvec3& vertex : outline.vertices) {
-                box.add(vertex - outline.radius);
-                box.add(vertex + outline.radius);
-            }
+            for (const dvec3& vertex : outline.vertices) box.add(vertex);
+        for (const collision::PlacedConvex& part : collider.convex.shapes)
+            for (int i = 0; i < 8 && part.shape->bounds(); ++i)
+                box.add(part.at.toWorld(part.shape->bounds()->corner(i)));
+        if (!(box.low.x <= box.high.x)) continue;
         std::array sizes{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
         std::sort(sizes.begin(), sizes.end());
         widths[collider.name] = sizes[1];
@@ -329,9 +300,8 @@ std::vector<std::string> touchDoubts(World& world) {
     doubtThickness(bodies, doubts);
     doubtInstants(w, doubts);
     const std::vector<PlacedSolid> solids = placedSolids(w);
-    const Overlaps overlaps = overlapsOf(solids);
-    doubtCrossings(w, overlaps, doubts);
-    doubtSwallowed(solids, overlaps, doubts);
+    doubtCrossings(w, doubts);
+    doubtSwallowed(solids, doubts);
     doubtSunk(w, solids, doubts);
     if (touchesAny(w)) doubtPlaces(*w.contactStage, doubts);
     return doubts;

@@ -80,11 +80,9 @@ class LookAhead {
 
     void addPosts(const ContactStage& stage) {
         if (posts_.empty()) return;
-        for (const contact::ContactPoint& c : stage.contacts()) {
-            if (c.surfaceB == ContactStage::noSurface) continue;
-            const bool isFirst = stage.isOfBody(c.surfaceA);
-            const auto post = posts_.find(
-                {stage.nameOf(isFirst ? c.surfaceA : c.surfaceB), stage.nameOf(isFirst ? c.surfaceB : c.surfaceA)});
+        for (const ElementTouch& touch : stage.elementTouches()) {
+            if (touch.collider < 0 || touch.gap > touch.way) continue;
+            const auto post = posts_.find({stage.nameOf(touch.surface), stage.colliderName(touch.collider)});
             if (post != posts_.end()) found_.posts.insert(*post);
         }
     }

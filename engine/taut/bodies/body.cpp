@@ -83,6 +83,7 @@ void addCopies(std::vector<Body>& bodies, const BodySpec& spec, const SceneSpec&
                 const dvec3 shift = static_cast<double>(x) * array.stepX + static_cast<double>(y) * array.stepY +
                                     static_cast<double>(z) * array.stepZ;
                 for (dvec3& position : body.model.positions) position += shift;
+                for (collision::PlacedConvex& piece : body.pieces) piece.at.position += shift;
                 if (!single) {
                     body.name = spec.name + "." + std::to_string(number);
                     body.seed = spec.seed + number;
@@ -157,9 +158,14 @@ Body buildBody(const BodySpec& spec, const SceneSpec& scene) {
     body.name = spec.name;
     body.seed = spec.seed;
     body.model = spec.build(scene);
+    body.pieces = spec.pieces(scene);
     body.plasticity = spec.plasticityIn(scene);
     for (dvec3& x : body.model.positions) x += dvec3(0.0);  // no negative zero: pinned points keep their bits
     return body;
+}
+
+std::vector<collision::PlacedConvex> BodySpec::pieces(const SceneSpec&) const {
+    return {};
 }
 
 std::unique_ptr<BodyDrawing> BodySpec::drawing(const Body& body) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "taut/bodies/damage.h"
+#include "taut/collision/convex.h"
 #include "taut/core/value.h"
 #include "taut/mechanics/model.h"
 #include "taut/spec/body_spec.h"
@@ -24,6 +25,7 @@ struct Body {
     std::string name;                      // "flag", or "flag.2" in an array
     std::int64_t seed = 1;                 // of its jitter
     mechanics::Model model;
+    std::vector<collision::PlacedConvex> pieces;  // of a rigid body, (parts of the model)
     PlasticitySpec plasticity;
 
     std::vector<int> carried;            // ascending points of the model that a collider holds by its spec

@@ -51,6 +51,7 @@ class Maker {
         collision::ShapeSizes sizes = sizesOf(spec);
         for (const collision::OwnSize& own : kind->own) sizes.own.emplace(own.key, own.standard);
         shape.form = kind->form(sizes);
+        if (kind->convex) shape.convex = kind->convex(sizes, 0.0);
         sizes.stands = stands(sizes, transform);
         if (pieces_ != nullptr)
             pieces_->push_back({kind->mesh(sizes), transform, finishOf(spec.ownFinish.value_or(whole_.finish))});

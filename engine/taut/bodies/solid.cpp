@@ -7,6 +7,7 @@
 
 #include "taut/bodies/drawing.h"
 #include "taut/bodies/private/bound_mesh.h"
+#include "taut/bodies/private/rigid_marks.h"
 #include "taut/collision/private/convex_hull.h"
 #include "taut/core/trig.h"
 #include "taut/fields/private/problems.h"
@@ -14,6 +15,7 @@
 #include "taut/mechanics/closed_mesh.h"
 #include "taut/mechanics/rigid.h"
 #include "taut/spec/common_rows.h"
+#include "taut/spec/kinds.h"
 #include "taut/spec/private/rotation.h"
 #include "taut/spec/spec.h"
 
@@ -58,9 +60,11 @@ void addBox(const dvec3& half, mechanics::RigidShape& shape) {
     }
 }
 
-// A prism with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is 0.
+constexpr int prismSides = 24;
+
+// A prism with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is 0. The points
+// of the lower end come first.
 void addPrism(double radius, double radiusAbove, double low, double high, mechanics::RigidShape& shape) {
-    constexpr int prismSides = 24;
     const auto add = [&](double r, double y, int k) {
         const double angle = 2.0 * core::pi * k / prismSides;
         shape.positions.emplace_back(r * core::cosine(angle), y, r * core::sine(angle));
@@ -82,8 +86,7 @@ void addPrism(double radius, double radiusAbove, double low, double high, mechan
         shape.triangles.push_back({b, top + a, top + b});
         shape.triangles.push_back({top, top + b, top + a});
     }
-    shape.parts.back().revolution = {
-        {0, top}, {radius, radiusAbove}, radius * (1.0 - core::cosine(core::pi / prismSides))};
+    shape.parts.back().sag = radius * (1.0 - core::cosine(core::pi / prismSides));
 }
 
 // The least convex body around the points.
@@ -103,11 +106,21 @@ void addHull(std::span<const dvec3> points, mechanics::RigidShape& shape) {
     }
 }
 
+collision::ShapeSizes sizesOf(const SolidSpec& solid) {
+    collision::ShapeSizes sizes;
+    sizes.halfSize = 0.5 * solid.size;
+    sizes.radius = solid.radius;
+    sizes.height = solid.height;
+    if (solid.meshData != nullptr)
+        for (const dvec3& x : solid.meshData->positions) sizes.vertices.push_back(solid.scale * x);
+    return sizes;
+}
+
 // A shape of a solid, as it is drawn.
 struct Piece {
     view::Mesh mesh;
     std::shared_ptr<const view::Finish> finish;
-    glm::mat4 place{1.0F};  // in the body's axes
+    glm::mat4 place{1.0F};  // at the start
 };
 
 view::Mesh meshOf(const SolidSpec& solid) {
@@ -125,26 +138,25 @@ view::Mesh meshOf(const SolidSpec& solid) {
     return view::creasedMesh(positions, triangles, creaseAngle);
 }
 
+glm::mat4 matrixOf(const collision::Frame& frame) {
+    glm::mat4 m{glm::mat3(frame.rotation)};
+    m[3] = glm::vec4(glm::vec3(frame.position), 1.0F);
+    return m;
+}
+
 // Draws rigid meshes where the inner points say.
 class SolidDrawing final : public BodyDrawing {
   public:
-    explicit SolidDrawing(const Body& body) : name_(body.fullName()) {
+    explicit SolidDrawing(const Body& body) : name_(body.fullName()), marks_(marksOf(body)) {
         const auto& spec = dynamic_cast<const SolidSpec&>(*body.spec);
         if (spec.parts.empty()) pieces_.push_back({meshOf(spec), finishOf(spec.finish)});
-        for (const SolidSpec& part : spec.parts)
-            pieces_.push_back(
-                {meshOf(part), finishOf(part.finish), matrixOf({part.position, rotationOf(part.rotation)})});
-        const dvec3 origin = body.model.positions[0] - jitterOf(body, 0) -
-                             (spec.build({}).positions[0] - spec.position);  // an array's copies each have their own
-        const glm::dquat back = glm::conjugate(rotationOf(spec.rotation));
-        const std::vector<glm::vec3> start = startOf(body);
-        for (std::size_t k = 0; k < 3; ++k) rest_[k] = rotated(back, dvec3(start[2 * k]) - origin);
+        for (const SolidSpec& part : spec.parts) pieces_.push_back({meshOf(part), finishOf(part.finish)});
+        for (std::size_t k = 0; k < pieces_.size(); ++k) pieces_[k].place = matrixOf(body.pieces[k].at);
     }
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
-        const std::array<dvec3, 3> now{dvec3(positions[0]), dvec3(positions[2]), dvec3(positions[4])};
-        const glm::dmat3 turn = mechanics::rotationBetween(rest_, now);
-        glm::mat4 transform{glm::mat3(turn)};
-        transform[3] = glm::vec4(glm::vec3(now[0] - turn * rest_[0]), 1.0F);
+        std::array<dvec3, 3> now;
+        for (std::size_t k = 0; k < 3; ++k) now[k] = dvec3(positions[static_cast<std::size_t>(marks_.points[k])]);
+        const glm::mat4 transform = matrixOf(marks_.motionTo(now));
         for (const Piece& piece : pieces_) {
             view::Surface& surface = surfaces.emplace_back();
             surface.name = name_;
@@ -158,7 +170,7 @@ class SolidDrawing final : public BodyDrawing {
   private:
     std::string name_;
     std::vector<Piece> pieces_;
-    std::array<dvec3, 3> rest_;  // [m] of three inner points, in the axes of the body
+    RigidMarks marks_;
 };
 
 // The fields that a solid and a shape of a compound share.
@@ -267,6 +279,21 @@ Section SolidSpec::section() {
     return section;
 }
 
+collision::Frame RigidMarks::motionTo(const std::array<dvec3, 3>& now) const {
+    const glm::dmat3 turn = mechanics::rotationBetween(rest, now);
+    return {turn, now[0] - turn * rest[0], true};
+}
+
+RigidMarks marksOf(const Body& body) {
+    RigidMarks marks;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto i = 2 * k;
+        marks.points[k] = static_cast<int>(i);
+        marks.rest[k] = body.model.positions[i] - jitterOf(body, static_cast<int>(i));
+    }
+    return marks;
+}
+
 double SolidSpec::mostThickness() const {
     if (shape == "box") return 0.5 * std::min({size.x, size.y, size.z});
     if (shape == "cylinder") return std::min(radius, 0.5 * height);
@@ -277,6 +304,27 @@ double SolidSpec::mostThickness() const {
 std::vector<const BodySpec*> SolidSpec::shapes() const {
     std::vector<const BodySpec*> all{this};
     for (const SolidSpec& part : parts) all.push_back(&part);
+    return all;
+}
+
+std::vector<collision::PlacedConvex> SolidSpec::pieces(const SceneSpec& scene) const {
+    const collision::ShapeKinds& kinds = scene.shapes != nullptr ? *scene.shapes : collision::builtInShapes();
+    const auto frameOf = [](const SolidSpec& of) {
+        return collision::Frame{glm::mat3_cast(rotationOf(of.rotation)), of.position, true};
+    };
+    const auto pieceOf = [&](const SolidSpec& part) {
+        const collision::ShapeKind* kind = kinds.find(part.shape);
+        collision::PlacedConvex piece;
+        if (kind != nullptr && kind->convex) piece.shape = kind->convex(sizesOf(part), part.thickness);
+        return piece;
+    };
+    std::vector<collision::PlacedConvex> all;
+    if (parts.empty()) all.push_back(pieceOf(*this));
+    for (const SolidSpec& part : parts) {
+        all.push_back(pieceOf(part));
+        all.back().at = frameOf(part);
+    }
+    for (collision::PlacedConvex& piece : all) piece.at = frameOf(*this).of(piece.at);
     return all;
 }
 
@@ -356,9 +404,8 @@ mechanics::Model SolidSpec::build(const SceneSpec&) const {
     // Points of a shape by the side that they are on.
     const auto addSides = [&](const SolidSpec& of, const mechanics::RigidPart& part, const std::string& prefix) {
         static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
-        const int top = part.revolution.ends[1];
         for (int i = part.first; i < part.last; ++i) {
-            if (top >= 0) model.groups[prefix + (i < top ? "bottom" : "top")].push_back(i);
+            if (part.sag > 0) model.groups[prefix + (i - part.first <= prismSides ? "bottom" : "top")].push_back(i);
             for (int k = 0; k < 3 && of.shape == "box"; ++k)
                 model.groups[prefix + sides[k][((i - part.first) >> k) & 1]].push_back(i);
         }

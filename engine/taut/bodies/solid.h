@@ -34,6 +34,7 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, MeshSource {
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     bool isRigid() const override { return true; }
+    std::vector<collision::PlacedConvex> pieces(const SceneSpec& scene) const override;
     std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
     const MeshSource* meshSource() const override { return this; }
     std::vector<const BodySpec*> shapes() const override;

@@ -17,15 +17,21 @@ struct Pose {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // unit (w, x, y, z)
 };
 
+// If any place of a collider is faster than this [m/s], the collider counts as having jumped: see Colliders::resolve.
+inline constexpr double fastestSurface = 100.0;
+
 class CandidateRooms;
+class Convex;
 class Form;
+struct ConvexParts;
 
 // The shape of a collider: one form (form.h), which a row of the table of shapes makes, or several parts, each with its
 // pose.
 struct Shape {
     std::shared_ptr<const Form> form;
+    std::shared_ptr<const Convex> convex{};  // for contact with other convex shapes; null: it is not convex
     struct Part;
-    std::vector<Part> parts;  // of a compound; then there is no form
+    std::vector<Part> parts{};  // of a compound; then there is no form
 };
 struct Shape::Part {
     Shape shape;
@@ -182,6 +188,9 @@ class Colliders {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+// The convex shapes that a shape is made of, with the collider at the origin.
+ConvexParts convexOf(const Shape& shape);
 
 // The outlines of a shape's forms, one each, with the collider at the origin. Empty outlines are left out.
 struct Outline;

@@ -22,17 +22,6 @@ dvec3 cornerOf(const Facet& t, std::size_t k) {
     return k == 0 ? t.corner : t.corner + (k == 1 ? t.ab : t.ac);
 }
 
-void addRim(double radius, double height, Outline& outline) {
-    for (int i = 0; i < rimCorners; ++i) {
-        const double angle = 2.0 * core::pi * i / rimCorners;
-        outline.vertices.emplace_back(radius * core::cosine(angle), height, radius * core::sine(angle));
-    }
-}
-
-void takeAllAsCorners(Outline& outline) {
-    for (int i = 0; i < static_cast<int>(outline.vertices.size()); ++i) outline.corners.push_back(i);
-}
-
 }  // namespace
 
 Outline outlineOf(const Facets& facets) {
@@ -86,34 +75,6 @@ Outline outlineOf(const Facets& facets) {
     for (const Outline::Edge& edge : outline.edges) outline.corners.insert(outline.corners.end(), {edge.a, edge.b});
     std::sort(outline.corners.begin(), outline.corners.end());
     outline.corners.erase(std::unique(outline.corners.begin(), outline.corners.end()), outline.corners.end());
-    return outline;
-}
-
-Outline outlineOfCylinder(double radius, double halfHeight) {
-    Outline outline;
-    addRim(radius, halfHeight, outline);
-    addRim(radius, -halfHeight, outline);
-    for (int i = 0; i < rimCorners; ++i) {
-        const int next = (i + 1) % rimCorners, opposite = (i + rimCorners / 2) % rimCorners;
-        outline.edges.push_back({i, next, opposite, rimCorners + i});
-        outline.edges.push_back({rimCorners + i, rimCorners + next, rimCorners + opposite, i});
-    }
-    takeAllAsCorners(outline);
-    return outline;
-}
-
-// Eight lines down its side keep edges that meet the tip out of the cone.
-Outline outlineOfCone(double radius, double halfHeight) {
-    Outline outline;
-    addRim(radius, -halfHeight, outline);
-    outline.vertices.emplace_back(0.0, halfHeight, 0.0);
-    for (int i = 0; i < rimCorners; ++i) {
-        const int next = (i + 1) % rimCorners;
-        outline.edges.push_back({i, next, (i + rimCorners / 2) % rimCorners, rimCorners});
-        if (i % (rimCorners / 8) == 0)
-            outline.edges.push_back({i, rimCorners, next, (i + rimCorners - 1) % rimCorners});
-    }
-    takeAllAsCorners(outline);
     return outline;
 }
 

@@ -1,5 +1,5 @@
-// The parts of a shape that can reach between the points of a body: its corners and sharp edges, and the middle line of
-// thin round shapes. It knows no contacts.
+// The parts of a hull or a mesh that can reach between the points of a body: its corners and sharp edges. Edges and
+// faces meet other shapes by their distance (element_distance.h). It knows no contacts.
 #pragma once
 
 #include <vector>
@@ -16,23 +16,16 @@ inline constexpr double leastSharpness = 0.035;
 struct Outline {
     struct Edge {
         int a, b;  // vertices
-        // A point on each of the two faces beside the edge, off the edge; -1: no face. Both -1: it is round, or has
-        // many faces.
+        // A point on each of the two faces beside the edge, off the edge; -1: no face. Both -1: it has many faces.
         int wingA = -1, wingB = -1;
     };
-    std::vector<dvec3> vertices;  // [m] ends of edges, those that stand alone, and wings
+    std::vector<dvec3> vertices;  // [m] ends of edges, and wings
     std::vector<Edge> edges;
     std::vector<int> corners;  // vertices without those that are only wings, ascending
-    double radius = 0.0;       // [m] the surface is that far from vertices and edges: of a ball, a capsule
+    bool isConvex = false;     // what it is of
 };
 
 // Triangles that bound a solid: the edges that stand out of it. An open surface: all sharp edges, and the border.
 Outline outlineOf(const Facets& facets);
-
-// The outline of two rims about the y axis, or of one rim and a tip above it: polygons with so many corners, inscribed
-// in the rims.
-inline constexpr int rimCorners = 64;
-Outline outlineOfCylinder(double radius, double halfHeight);
-Outline outlineOfCone(double radius, double halfHeight);
 
 }  // namespace taut::collision

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "taut/collision/convex.h"
 #include "taut/collision/form.h"
 #include "taut/core/table.h"
 #include "taut/view/primitives.h"
@@ -51,6 +52,8 @@ struct ShapeKind {
     // Throws core::Error(badContent) for sizes that make no form.
     std::function<std::shared_ptr<const Form>(const ShapeSizes& sizes)> form;
     std::function<view::Mesh(const ShapeSizes& sizes)> mesh;  // about the same origin
+    // As it touches other convex shapes, its edges rounded by so much [m]; none: it is not convex.
+    std::function<std::shared_ptr<const Convex>(const ShapeSizes& sizes, double rounding)> convex{};
 };
 
 class ShapeKinds : public core::Table<ShapeKind> {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "taut/collision/convex.h"
 #include "taut/core/error.h"
 
 namespace taut::collision {
@@ -51,12 +52,26 @@ void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid
     for (const Shape::Part& part : shape.parts) appendSolids(part.shape, inCollider.of(frameOf(part.pose)), solids);
 }
 
+ConvexParts convexOf(const Shape& shape) {
+    ConvexParts all;
+    if (shape.convex != nullptr) all.shapes.push_back({shape.convex, {}});
+    all.areAll = shape.convex != nullptr || !shape.parts.empty();
+    for (const Shape::Part& part : shape.parts) {
+        const Frame at = frameOf(part.pose);
+        const ConvexParts own = convexOf(part.shape);
+        all.areAll = all.areAll && own.areAll;
+        for (const PlacedConvex& one : own.shapes) all.shapes.push_back({one.shape, at.of(one.at)});
+    }
+    return all;
+}
+
 std::vector<Outline> outlinesOf(const Shape& shape) {
     std::vector<Solid> solids;
     appendSolids(shape, Frame{}, solids);
     std::vector<Outline> outlines;
     for (const Solid& solid : solids) {
         Outline outline = solid.form->outline();
+        outline.isConvex = solid.form->isConvex();
         if (outline.corners.empty()) continue;
         for (dvec3& vertex : outline.vertices) vertex = solid.inCollider.toWorld(vertex);
         outlines.push_back(std::move(outline));
@@ -113,9 +128,7 @@ double travelOf(const Solid& solid) {
     const core::Aabb box = solid.bounded ? solid.localBounds : core::Aabb{dvec3(-1.0), dvec3(1.0)};
     double most = 0.0;
     for (int i = 0; i < 8; ++i) {
-        const dvec3 corner((i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
-                           (i & 4) != 0 ? box.high.z : box.low.z);
-        const dvec3 way = solid.to.toWorld(corner) - solid.from.toWorld(corner);
+        const dvec3 way = solid.to.toWorld(box.corner(i)) - solid.from.toWorld(box.corner(i));
         const double square = glm::dot(way, way);
         if (square > most) most = square;
     }

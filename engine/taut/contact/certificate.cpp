@@ -130,9 +130,9 @@ bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMa
     // A point that would move into a collider counts as immovable.
     const auto inverseMassOf = [&](int point, const dvec3& way) {
         auto own = std::lower_bound(kinematic.begin(), kinematic.end(), point,
-                                    [](const KinematicContact& contact, int i) { return contact.point < i; });
-        for (; own != kinematic.end() && own->point == point; ++own)
-            if (glm::dot(own->normal, way) < into) return 0.0;
+                                    [](const KinematicContact& contact, int i) { return contact.point() < i; });
+        for (; own != kinematic.end() && own->point() == point; ++own)
+            if (own->points[1] < 0 && glm::dot(own->normal, way) < into) return 0.0;
         return inverseMass[static_cast<std::size_t>(point)];
     };
     const double inverseA = inverseMassOf(lowest, pair.normal), inverseB = inverseMassOf(highest, -pair.normal);

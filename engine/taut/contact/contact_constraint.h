@@ -28,8 +28,9 @@ struct ContactConstraint {
     double recovery = 1.0;     // 0 … 1: share by which an overlap is taken back, see convexityOf()
     double firstShare = 0.5;   // of the thickness that is the first side's
     double restitution = 0.0;  // speed of parting over that of closing [-]
-    std::optional<dvec3> place{};  // [m] where an impulse acts on solids; none: between the closest places
-    double softness = 0.0;         // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
+    // [m] Of two solids, where their impulse acts on each; none: between the closest places.
+    std::optional<std::array<dvec3, 2>> places{};
+    double softness = 0.0;  // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
     int firstSide() const { return isPoint ? 1 : 2; }        // points of the first side
     double gap() const { return distance - thickness; }      // [m]
     bool hasSides() const { return distance > noDistance; }  // else they touch, and there is no side to keep

@@ -7,9 +7,7 @@
 
 #include "taut/contact/certificate.h"
 #include "taut/contact/closest_points.h"
-#include "taut/contact/flat_patches.h"
 #include "taut/contact/rigid_side.h"
-#include "taut/contact/round_solids.h"
 
 namespace taut::contact {
 namespace {
@@ -186,9 +184,9 @@ void ContactGroup::selectActive(const Instant& instant) {
         const double depth = -std::max(pair.gap(), 0.0) - glm::dot(pair.normal, way);
         result_.deepest = std::max(result_.deepest, depth / pair.thickness);
     }
-    if (solids_.empty()) return;
-    roundOff(elements_, instant.x0, active_);
-    keepCorners(elements_, instant.x0, active_);
+    result_.deepest = std::max(result_.deepest, instant.deepestTouch);
+    for (const ContactConstraint& pair : instant.rigid)
+        if (mayYield(pair, instant.inverseMass)) active_.push_back(pair);
 }
 
 void ContactGroup::solveActive(const Instant& instant) {
@@ -201,13 +199,14 @@ void ContactGroup::solveActive(const Instant& instant) {
     };
     const auto loadWithMovers = [&](int point) {
         load(point);
-        carried_.forEachMover(point, [&](int i, double) { load(i); });
+        carried_.forEachMover(
+            point, [&](int i, double) { load(i); });
     };
     const auto loadAll = [&] {
         for (const ContactConstraint& pair : active_)
             for (int i : pair.points) loadWithMovers(i);
         for (const KinematicContact& contact : instant.kinematic)
-            if (contact.isWhole) loadWithMovers(contact.point);
+            if (contact.isWhole) contact.forEachPoint([&](int point, double) { loadWithMovers(point); });
         for (const Crossing& crossing : crossings_)
             for (int i : crossing.points) loadWithMovers(i);
         for (const Solid& solid : solids_)
@@ -237,7 +236,7 @@ void ContactGroup::solveActive(const Instant& instant) {
         const KinematicContact& contact = instant.kinematic[k];
         if (!contact.isWhole || !(solver_.impulses()[active_.size() + k] > 0)) continue;
         ++result_.impulses;
-        result_.surfaces.push_back(elements_.surfaceOf(contact.point));
+        result_.surfaces.push_back(elements_.surfaceOf(contact.point()));
     }
     makeAscending(result_.surfaces);
     result_.sweeps = solver_.sweeps();
@@ -543,8 +542,8 @@ std::vector<ContactPoint> ContactGroup::contactPoints(std::span<const dvec3> x) 
             const auto i = static_cast<std::size_t>(k);
             (k < pair.firstSide() ? first : second) += pair.weights[i] * x[static_cast<std::size_t>(pair.points[i])];
         }
-        all.push_back({0.5 * (first - second), pair.normal, impulse, elements_.surfaceOf(pair.points[0]),
-                       elements_.surfaceOf(pair.points[3])});
+        all.push_back({pair.places ? 0.5 * ((*pair.places)[0] + (*pair.places)[1]) : 0.5 * (first - second),
+                       pair.normal, impulse, elements_.surfaceOf(pair.points[0]), elements_.surfaceOf(pair.points[3])});
     }
     return all;
 }

@@ -56,6 +56,8 @@ struct Instant {
     std::span<dvec3> v;                           // [m/s] as the integrator of each island stores them
     std::span<const double> inverseMass;          // [1/kg]; 0: pinned or kinematic, contact does not move it
     std::span<const KinematicContact> kinematic;  // contacts of points with colliders, ascending by point
+    std::span<const ContactConstraint> rigid{};   // pairs of convex solids, each with a point of both and a place
+    double deepestTouch = 0;                      // largest penetration of shapes, as InstantResult::deepest
     double restSpeed = 0;                         // [m/s] what closes more slowly does not bounce
     // The group calls it with the points (ascending) whose x1 and v it has changed. Their island places them, and may
     // change both again: by rounding, or at a collider. May be empty.
@@ -173,7 +175,6 @@ class ContactGroup {
                                    std::span<const dvec3> x0) const;
     double convexity(const ContactConstraint& pair, std::int64_t where, std::span<const dvec3> x) const;
     bool meetInside(const ContactConstraint& pair, std::int64_t where) const;
-    void turnToMeeting(ContactConstraint& pair, const dvec3& way, std::span<const dvec3> x) const;
     bool isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const;
     bool isTangled(const ContactConstraint& pair) const;
 

@@ -28,14 +28,13 @@ struct ContactSurface {
     int bond = 0;
     // Surfaces with the same number, from 0, are of one rigid body. They do not meet. -1: not rigid.
     int solid = -1;
-    // Of a solid of revolution. Its triangles are a prism in it.
-    struct Revolution {
-        std::array<int, 2> ends{-1, -1};    // points in their middle, or the tip; -1: it is none
-        std::array<double, 2> radii{0, 0};  // [m] of the ends, 0: a tip
-        double sag = 0;  // [m] how far it is outside of the prism at most; the thickness has that too
-        bool isNone() const { return ends[0] < 0; }
-    };
-    Revolution revolution;
+    // Its points, edges and faces meet shapes, which others find (Instant).
+    bool meetsShapes = false;
+    // A rigid convex shape: its elements do not meet those of another. What such shapes do to each other is found by
+    // others (Instant::rigid).
+    bool isConvex = false;
+    // Besides, its distance is a formula, and elements of bodies meet it by that.
+    bool isFormula = false;
     // A collider's corners and edges, which the group does not move. It has no triangles: points meet the faces of
     // colliders in `collision`. Two rigid surfaces never touch.
     bool isRigid = false;

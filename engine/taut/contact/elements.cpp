@@ -21,7 +21,8 @@ Elements::Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest
     const int count = static_cast<int>(surfaces_.size());
     for (int s = 0; s < count; ++s)
         for (int other = 0; other < count && meetsAny_[static_cast<std::size_t>(s)] == 0; ++other)
-            meetsAny_[static_cast<std::size_t>(s)] = mayMeet(s, other) ? 1 : 0;
+            meetsAny_[static_cast<std::size_t>(s)] =
+                surfaces_[static_cast<std::size_t>(s)].meetsShapes || mayMeet(s, other) ? 1 : 0;
     for (int s = 0; s < count; ++s) addSurface(s);
     firstTriangleOf_.push_back(triangles_.size());
     firstEdgeOf_.push_back(edges_.size());
@@ -81,7 +82,7 @@ void Elements::sew(int a, int b) {
 }
 
 void Elements::keepApart(int surfaceA, int surfaceB) {
-    if (surfaceA == surfaceB || !mayMeet(surfaceA, surfaceB)) return;
+    if (surfaceA == surfaceB || !mayTouch(surfaceA, surfaceB)) return;
     apart_[static_cast<std::size_t>(surfaceA)].push_back(surfaceB);
     apart_[static_cast<std::size_t>(surfaceB)].push_back(surfaceA);
 }

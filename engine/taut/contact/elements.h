@@ -80,8 +80,15 @@ class Elements {
     bool shareBond(int surfaceA, int surfaceB) const {
         return surface(surfaceA).bond == surface(surfaceB).bond && !isRigid(surfaceA) && !isRigid(surfaceB);
     }
-    // Whether two surfaces, or one with itself, may touch.
+    // Whether elements of two surfaces, or of one, may touch each other.
     bool mayMeet(int surfaceA, int surfaceB) const {
+        const ContactSurface &a = surface(surfaceA), &b = surface(surfaceB);
+        if ((a.isConvex && b.isConvex) || (a.isFormula && b.meetsShapes) || (b.isFormula && a.meetsShapes))
+            return false;
+        return mayTouch(surfaceA, surfaceB);
+    }
+    // Whether two surfaces, or one with itself, may touch.
+    bool mayTouch(int surfaceA, int surfaceB) const {
         const ContactSurface &a = surface(surfaceA), &b = surface(surfaceB);
         if (isStill(surfaceA) && isStill(surfaceB)) return false;
         if (a.solid >= 0 && a.solid == b.solid) return false;

@@ -69,36 +69,6 @@ bool ContactGroup::isFeatureNearest(const ContactConstraint& pair, int feature, 
     return true;
 }
 
-// The normal of two solids that are apart at x0 and meet on the way, on which the first comes nearer, becomes that at
-// the moment when they do: balls that meet aslant fly apart as they lie then. At faces and between the insides of two
-// edges it stays.
-void ContactGroup::turnToMeeting(ContactConstraint& pair, const dvec3& way, std::span<const dvec3> x) const {
-    // Feet slide along the edges that they are on.
-    dvec3 along(0.0);
-    const auto addEdge = [&](int i, int j) {
-        const dvec3 edge = x[static_cast<std::size_t>(j)] - x[static_cast<std::size_t>(i)];
-        const double size = length(edge);
-        if (!(size > 0)) return true;
-        if (along != dvec3(0.0)) return false;
-        along = edge / size;
-        return true;
-    };
-    std::array<int, 4> feet{};
-    for (const int side : {0, 1}) {
-        int count = 0;
-        for (int k = side == 0 ? 0 : pair.firstSide(); k < (side == 0 ? pair.firstSide() : 4); ++k)
-            if (pair.weights[static_cast<std::size_t>(k)] != 0)
-                feet[static_cast<std::size_t>(count++)] = pair.points[static_cast<std::size_t>(k)];
-        if (count > 2 || (count == 2 && !addEdge(feet[0], feet[1]))) return;
-    }
-    const dvec3 apart = pair.distance * pair.normal, across = way - glm::dot(way, along) * along;
-    const double closing = -glm::dot(apart, across), square = glm::dot(across, across);
-    const double root = closing * closing - square * (glm::dot(apart, apart) - pair.thickness * pair.thickness);
-    if (!(closing > 0 && root >= 0 && closing - std::sqrt(root) <= square)) return;
-    pair.normal = (apart + (closing - std::sqrt(root)) / square * across) / pair.thickness;
-    pair.distance = glm::dot(pair.normal, apart);
-}
-
 // A candidate pair, and its slot in the batch that measures it.
 struct ContactGroup::Measured {
     BroadPhase::CandidateList* list;
@@ -239,8 +209,6 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     if (!crossings_.empty() && isTangled(pair)) return;
     const ContactSurface &a = elements_.surface(elements_.surfaceOf(pair.points[0])),
                          &b = elements_.surface(elements_.surfaceOf(pair.points[3]));
-    const auto isPlainSolid = [](const ContactSurface& own) { return own.solid >= 0 && own.revolution.isNone(); };
-    if (pair.isActive && gap > 0 && isPlainSolid(a) && isPlainSolid(b)) turnToMeeting(pair, way, x0);
     pair.friction = (a.isOfCollider() || b.isOfCollider() ? 1.0 : options_.friction) * a.friction * b.friction;
     pair.restitution = options_.restitution * a.restitution * b.restitution;
     if (a.isDriven || b.isDriven) pair.softness = drivenSoftness;

@@ -8,19 +8,8 @@ namespace {
 
 constexpr double leastFree = 0.02;  // of the sum of the squares of the weights
 
-// Whether movable points have a share in the closest point of one side.
-bool mayYield(std::span<const int> points, std::span<const double> weights, std::span<const double> inverseMass) {
-    double all = 0, free = 0;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const double square = weights[k] * weights[k];
-        all += square;
-        if (inverseMass[static_cast<std::size_t>(points[k])] > 0) free += square;
-    }
-    return free > leastFree * all;
-}
-
-bool mayYield(std::span<const int> points, std::span<const double> weights, std::size_t firstSide,
-              std::span<const double> inverseMass) {
+bool eitherYields(std::span<const int> points, std::span<const double> weights, std::size_t firstSide,
+                  std::span<const double> inverseMass) {
     return mayYield(points.first(firstSide), weights.first(firstSide), inverseMass) ||
            mayYield(points.subspan(firstSide), weights.subspan(firstSide), inverseMass);
 }
@@ -57,12 +46,22 @@ bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec
     return true;
 }
 
+bool mayYield(std::span<const int> points, std::span<const double> weights, std::span<const double> inverseMass) {
+    double all = 0, free = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const double square = weights[k] * weights[k];
+        all += square;
+        if (inverseMass[static_cast<std::size_t>(points[k])] > 0) free += square;
+    }
+    return free > leastFree * all;
+}
+
 bool mayYield(const ContactConstraint& pair, std::span<const double> inverseMass) {
-    return mayYield(pair.points, pair.weights, static_cast<std::size_t>(pair.firstSide()), inverseMass);
+    return eitherYields(pair.points, pair.weights, static_cast<std::size_t>(pair.firstSide()), inverseMass);
 }
 
 bool mayYield(const Crossing& crossing, std::span<const double> inverseMass) {
-    return mayYield(crossing.points, crossing.weights, 2, inverseMass);
+    return eitherYields(crossing.points, crossing.weights, 2, inverseMass);
 }
 
 }  // namespace taut::contact

@@ -25,6 +25,7 @@ bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec
 // Whether contact can move a pair: on one side, movable points have a share in the closest point. Otherwise a tiny
 // share would be a long lever: a point beside a pinned one would be thrown far to move the pinned place a little.
 bool mayYield(const ContactConstraint& pair, std::span<const double> inverseMass);
+bool mayYield(std::span<const int> points, std::span<const double> weights, std::span<const double> inverseMass);
 bool mayYield(const Crossing& crossing, std::span<const double> inverseMass);
 
 }  // namespace taut::contact

@@ -25,12 +25,12 @@ constexpr double nearRest = 4.0;         // times the speed below which nothing 
 
 // Of the same contact in every instant.
 std::uint64_t keyOf(const ContactConstraint& pair) {
-    return (pair.isPoint ? std::uint64_t{1} : std::uint64_t{2}) << 62U | static_cast<std::uint64_t>(pair.a) << 31U |
-           static_cast<std::uint64_t>(pair.b);
+    const std::uint64_t kind = pair.places ? 3 : pair.isPoint ? 1 : 2;
+    return kind << 62U | static_cast<std::uint64_t>(pair.a) << 31U | static_cast<std::uint64_t>(pair.b);
 }
 // The number is that among the contacts of its point.
 std::uint64_t keyOf(const KinematicContact& contact, int number) {
-    return static_cast<std::uint64_t>(contact.point) << 31U | static_cast<std::uint64_t>(number);
+    return static_cast<std::uint64_t>(contact.point()) << 31U | static_cast<std::uint64_t>(number);
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ void ContactSolver::joinPoints(const Problem& problem) {
     }
     for (const KinematicContact& contact : problem.kinematic) {
         int first = -1;
-        if (contact.isWhole) join(contact.point, first);
+        if (contact.isWhole) contact.forEachPoint([&](int point, double) { join(point, first); });
     }
     for (const Solid& solid : solids_)
         if (const int leader = solid.points.front(); solid.moves && parent_[static_cast<std::size_t>(leader)] >= 0)
@@ -133,7 +133,7 @@ void ContactSolver::findClusters(const Problem& problem) {
     };
     for (int p = 0; p < pairCount; ++p) addSource(problem.pairs[static_cast<std::size_t>(p)].points, p);
     for (std::size_t k = 0; k < problem.kinematic.size(); ++k)
-        addSource(std::span(&problem.kinematic[k].point, 1), pairCount + static_cast<int>(k));
+        addSource(problem.kinematic[k].used(), pairCount + static_cast<int>(k));
     std::sort(order_.begin(), order_.end());
 
     rows_.clear();
@@ -379,9 +379,11 @@ void ContactSolver::addRow(int source, const Problem& problem) {
         softness = pair.softness;
         for (std::size_t i = 0; i < 4; ++i) {
             // Where the sides meet. Each is brought there by a shift of its own.
+            if (pair.places && pair.weights[i] == 0) continue;
             const bool isFirst = static_cast<int>(i) < pair.firstSide();
             const double way = (isFirst ? -pair.firstShare : 1.0 - pair.firstShare) * pair.distance;
-            const dvec3 place = pair.place.value_or(placeOf(pair.points[i]) + way * pair.normal);
+            const dvec3 place =
+                pair.places ? (*pair.places)[isFirst ? 0 : 1] : placeOf(pair.points[i]) + way * pair.normal;
             addTerm(pair.points[i], pair.weights[i], place, problem);
         }
         row.closing = closingOf(pair.gap());
@@ -390,13 +392,13 @@ void ContactSolver::addRow(int source, const Problem& problem) {
         const KinematicContact& contact = problem.kinematic[k];
         int number = 0;
         while (static_cast<std::size_t>(number) < k &&
-               problem.kinematic[k - static_cast<std::size_t>(number) - 1].point == contact.point)
+               problem.kinematic[k - static_cast<std::size_t>(number) - 1].point() == contact.point())
             ++number;
         key = keyOf(contact, number);
         row.normal = four(contact.normal);
         row.friction = contact.friction;
-        addTerm(contact.point, 1.0, placeOf(contact.point) + contact.aside - contact.thickness * contact.normal,
-                problem);
+        const dvec3 place = placeOf(contact.point()) + contact.arm;
+        contact.forEachPoint([&](int point, double weight) { addTerm(point, weight, place, problem); });
         row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
         if (contact.isWhole) row.closing += closingOf(contact.gap);
         terms_.push_back({addSlot(contact.carried, contact.carried), -1.0, 0.0});

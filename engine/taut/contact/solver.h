@@ -72,20 +72,28 @@ struct Solid {
     bool moves = true;           // else its points are as any that nothing moves
 };
 
-// A point in contact with a collider. It does not go into the collider, and the impulses of pairs that press it there
-// raise the limit of its friction.
+// A point in contact with a collider, or a place of an edge or a face. It does not go into the collider, and the
+// impulses of pairs that press it there raise the limit of its friction.
 struct KinematicContact {
-    int point;
-    dvec3 normal;           // unit, out of the collider
-    double speed;           // [m/s] of the collider's surface along the normal
+    std::array<int, 3> points{-1, -1, -1};  // the first always; they are not alike
+    std::array<double, 3> weights{1.0, 0.0, 0.0};
+    dvec3 normal{0.0};      // unit, out of the collider
+    double speed = 0.0;     // [m/s] of the collider's surface along the normal
     dvec3 carried{0.0};     // [m/s] velocity of the collider's surface
     double friction = 0.0;  // Coulomb's μ of point and surface [-]
     // The solver resolves it like a pair's: of a point of a solid, or a carried one.
     bool isWhole = false;
     double gap = 0.0;          // [m] at x0
-    double thickness = 0.0;    // [m] from there to where the impulse acts
-    dvec3 aside{0.0};          // [m] from the point to what touches: see round_solids.h
+    double thickness = 0.0;    // [m] of the point's surface
+    dvec3 arm{0.0};            // [m] from the first point to where the impulse acts, at x0
     double restitution = 0.0;  // [-]
+    int point() const { return points[0]; }
+    std::span<const int> used() const { return std::span(points).first(points[2] >= 0 ? 3 : points[1] >= 0 ? 2 : 1); }
+    // Calls each(point, weight).
+    template <class Each>
+    void forEachPoint(Each&& each) const {
+        for (std::size_t k = 0; k < used().size(); ++k) each(points[k], weights[k]);
+    }
 };
 
 class ContactSolver {

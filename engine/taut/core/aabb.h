@@ -29,6 +29,10 @@ struct Aabb {
         return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
     }
     // Whether boxes are no further apart than `within` along each axis.
+    // 0 … 7: on the high side of axis k if bit k is set.
+    glm::dvec3 corner(int i) const {
+        return {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
+    }
     bool overlaps(const Aabb& other, double within) const {
         return low.x <= other.high.x + within && other.low.x <= high.x + within && low.y <= other.high.y + within &&
                other.low.y <= high.y + within && low.z <= other.high.z + within && other.low.z <= high.z + within;

@@ -114,19 +114,12 @@ struct FreeformBending {
     bool isEmpty() const { return rest.empty(); }
 };
 
-// A solid of revolution, whose triangles are a prism or a pyramid in it.
-struct Revolution {
-    std::array<int, 2> ends{-1, -1};    // points in their middle, or the tip; -1: it is none
-    std::array<double, 2> radii{0, 0};  // [m] of the ends, 0: a tip
-    double sag = 0;                     // [m] how far it is outside of its triangles at most
-};
-
 // What of a rigid body touches others as one surface: all of it, or one of the shapes that it is made of.
 struct RigidPart {
     int first = 0, last = 0;  // points
     double thickness = 0;     // [m] that it keeps from others beyond its points and triangles
     double rounding = 0;      // [m] how far beyond them it ends as it is drawn
-    Revolution revolution;
+    double sag = 0;           // [m] how far a solid of revolution is outside of its triangles at most
 };
 
 struct Model {

@@ -35,8 +35,6 @@ bool factor(const dmat3& s, dmat3& l) {
 RigidPart shifted(RigidPart part, int points) {
     part.first += points;
     part.last += points;
-    if (part.revolution.ends[0] >= 0)
-        for (int& end : part.revolution.ends) end += points;
     return part;
 }
 

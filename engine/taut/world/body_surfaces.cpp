@@ -7,6 +7,7 @@
 
 #include "taut/bodies/body.h"
 #include "taut/bodies/private/carried_surface.h"
+#include "taut/bodies/private/rigid_marks.h"
 #include "taut/contact/contact_group.h"
 #include "taut/contact/crossings.h"
 #include "taut/island/private/island.h"
@@ -29,13 +30,11 @@ contact::ContactSurface loneSurface(const Body& body, const mechanics::RigidPart
         for (int& i : triangle) renumber(i);
     for (std::array<int, 2>& line : surface.lines)
         for (int& i : line) renumber(i);
-    surface.revolution = {};
+    surface.isConvex = false;
     surface.meetsItself = false;
     surface.meetsOthers = true;
     return surface;
 }
-
-constexpr double upright = 1e-7;  // [rad] an axis that leans less has ends that are level
 
 bool any(const std::vector<bool>& flags) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
@@ -53,8 +52,12 @@ BodySurfaces::BodySurfaces(const Selection& first, const Selection& second) : ge
     TAUT_EXPECTS(first.generation == second.generation);
     const auto add = [&](const Selection& selection, std::vector<bool>& isOf) {
         for (const Selection::Part& part : selection.parts) {
+            const std::size_t before = bodies_.size();
             if (std::find(bodies_.begin(), bodies_.end(), part.body) == bodies_.end())
                 for (const mechanics::RigidPart& surface : surfacesOf(*part.body)) {
+                    const std::vector<collision::PlacedConvex>& pieces = part.body->pieces;
+                    const std::size_t number = bodies_.size() - before;
+                    pieces_.push_back(number < pieces.size() ? pieces[number] : collision::PlacedConvex{});
                     bodies_.push_back(part.body);
                     parts_.push_back(surface);
                     isFirst_.push_back(false);
@@ -196,13 +199,12 @@ BodySurfaces::Place BodySurfaces::furthest(double up) {
             const glm::dvec3 place = x + glm::dvec3(0.0, up * parts_[s].rounding, 0.0);
             if (furthest.body == nullptr || !(up * place.y <= up * furthest.x.y)) furthest = {&body, place};
         };
-        if (const mechanics::Revolution& round = parts_[s].revolution; round.ends[0] >= 0) {
-            const auto end = [&](std::size_t k) { return x_[static_cast<std::size_t>(first_[s] + round.ends[k])]; };
-            const glm::dvec3 axis = glm::normalize(end(1) - end(0));
-            const glm::dvec3 across = glm::dvec3(0.0, 1.0, 0.0) - axis.y * axis;  // upwards, in the plane of an end
-            const double length = glm::length(across);
-            for (std::size_t k = 0; k < 2; ++k)
-                compare(length > upright ? end(k) + up * round.radii[k] / length * across : end(k));
+        if (const collision::Convex* shape = pieces_[s].shape.get(); parts_[s].sag > 0) {
+            const RigidMarks marks = marksOf(body);
+            std::array<glm::dvec3, 3> now;
+            for (std::size_t k = 0; k < 3; ++k) now[k] = x_[static_cast<std::size_t>(first_[s] + marks.points[k])];
+            const collision::Frame at = marks.motionTo(now).of(pieces_[s].at);
+            compare(at.toWorld(shape->support(glm::dvec3(0.0, up, 0.0) * at.rotation)));
         } else {
             for (const int i : elements_->surface(static_cast<int>(s)).points) compare(x_[static_cast<std::size_t>(i)]);
         }

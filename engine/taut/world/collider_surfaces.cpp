@@ -9,7 +9,6 @@
 namespace taut::world {
 namespace {
 
-constexpr double roundCells = 2.0;   // radius over the longest edge, below which a ball or a capsule slips through
 constexpr double jumpSpeed = 100.0;  // [m/s] of any vertex; a collider that is faster jumps
 
 struct Placing {
@@ -23,27 +22,12 @@ struct Placing {
     dvec3 operator()(const dvec3& x) const { return rotation * x + position; }
 };
 
-// [m] The longest edge of surfaces that touch colliders.
-double cellOf(std::span<const contact::ContactSurface> surfaces, std::span<const dvec3> rest) {
-    double square = 0;
-    const auto take = [&](int a, int b) {
-        const dvec3 d = rest[static_cast<std::size_t>(a)] - rest[static_cast<std::size_t>(b)];
-        square = std::max(square, glm::dot(d, d));
-    };
-    for (const contact::ContactSurface& surface : surfaces) {
-        if (!surface.meetsRigid) continue;
-        for (const std::array<int, 3>& t : surface.triangles)
-            for (std::size_t k = 0; k < 3; ++k) take(t[k], t[(k + 1) % 3]);
-        for (const std::array<int, 2>& line : surface.lines) take(line[0], line[1]);
-    }
-    return std::sqrt(square);
-}
-
 contact::ContactSurface surfaceOf(const collision::Outline& outline, double friction, int offset, int bond) {
     contact::ContactSurface surface;
     surface.isRigid = true;
     surface.meetsItself = surface.meetsOthers = false;
-    surface.thickness = outline.radius;
+    surface.thickness = 0;
+    surface.isConvex = outline.isConvex;
     surface.friction = friction;
     surface.bond = bond;
     for (int corner : outline.corners) surface.points.push_back(offset + corner);
@@ -73,7 +57,6 @@ contact::ContactSurface surfaceOf(const ColliderFigure& figure, double friction,
 
 ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders, double seconds,
                                    std::vector<contact::ContactSurface>& surfaces, std::vector<dvec3>& rest) {
-    const double thin = roundCells * cellOf(surfaces, rest);
     for (std::size_t c = 0; c < colliders.size(); ++c) {
         Collider own;
         own.collider = static_cast<int>(c);
@@ -85,15 +68,16 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
         // No other surface has this bond.
         const auto bond = [&] { return -1 - static_cast<int>(surfaces.size()); };
         if (own.figure != nullptr) {
-            surfaces.push_back(surfaceOf(*own.figure, colliders[c].friction, own.firstPoint, bond()));
+            surfaces.push_back(surfaceOf(*own.figure, colliders[c].material.friction, own.firstPoint, bond()));
             own.vertices.assign(own.figure->atRest().begin(), own.figure->atRest().end());
             rest.insert(rest.end(), own.vertices.begin(), own.vertices.end());
             setEnds(own, seconds);
         }
         const Placing place(colliders[c].pose);
         for (const collision::Outline& outline : colliders[c].outlines) {
-            if (outline.radius > thin || outline.vertices.empty()) continue;
-            surfaces.push_back(surfaceOf(outline, colliders[c].friction, static_cast<int>(rest.size()), bond()));
+            if (outline.vertices.empty()) continue;
+            surfaces.push_back(
+                surfaceOf(outline, colliders[c].material.friction, static_cast<int>(rest.size()), bond()));
             for (const dvec3& vertex : outline.vertices) rest.push_back(place(vertex));
             own.vertices.insert(own.vertices.end(), outline.vertices.begin(), outline.vertices.end());
         }

@@ -147,8 +147,12 @@ Holders holdersOf(const WorldImpl& w) {
 std::vector<TouchedCollider> touchedColliders(const WorldImpl& w) {
     std::vector<TouchedCollider> all;
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
-        all.push_back({"collider." + part.spec.name, collision::outlinesOf(part.model->shape), part.model->figure,
-                       part.spec.friction, placement.to});
+        all.push_back({"collider." + part.spec.name,
+                       collision::outlinesOf(part.model->shape),
+                       part.model->figure,
+                       collision::convexOf(part.model->shape),
+                       {part.spec.friction, part.spec.restitution},
+                       placement.to});
     });
     return all;
 }

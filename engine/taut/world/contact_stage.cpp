@@ -8,7 +8,7 @@
 #include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/private/carried_surface.h"
 #include "taut/contact/penetration.h"
-#include "taut/contact/round_solids.h"
+#include "taut/contact/rigid_side.h"
 #include "taut/core/private/parallel.h"
 #include "taut/core/rigid_motion.h"
 #include "taut/spec/targets.h"
@@ -24,6 +24,7 @@ constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tic
 constexpr double mostClosing = 0.35;     // closing of a pair
 constexpr double mostClosingOfSolids = 4.0;
 constexpr double mostFurther = 0.1;    // into a collider, off another
+constexpr int ofElement = 1 << 28;     // in the name of a pair
 constexpr double stickingShare = 0.9;  // of Coulomb's limit: up to there friction may hold what sleeps
 
 using Clock = std::chrono::steady_clock;  // for reports only
@@ -93,10 +94,7 @@ contact::ContactSurface surfaceOf(const Body& body, const mechanics::RigidPart& 
                 surface.lines.push_back({at(s.a), at(s.b)});
     for (int i = part.first; i < part.last; ++i)
         if (isOutside[static_cast<std::size_t>(i)]) surface.points.push_back(at(i));
-    if (const mechanics::Revolution& own = part.revolution; own.ends[0] >= 0) {
-        surface.revolution = {{at(own.ends[0]), at(own.ends[1])}, own.radii, own.sag};
-        surface.thickness += own.sag;
-    }
+    surface.thickness += part.sag;
     return surface;
 }
 
@@ -133,6 +131,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
             for (const mechanics::RigidPart& part : surfacesOf(*body)) {
                 surfaces.push_back(surfaceOf(*body, part, offset, static_cast<int>(islands_.size())));
                 surfaces.back().solid = solidOf(island->plan(), *body, static_cast<int>(solids_.size()));
+                if (!body->pieces.empty()) addPiece(*body, surfaces.back(), offset);
                 if (body->spec->meetsCollidersAsWhole() || body->damage.goneTetrahedra() > 0)
                     wholes_.push_back({static_cast<int>(bodies_.size()), part.thickness, {}});
                 offsets.push_back(offset);
@@ -162,6 +161,14 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     std::vector<TouchedCollider> touched;
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return body->spec->facesMeetColliders(); }))
         touched = colliders();
+    for (std::size_t c = 0; c < touched.size(); ++c) {
+        materials_.push_back(touched[c].material);
+        colliderNames_.push_back(touched[c].name);
+        convex_.add(static_cast<int>(c), touched[c].convex, touched[c].pose);
+    }
+    const bool areAny = !convex_.isEmpty() || !rigid_.isEmpty();
+    for (contact::ContactSurface& surface : surfaces)
+        surface.meetsShapes = areAny && !surface.isConvex && (surface.meetsRigid || surface.meetsOthers);
     colliders_ = ColliderSurfaces(touched, now.start(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
     inverseMass_.resize(rest.size());
@@ -181,6 +188,20 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     keepJoinedApart(offsets, touched);
     colliders_.placeAll(x1_);
     x0_ = x1_;
+}
+
+// The convex shape of the part of a solid that is the last surface.
+void ContactStage::addPiece(const Body& body, contact::ContactSurface& surface, int offset) {
+    const int number = static_cast<int>(bodies_.size());
+    std::size_t part = 0;
+    for (auto before = bodies_.rbegin(); before != bodies_.rend() && *before == &body; ++before) ++part;
+    const collision::PlacedConvex& piece = body.pieces[part];
+    surface.isConvex = piece.shape != nullptr;
+    if (!surface.isConvex) return;
+    surface.isFormula = piece.shape->closed().kind != collision::ClosedKind::none;
+    RigidMarks marks = marksOf(body);
+    for (int& i : marks.points) i = offset + body.pointOf[static_cast<std::size_t>(i)];
+    rigid_.addSolid({number, piece, marks, body.model.parts[part].thickness});
 }
 
 // Faces of rigid bodies would keep apart the points that joints hold together, and colliders those that they carry.
@@ -259,10 +280,17 @@ ContactStage::Penetration ContactStage::penetration(const std::function<bool(con
     for (const auto& [whole, thickness, points] : wholes_) {
         const Island& island = *bodyOf(whole).island;
         if (!isWanted(whole) || !bodyOf(whole).spec->collide || island.colliders().size() == 0) continue;
+        if (elements().surface(whole).isConvex) continue;
         for (int i : points) all.ofPoints = std::max(all.ofPoints, -island.colliders().distance(position(i)));
     }
+    findPresentTouches();
+    for (const RigidTouch& touch : rigidTouches_)
+        if (touch.other < 0 && isWanted(touch.surface)) all.ofPoints = std::max(all.ofPoints, -touch.gap);
+    for (const ElementTouch& touch : elementTouches_)
+        if (touch.collider >= 0 && isWanted(touch.surface))
+            all.deepest = std::max(all.deepest, -touch.gap - elements().surface(touch.surface).thickness);
     if (colliders_.isEmpty()) return all;
-    all.deepest = contact::penetrationOf(elements(), now, x1_, isWanted);
+    all.deepest = std::max(all.deepest, contact::penetrationOf(elements(), now, x1_, isWanted));
     for (const contact::Crossing& crossing : now) {
         const auto sides = sidesOf(crossing);
         if (!sides || isOfBody(sides->second) || !isWanted(sides->first)) continue;
@@ -367,7 +395,7 @@ int ContactStage::chooseInstants(const TickTime& time, std::span<const ColliderM
     if (spec_.instants) return takeInstants(time, *spec_.instants);
     for (Island* island : islands_) island->moveColliders(moving, 0);  // they stand where the last try has left them
     contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
-    if (!wholes_.empty()) foreseeWholes(forecast);
+    foreseeWholes(forecast);
     // Doubles instants until a motion of that speed goes at most `way` in one.
     const auto enough = [&](int instants, double speed, double way) {
         while (instants < mostInstantsForSpeed && tickSeconds_ * speed > instants * way) instants *= 2;
@@ -443,7 +471,9 @@ void ContactStage::forEachNearCollider(double past, double ahead, const Each& ea
         island.colliders().findNear({points, past > 0 ? x0_ : x1_, x1_, (1.0 + nearShare) * most, ahead, v_}, most,
                                     past, island.step(), found);
         for (const auto& near : found)
-            if (!mountedOn_.contains({whole, near.collider})) each(near.point, spec, thickness, near);
+            if (!mountedOn_.contains({whole, near.collider}) &&
+                !(elements().surface(whole).isConvex && convex_.isAllOf(near.collider)))
+                each(near.point, spec, thickness, near);
     }
 }
 
@@ -454,7 +484,7 @@ void ContactStage::addWholeContacts(double h) {
         [&](int i, const BodySpec& spec, double thickness, const collision::Colliders::Surface& surface) {
             const auto k = static_cast<std::size_t>(i);
             contact::KinematicContact& contact = kinematic_.emplace_back();
-            contact.point = i;
+            contact.points[0] = i;
             contact.normal = surface.away;
             contact.carried = surface.velocity;
             contact.speed = glm::dot(surface.away, surface.velocity);
@@ -462,13 +492,138 @@ void ContactStage::addWholeContacts(double h) {
             contact.isWhole = true;
             contact.thickness = thickness;
             contact.restitution = surface.material.restitution * spec.restitution;
+            contact.arm = -thickness * surface.away;
             // Where it came from, so that what it goes in this instant is no overlap.
-            const dvec3 from = contact::ridgeAt(elements(), i, surface.away, x0_);
-            contact.aside = from - x0_[k];
-            contact.gap = surface.distance - thickness + glm::dot(surface.away, from - x1_[k]) + h * contact.speed;
+            contact.gap = surface.distance - thickness + glm::dot(surface.away, x0_[k] - x1_[k]) + h * contact.speed;
         });
-    std::stable_sort(kinematic_.begin(), kinematic_.end(),
-                     [](const auto& a, const auto& b) { return a.point < b.point; });
+}
+
+// A collider around a held point is an axle.
+bool ContactStage::isHeldIn(const Body& body, int collider) const {
+    for (std::size_t i = 0; i < body.model.held.size(); ++i)
+        if (body.model.held[i] &&
+            body.island->colliders().inside(body.island->position(body.pointOf[i])).collider == collider)
+            return true;
+    return false;
+}
+
+bool ContactStage::mayMeet(int surface, int collider) const {
+    const Body& body = bodyOf(surface);
+    return body.spec->facesMeetColliders() && !mountedOn_.contains({surface, collider}) && !isHeldIn(body, collider);
+}
+
+// What shapes touch on the way from x0 to x1 (points) [m], in a part of the tick -> rigidTouches_, elementTouches_.
+void ContactStage::findTouches(std::span<const dvec3> x0, std::span<const dvec3> x1, double from, double to,
+                               bool alsoOfStill) {
+    const auto meets = [&](int surface, int collider) {
+        return (alsoOfStill || !bodyOf(surface).island->isStill()) && mayMeet(surface, collider);
+    };
+    const double seconds = to > from ? tickSeconds_ * (to - from) : tickSeconds_;
+    shapes_.clear();
+    convex_.addTo(shapes_, from, to);
+    const auto mayTouch = [&](int surface, int other, int collider) {
+        return other >= 0 ? elements().mayTouch(surface, other) : meets(surface, collider);
+    };
+    rigidTouches_ = rigid_.find(x0, x1, seconds, shapes_, mayTouch);
+    elementTouches_ = ofElements_.find(elements(), x0, x1, seconds, rigid_.shapes(), mayTouch);
+}
+
+// Between two ticks, at x1_.
+void ContactStage::findPresentTouches() {
+    findTouches(x1_, x1_, 1.0, 1.0, true);
+}
+
+std::vector<RigidTouch> ContactStage::overlaps() {
+    std::vector<RigidTouch> all;
+    if (isEmpty()) return all;
+    crossings();  // places x1_
+    findPresentTouches();
+    for (const RigidTouch& touch : rigidTouches_)
+        if (touch.other >= 0 && touch.gap < -touch.thickness) all.push_back(touch);
+    return all;
+}
+
+// -> kinematic_, rigidPairs_, deepestTouch_.
+void ContactStage::addTouches() {
+    rigidPairs_.clear();
+    deepestTouch_ = 0;
+    const auto pointOf = [&](int surface) { return elements().surface(surface).points.front(); };
+    const auto deepen = [&](double way, double gap, double thickness) {
+        deepestTouch_ = std::max(deepestTouch_, (way - std::max(gap, 0.0)) / thickness);
+    };
+    // Of a collider, with a body that has this point.
+    const auto add = [&](int collider, int point, const dvec3& normal, const dvec3& place, const dvec3& velocity,
+                         double gap) -> contact::KinematicContact& {
+        const int surface = elements().surfaceOf(point);
+        const BodySpec& spec = *bodyOf(surface).spec;
+        const collision::Material& material = materials_[static_cast<std::size_t>(collider)];
+        contact::KinematicContact& contact = kinematic_.emplace_back();
+        contact.points[0] = point;
+        contact.normal = normal;
+        contact.carried = velocity;
+        contact.speed = glm::dot(normal, velocity);
+        contact.friction = material.friction * spec.friction;
+        contact.isWhole = true;
+        contact.gap = gap;
+        contact.thickness = elements().surface(surface).thickness;
+        contact.arm = place - x0_[static_cast<std::size_t>(point)];
+        contact.restitution = material.restitution * spec.restitution;
+        return contact;
+    };
+    for (const RigidTouch& touch : rigidTouches_) {
+        deepen(touch.way, touch.gap, touch.thickness);
+        const int a = pointOf(touch.surface);
+        if (touch.other < 0) {
+            add(touch.collider, a, touch.normal, touch.onFirst, touch.velocity, touch.gap);
+            continue;
+        }
+        const BodySpec &first = *bodyOf(touch.surface).spec, &second = *bodyOf(touch.other).spec;
+        const int b = pointOf(touch.other);
+        contact::ContactConstraint& pair = rigidPairs_.emplace_back();
+        pair.points = {a, b, b, b};
+        pair.weights = {1.0, 0.0, 0.0, -1.0};
+        pair.normal = touch.normal;
+        pair.distance = touch.gap + touch.thickness;
+        pair.thickness = touch.thickness;
+        pair.friction = spec_.friction * first.friction * second.friction;
+        pair.restitution = spec_.restitution * first.restitution * second.restitution;
+        pair.a = touch.first;
+        pair.b = collision::Manifold::most * touch.second + touch.number;
+        pair.isPoint = pair.isActive = true;
+        pair.places = {{touch.onFirst, touch.onSecond}};
+    }
+    for (const ElementTouch& touch : elementTouches_) {
+        const contact::ContactSurface& surface = elements().surface(touch.surface);
+        deepen(touch.way, touch.gap, touch.thickness);
+        if (touch.solid >= 0) {
+            // The solid is the first side, and both are pressed where the element is.
+            const BodySpec &first = *bodyOf(touch.solid).spec, &second = *bodyOf(touch.surface).spec;
+            contact::ContactConstraint& pair = rigidPairs_.emplace_back();
+            pair.points[0] = pointOf(touch.solid);
+            pair.weights[0] = 1.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                pair.points[k + 1] = touch.points[k] < 0 ? touch.points[0] : touch.points[k];
+                pair.weights[k + 1] = -touch.weights[k];
+            }
+            pair.normal = -touch.normal;
+            pair.distance = touch.gap + touch.thickness;
+            pair.thickness = touch.thickness;
+            pair.friction = spec_.friction * first.friction * second.friction;
+            pair.restitution = spec_.restitution * first.restitution * second.restitution;
+            pair.a = ofElement | touch.shape;
+            pair.b = touch.element;
+            pair.isPoint = pair.isActive = true;
+            pair.places = {{touch.place, touch.place}};
+            continue;
+        }
+        contact::KinematicContact& contact =
+            add(touch.collider, touch.points[0], touch.normal, touch.place - surface.thickness * touch.normal,
+                touch.velocity, touch.gap);
+        contact.points = touch.points;
+        contact.weights = touch.weights;
+        if (!contact::mayYield(contact.used(), std::span(contact.weights).first(contact.used().size()), inverseMass_))
+            kinematic_.pop_back();
+    }
 }
 
 // How much deeper whole bodies that met a collider in this instant have come into another, or another side of it, over
@@ -478,7 +633,7 @@ double ContactStage::furtherIntoColliders(double h) const {
     std::map<const Island*, std::vector<dvec3>> met;  // normals
     group_->forEachOnCollider([&](std::size_t k, double, const dvec3&) {
         const contact::KinematicContact& contact = kinematic_[k];
-        if (contact.isWhole) met[bodyOf(elements().surfaceOf(contact.point)).island].push_back(contact.normal);
+        if (contact.isWhole) met[bodyOf(elements().surfaceOf(contact.point())).island].push_back(contact.normal);
     });
     if (met.empty() || spec_.instants || instants_ >= mostInstantsForSpeed) return 0;
     double most = 0;
@@ -498,7 +653,29 @@ double ContactStage::furtherIntoColliders(double h) const {
 }
 
 // Whole bodies meet colliders, and solids turn and roll, in no fewer instants than bodies that press each other.
-void ContactStage::foreseeWholes(contact::Forecast& forecast) const {
+void ContactStage::foreseeTouches(contact::Forecast& forecast) {
+    if (rigid_.isEmpty() && convex_.isEmpty()) return;
+    std::vector<dvec3> ahead(x1_);
+    for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += tickSeconds_ * v_[i];
+    findTouches(x1_, ahead, 0.0, 1.0);
+    const auto foresee = [&](int surface, double gap, double way, double thickness) {
+        if (gap > way) return false;
+        forecast.isInContact = true;
+        forecast.surfaces.push_back(surface);
+        forecast.closing = std::max(forecast.closing, way / tickSeconds_);
+        forecast.leastThickness = std::min(forecast.leastThickness, thickness);
+        return true;
+    };
+    for (const RigidTouch& touch : rigidTouches_)
+        if (foresee(touch.surface, touch.gap, touch.way, touch.thickness) && touch.other >= 0)
+            forecast.surfaces.push_back(touch.other);
+    for (const ElementTouch& touch : elementTouches_)
+        if (touch.gap <= touch.way / fewest_ && foresee(touch.surface, touch.gap, touch.way, touch.thickness) &&
+            touch.solid >= 0)
+            forecast.surfaces.push_back(touch.solid);
+}
+
+void ContactStage::foreseeWholes(contact::Forecast& forecast) {
     for (const auto& [whole, thickness, points] : wholes_)
         if (bodyOf(whole).spec->isRigid() && !bodyOf(whole).island->isStill()) forecast.isInContact = true;
     forEachNearCollider(0.0, tickSeconds_,
@@ -509,6 +686,7 @@ void ContactStage::foreseeWholes(contact::Forecast& forecast) const {
                             forecast.closing = std::max(forecast.closing, -glm::dot(surface.away, velocity));
                             forecast.leastThickness = std::min(forecast.leastThickness, thickness);
                         });
+    foreseeTouches(forecast);
     std::sort(forecast.surfaces.begin(), forecast.surfaces.end());
     forecast.surfaces.erase(std::unique(forecast.surfaces.begin(), forecast.surfaces.end()), forecast.surfaces.end());
 }
@@ -528,6 +706,7 @@ void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotio
     takeDamage();
     takeMasses();
     hasJumped_ = colliders_.move(moving, time.end(), tickSeconds_, group_->elements(), v_) || hasJumped_;
+    convex_.move(moving, tickSeconds_);
     readAll();
     colliders_.place(0.0, x1_);
     if (hasJumped_) group_->drop();
@@ -538,6 +717,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
                                                         bool watchesFriction) {
     if (isAtRest()) {
         hasJumped_ = colliders_.move(moving, time.end(), tickSeconds_, group_->elements(), v_) || hasJumped_;
+        convex_.move(moving, tickSeconds_);
         return std::nullopt;
     }
     beginTick(time, moving);
@@ -583,6 +763,8 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
             isAgain = isAgain || verdicts[k] == TickVerdict::again;
         }
         if (!isAgain) break;
+            printf("DBG again at %d: coarse %d deepest %g turn %g slides %d\n", instants_, isCoarse, result_.deepest,
+                   turn_, result_.slides);
 
         // Goes back to the start of the tick and chooses a new number of instants.
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
@@ -605,6 +787,8 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
     for (Island* island : islands_) island->endTick(time);
     reportAccelerations();
     pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : room_);
+        printf("DBG instants %d pace %d deepest %g further %g turn %g slides %d impulses %d\n", instants_,
+               pace_.substeps(), result_.deepest, further_, turn_, result_.slides, result_.impulses);
     total_.instants += instants_;
     ++total_.ticks;
     return std::nullopt;
@@ -655,16 +839,21 @@ bool ContactStage::findReached() {
 // Adds up what pairs press points with in this instant, and colliders those of whole bodies.
 void ContactStage::addPresses() {
     const auto add = [&](int point, double share, double limit, const dvec3& push, const dvec3& friction) {
-        group_->carried().forEachMover(point, [&](int i, double weight) {
-            Press& press = presses_[static_cast<std::size_t>(i)];
-            press.limit += std::abs(share * weight) * limit;
-            press.push += share * weight * push;
-            press.friction += share * weight * friction;
-        });
+        group_->carried().forEachMover(
+            point,
+            [&](int i, double weight) {
+                Press& press = presses_[static_cast<std::size_t>(i)];
+                press.limit += std::abs(share * weight) * limit;
+                press.push += share * weight * push;
+                press.friction += share * weight * friction;
+            });
     };
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
         const contact::KinematicContact& contact = kinematic_[k];
-        if (contact.isWhole) add(contact.point, 1.0, contact.friction * normal, normal * contact.normal, friction);
+        if (!contact.isWhole) return;
+        contact.forEachPoint([&](int point, double weight) {
+            add(point, weight, contact.friction * normal, normal * contact.normal, friction);
+        });
     });
     group_->forEachPressing([&](const contact::ContactConstraint& pair, double normal, const dvec3& friction) {
         for (std::size_t k = 0; k < 4; ++k)
@@ -687,14 +876,15 @@ void ContactStage::addFootholds() {
                 const auto own = static_cast<std::size_t>(k);
                 place += std::abs(pair.weights[own]) * x1_[static_cast<std::size_t>(pair.points[own])];
             }
-            footholds_[bodyOf(surface).island].push_back({place, glm::length(friction), pair.friction * normal, false});
+            footholds_[bodyOf(surface).island].push_back({pair.places ? (*pair.places)[from == 0 ? 0 : 1] : place,
+                                                          glm::length(friction), pair.friction * normal, false});
         }
     });
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
         const contact::KinematicContact& contact = kinematic_[k];
         if (!contact.isWhole || !(normal > 0)) return;
-        const dvec3& place = x1_[static_cast<std::size_t>(contact.point)];
-        footholds_[bodyOf(elements().surfaceOf(contact.point)).island].push_back(
+        const dvec3 place = x1_[static_cast<std::size_t>(contact.point())] + contact.arm;
+        footholds_[bodyOf(elements().surfaceOf(contact.point())).island].push_back(
             {place, glm::length(friction), contact.friction * normal, true});
     });
 }
@@ -777,7 +967,9 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
 
         // Contact at the end of the instant.
         readAll();
-        colliders_.place(static_cast<double>(c + 1) / instants, x1_);
+        shareBefore_ = static_cast<double>(c) / instants;
+        share_ = static_cast<double>(c + 1) / instants;
+        colliders_.place(share_, x1_);
         resolveInstant(h);
         settle();
         further_ = wholes_.empty() ? 0.0 : furtherIntoColliders(h);
@@ -817,9 +1009,16 @@ void ContactStage::resolveInstant(double h) {
     for (const Part& part : parts_)
         for (const collision::Contact& c :
              part.island->isStill() ? std::span<const collision::Contact>{} : part.island->contacts())
-            kinematic_.push_back(
-                {part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
+            kinematic_.push_back({.points = {part.first + c.point, -1, -1},
+                                  .normal = c.normal,
+                                  .speed = glm::dot(c.normal, c.carried),
+                                  .carried = c.carried,
+                                  .friction = c.friction});
     if (!wholes_.empty()) addWholeContacts(h);
+    findTouches(x0_, x1_, shareBefore_, share_);
+    addTouches();
+    std::stable_sort(kinematic_.begin(), kinematic_.end(),
+                     [](const auto& a, const auto& b) { return a.point() < b.point(); });
     contact::Instant instant;
     instant.h = h;
     instant.x0 = x0_;
@@ -827,6 +1026,8 @@ void ContactStage::resolveInstant(double h) {
     instant.v = v_;
     instant.inverseMass = inverseMass_;
     instant.kinematic = kinematic_;
+    instant.rigid = rigidPairs_;
+    instant.deepestTouch = deepestTouch_;
     instant.restSpeed = 2.0 * weight_ * h;  // as with colliders
     // Islands place the points that contact moved and return where these came to be.
     instant.place = [&](std::span<const int> points) {
@@ -941,8 +1142,8 @@ std::vector<contact::ContactPoint> ContactStage::contacts() const {
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3&) {
         const contact::KinematicContact& own = kinematic_[k];
         if (!own.isWhole) return;
-        const dvec3 place = x1_[static_cast<std::size_t>(own.point)] - own.thickness * own.normal;
-        all.push_back({place, own.normal, normal, elements().surfaceOf(own.point), noSurface});
+        const dvec3 place = x1_[static_cast<std::size_t>(own.point())] + own.arm;
+        all.push_back({place, own.normal, normal, elements().surfaceOf(own.point()), noSurface});
     });
     return all;
 }

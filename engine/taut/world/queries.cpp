@@ -59,6 +59,9 @@ Metrics metricsOf(WorldImpl& w, const std::function<bool(const Body&)>& wanted, 
     if (what == Measures::butCrossings || !touchesAny(w)) return metrics;
     for (const BodyCrossing& crossing : crossingsOf(w))
         metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
+    for (const RigidTouch& overlap : w.contactStage->overlaps())
+        metrics.crossings +=
+            counts(w.contactStage->bodyOf(overlap.surface)) || counts(w.contactStage->bodyOf(overlap.other)) ? 1 : 0;
     const ContactStage::Penetration penetration = w.contactStage->penetration(wanted);
     metrics.crossings += penetration.figureCrossings;
     metrics.facePenetration = penetration.deepest;

@@ -74,10 +74,6 @@ class ConvexForm final : public Form {
         if constexpr (requires { shape_.closed(); }) return shape_.closed();
         return {};
     }
-    Outline outline() const override {
-        if constexpr (requires { shape_.outline(); }) return shape_.outline();
-        return {};
-    }
 
   private:
     Closed shape_;

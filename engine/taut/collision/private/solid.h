@@ -9,9 +9,6 @@
 
 namespace taut::collision {
 
-// If any place of a collider is faster than this [m/s], the collider counts as having jumped: see Colliders::resolve.
-inline constexpr double fastestSurface = 100.0;
-
 struct Solid {
     std::shared_ptr<const Form> form;
     Frame inCollider;

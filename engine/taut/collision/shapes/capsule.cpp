@@ -1,4 +1,7 @@
 // A capsule: all places within the radius of a piece of the y axis.
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+
+#include "taut/collision/private/bullet_convex.h"
 #include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/shapes/shape_parts.h"
 #include "taut/collision/shape_table.h"
@@ -6,13 +9,30 @@
 namespace taut::collision {
 namespace {
 
+class CapsuleConvex final : public Convex {
+  public:
+    CapsuleConvex(double radius, double height)
+        : Convex(std::make_unique<btCapsuleShape>(unit * radius, unit * height), radius), half_(0.5 * height) {}
+    SupportingFace faceTowards(const dvec3&) const override {
+        SupportingFace axis;
+        axis.add({0.0, -half_, 0.0});
+        axis.add({0.0, half_, 0.0});
+        return axis;
+    }
+
+    ClosedShape closed() const override {
+        const auto& capsule = static_cast<const btCapsuleShape&>(*bullet());
+        return {ClosedKind::capsule, {capsule.getRadius() / unit, capsule.getHalfHeight() / unit}};
+    }
+
+  private:
+    double half_;
+};
+
 std::shared_ptr<const Form> makeCapsule(const ShapeSizes& sizes) {
-    const double radius = sizes.radius;
-    expectSize(radius, "capsule: the radius");
+    expectSize(sizes.radius, "capsule: the radius");
     expectSize(sizes.height, "capsule: the height");
-    const double half = 0.5 * sizes.height;
-    return byFormula<ClosedKind::capsule>({radius, half}, roundBounds(radius, half + radius),
-                                          {{{0.0, -half, 0.0}, {0.0, half, 0.0}}, {{0, 1}}, {0, 1}, radius});
+    return byFormula<ClosedKind::capsule>(CapsuleConvex(sizes.radius, sizes.height));
 }
 
 }  // namespace
@@ -26,7 +46,9 @@ ShapeKind capsuleKind() {
             .mesh =
                 [](const ShapeSizes& sizes) {
                     return view::capsuleMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
-                }};
+                },
+            .convex = [](const ShapeSizes& sizes,
+                         double) { return std::make_shared<const CapsuleConvex>(sizes.radius, sizes.height); }};
 }
 
 }  // namespace taut::collision

@@ -1,6 +1,10 @@
 // The convex hull of a set of points; the work is in convex_hull.h and foot_finder.h.
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+
+#include <algorithm>
 #include <string>
 
+#include "taut/collision/private/bullet_convex.h"
 #include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/convex_hull.h"
 #include "taut/collision/private/foot_finder.h"
@@ -69,6 +73,76 @@ bool Hull::sweep(const Path& path, HalfSpace& touch, bool&) const {
     return sweepConvex(*this, path, touch);
 }
 
+// The flat faces of a hull, which its triangles are parts of.
+class HullConvex final : public Convex {
+  public:
+    HullConvex(const Facets& facets, std::unique_ptr<btConvexHullShape> shape, double rounding)
+        : Convex(std::move(shape), rounding) {
+        constexpr double sameNormal = 1e-12;  // 1 - cosine
+        std::vector<std::vector<dvec3>> corners;
+        for (const Facet& facet : facets.triangles) {
+            std::size_t k = 0;
+            while (k < faces_.size() && glm::dot(faces_[k].normal, facet.normal) < 1.0 - sameNormal) ++k;
+            if (k == faces_.size()) {
+                faces_.push_back({facet.normal, {}});
+                corners.emplace_back();
+            }
+            for (const dvec3& corner : {facet.corner, facet.corner + facet.ab, facet.corner + facet.ac})
+                corners[k].push_back(corner);
+        }
+        for (std::size_t k = 0; k < faces_.size(); ++k) putInOrder(corners[k], faces_[k]);
+    }
+    SupportingFace faceTowards(const dvec3& direction) const override {
+        const auto best = std::max_element(faces_.begin(), faces_.end(), [&](const Face& a, const Face& b) {
+            return glm::dot(a.normal, direction) < glm::dot(b.normal, direction);
+        });
+        return best->corners;
+    }
+
+  private:
+    struct Face {
+        dvec3 normal;
+        SupportingFace corners;
+    };
+    // Counter-clockwise about the middle, each place once; of very many every second, third ...
+    static void putInOrder(std::vector<dvec3>& corners, Face& face) {
+        dvec3 middle(0.0);
+        for (const dvec3& corner : corners) middle += corner / static_cast<double>(corners.size());
+        const dvec3 x = glm::normalize(corners[0] - middle), y = glm::cross(face.normal, x);
+        std::vector<std::pair<double, dvec3>> turned;
+        for (const dvec3& corner : corners) {
+            const double u = glm::dot(x, corner - middle), v = glm::dot(y, corner - middle);
+            const double share = u / (std::abs(u) + std::abs(v));  // grows and falls as the cosine of the angle
+            turned.emplace_back(v < 0.0 ? 3.0 + share : 1.0 - share, corner);
+        }
+        std::sort(turned.begin(), turned.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        constexpr double near = 1e-9;
+        std::vector<dvec3> around;
+        for (const auto& [turn, corner] : turned) {
+            const auto isAt = [&, at = corner](const dvec3& other) {
+                return glm::dot(at - other, at - other) <= near * near * glm::dot(at - middle, at - middle);
+            };
+            if (around.empty() || !(isAt(around.back()) || isAt(around.front()))) around.push_back(corner);
+        }
+        const std::size_t step = (around.size() + SupportingFace::most - 1) / SupportingFace::most;
+        for (std::size_t k = 0; k < around.size(); k += step) face.corners.add(around[k]);
+    }
+    std::vector<Face> faces_;
+};
+
+std::shared_ptr<const Convex> makeHullConvex(const ShapeSizes& sizes, double rounding) {
+    const std::vector<std::uint32_t> triangles = convexHull(sizes.vertices);
+    if (triangles.empty()) failShape("hull: its vertices lie in one plane, so it has no volume");
+    auto shape = std::make_unique<btConvexHullShape>();
+    shape->setMargin(Convex::unit * rounding);
+    std::vector<std::uint32_t> used(triangles);
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const std::uint32_t i : used) shape->addPoint(toBullet(sizes.vertices[i]), false);
+    shape->recalcLocalAabb();
+    return std::make_shared<const HullConvex>(makeFacets(sizes.vertices, triangles), std::move(shape), rounding);
+}
+
 view::Mesh meshOfHull(const ShapeSizes& sizes) {
     const std::vector<glm::vec3> positions(sizes.vertices.begin(), sizes.vertices.end());
     return view::creasedMesh(positions, sizes.triangles, hullCrease);
@@ -82,7 +156,8 @@ ShapeKind hullKind() {
             .own = {},
             .isBounded = true,
             .form = [](const ShapeSizes& sizes) { return std::make_shared<const Hull>(sizes.vertices); },
-            .mesh = meshOfHull};
+            .mesh = meshOfHull,
+            .convex = makeHullConvex};
 }
 
 }  // namespace taut::collision

@@ -16,21 +16,30 @@ struct PlaneForm {
     ClosedShape closed() const { return {ClosedKind::halfSpace}; }
 };
 
-std::shared_ptr<const Form> makePlane(const ShapeSizes& sizes) {
+dvec3 normalOf(const ShapeSizes& sizes) {
     const double length = std::sqrt(glm::dot(sizes.normal, sizes.normal));
     if (!(length > 0.0) || !isFinite(length)) failShape("plane: its normal has no direction");
-    return std::make_shared<ConvexForm<PlaneForm>>(PlaneForm{sizes.normal / length});
+    return sizes.normal / length;
 }
+
+class PlaneConvex final : public Convex {
+  public:
+    explicit PlaneConvex(const dvec3& normal) : Convex(normal) {}
+    SupportingFace faceTowards(const dvec3&) const override { return {}; }
+};
 
 }  // namespace
 
 ShapeKind planeKind() {
-    return {.name = "plane",
-            .fields = {"normal"},
-            .own = {},
-            .isBounded = false,
-            .form = makePlane,
-            .mesh = [](const ShapeSizes& sizes) { return view::quadMesh(glm::vec3(sizes.normal), boardHalfSize); }};
+    return {
+        .name = "plane",
+        .fields = {"normal"},
+        .own = {},
+        .isBounded = false,
+        .form =
+            [](const ShapeSizes& sizes) { return std::make_shared<ConvexForm<PlaneForm>>(PlaneForm{normalOf(sizes)}); },
+        .mesh = [](const ShapeSizes& sizes) { return view::quadMesh(glm::vec3(sizes.normal), boardHalfSize); },
+        .convex = [](const ShapeSizes& sizes, double) { return std::make_shared<const PlaneConvex>(normalOf(sizes)); }};
 }
 
 }  // namespace taut::collision

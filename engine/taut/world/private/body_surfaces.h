@@ -53,11 +53,12 @@ class BodySurfaces {
     // (surfaces) those of one body one after the other
     std::vector<const Body*> bodies_;
     std::vector<mechanics::RigidPart> parts_;
-    std::vector<int> first_;                // first point of the body
-    std::vector<std::size_t> damage_;       // (surfaces) number of severed edges taken into account
-    std::size_t goneAround_ = 0;            // of all bodies
-    std::vector<bool> isFirst_, isSecond_;  // (surfaces)
-    std::vector<glm::dvec3> x_;             // (points) one body after the other, then what they carry
+    std::vector<collision::PlacedConvex> pieces_;  // of solids; null: not convex
+    std::vector<int> first_;                       // first point of the body
+    std::vector<std::size_t> damage_;              // (surfaces) number of severed edges taken into account
+    std::size_t goneAround_ = 0;                   // of all bodies
+    std::vector<bool> isFirst_, isSecond_;         // (surfaces)
+    std::vector<glm::dvec3> x_;                    // (points) one body after the other, then what they carry
     contact::CarriedPoints carried_;
     std::unique_ptr<contact::Elements> elements_;
     std::unique_ptr<contact::Bvh> patches_;

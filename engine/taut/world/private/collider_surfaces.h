@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "taut/bodies/collider_figure.h"
+#include "taut/collision/convex.h"
 #include "taut/collision/outline.h"
 #include "taut/contact/elements.h"
 #include "taut/island/private/island.h"
@@ -18,16 +19,16 @@ struct TouchedCollider {
     std::string name;
     std::vector<collision::Outline> outlines;        // corners and edges
     std::shared_ptr<const ColliderFigure> figure{};  // null: it is rigid
-    double friction = 0;                             // Coulomb's μ [-]
-    collision::Pose pose;                            // at present
+    collision::ConvexParts convex;
+    collision::Material material;
+    collision::Pose pose;  // at present
 };
 
 class ColliderSurfaces {
   public:
     ColliderSurfaces() = default;
     // Expects colliders in their order; seconds: the present time. Appends their surfaces and points (points) [m] to
-    // those of a group. A ball or a capsule is included only if it is thin enough to slip through the cells of the
-    // touching surfaces.
+    // those of a group.
     ColliderSurfaces(const std::vector<TouchedCollider>& colliders, double seconds,
                      std::vector<contact::ContactSurface>& surfaces, std::vector<dvec3>& rest);
 

@@ -38,6 +38,8 @@
 #include "taut/spec/spec.h"
 #include "taut/world/contact_info.h"
 #include "taut/world/private/collider_surfaces.h"
+#include "taut/world/private/element_contacts.h"
+#include "taut/world/private/rigid_contacts.h"
 
 namespace taut::world {
 
@@ -113,6 +115,9 @@ class ContactStage {
     std::string nameOf(int surface) const {
         return isOfBody(surface) ? bodyOf(surface).fullName() : colliders_.nameOf(surface);
     }
+    const std::string& colliderName(int collider) const { return colliderNames_[static_cast<std::size_t>(collider)]; }
+    // Of the last instant.
+    std::span<const ElementTouch> elementTouches() const { return elementTouches_; }
     void keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched);
     // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
     // rigid collider sticks out of a face, which is no crossing.
@@ -127,6 +132,8 @@ class ContactStage {
         int figureCrossings = 0;  // edges of bodies through figures, or the other way round
     };
     Penetration penetration(const std::function<bool(const Body&)>& wanted);
+    // Places of convex solids that are further in each other than they are rounded, between two ticks.
+    std::vector<RigidTouch> overlaps();
 
   private:
     // The range of an island in the group's points.
@@ -138,8 +145,16 @@ class ContactStage {
     void takeDamage();
     void takeMasses();
     void takeSolids();
+    void addPiece(const Body& body, contact::ContactSurface& surface, int offset);
     void addWholeContacts(double h);
-    void foreseeWholes(contact::Forecast& forecast) const;
+    bool isHeldIn(const Body& body, int collider) const;
+    bool mayMeet(int surface, int collider) const;
+    void findTouches(std::span<const dvec3> x0, std::span<const dvec3> x1, double from, double to,
+                     bool alsoOfStill = false);
+    void findPresentTouches();
+    void addTouches();
+    void foreseeTouches(contact::Forecast& forecast);
+    void foreseeWholes(contact::Forecast& forecast);
     template <class Each>
     void forEachNearCollider(double past, double ahead, const Each& each,
                              const std::function<bool(int surface)>& isWanted = nullptr) const;
@@ -190,6 +205,14 @@ class ContactStage {
     std::set<std::pair<int, int>> mountedOn_;
     std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements
     ColliderSurfaces colliders_;
+    ConvexColliders convex_;
+    RigidContacts rigid_;
+    ElementContacts ofElements_;
+    std::vector<ShapeInMotion> shapes_;  // of convex colliders, in the last instant
+    std::span<const RigidTouch> rigidTouches_;
+    std::span<const ElementTouch> elementTouches_;
+    std::vector<collision::Material> materials_;  // (colliders)
+    std::vector<std::string> colliderNames_;      // likewise
     std::unique_ptr<contact::ContactGroup> group_;
     bool hasJumped_ = true;
     bool hadImpulse_ = false;
@@ -202,6 +225,9 @@ class ContactStage {
     double turn_ = 0;                       // [rad] largest turnOf() in the last instant
     std::vector<double> inverseMass_;       // (points)
     std::vector<contact::KinematicContact> kinematic_;
+    std::vector<contact::ContactConstraint> rigidPairs_;
+    double deepestTouch_ = 0;             // as Instant::deepestTouch
+    double share_ = 0, shareBefore_ = 0;  // of the tick, at the end and the start of the instant
     // What contact did with a point in a tick, summed over pairs and instants.
     struct Press {
         double limit = 0;                // [N s] of friction

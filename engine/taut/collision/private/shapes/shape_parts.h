@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "taut/collision/convex.h"
 #include "taut/collision/private/convex_form.h"
 #include "taut/core/error.h"
 
@@ -18,17 +19,11 @@ inline void expectSize(double size, const char* what) {
         failShape(std::string(what) + " has to be above zero, is " + std::to_string(size));
 }
 
-// The box of a solid of revolution about y.
-inline core::Aabb roundBounds(double radius, double halfHeight) {
-    return {dvec3(-radius, -halfHeight, -radius), dvec3(radius, halfHeight, radius)};
-}
-
 // A convex shape whose distance is in closed_shape.h.
 template <ClosedKind kind>
 struct ShapeByFormula {
     ClosedShape shape;
     core::Aabb filled;
-    Outline edges{};
 
     Nearest nearest(const dvec3& p) const {
         const ClosedDistance at = closedDistance<kind>(shape.size, p.x, p.y, p.z);
@@ -36,17 +31,13 @@ struct ShapeByFormula {
     }
     core::Aabb bounds() const { return filled; }
     ClosedShape closed() const { return shape; }
-    Outline outline() const { return edges; }
 };
 
-struct FormulaSizes {
-    double a = 0.0, b = 0.0, c = 0.0;
-};
+// Its numbers are those of the Bullet shape. Expects one without rounding, or a sphere or a capsule.
 template <ClosedKind kind>
-std::shared_ptr<const Form> byFormula(const FormulaSizes& sizes, const core::Aabb& filled, Outline edges = {}) {
+std::shared_ptr<const Form> byFormula(const Convex& convex) {
     using Formula = ShapeByFormula<kind>;
-    return std::make_shared<ConvexForm<Formula>>(
-        Formula{{kind, {sizes.a, sizes.b, sizes.c}}, filled, std::move(edges)});
+    return std::make_shared<ConvexForm<Formula>>(Formula{convex.closed(), *convex.bounds()});
 }
 
 }  // namespace taut::collision

@@ -1,0 +1,73 @@
+#include "taut/collision/element_distance.h"
+
+#include <cmath>
+
+namespace taut::collision {
+namespace {
+
+constexpr double level = 1e-3;  // sine of the angle up to which a surface does not rise along an edge
+
+template <ClosedKind kind>
+Nearest distanceBy(const ClosedShape& shape, const dvec3& p) {
+    const ClosedDistance at = closedDistance<kind>(shape.size, p.x, p.y, p.z);
+    return {at.distance, {at.x, at.y, at.z}};
+}
+
+}  // namespace
+
+Nearest distanceTo(const ClosedShape& shape, const dvec3& place) {
+    switch (shape.kind) {
+        case ClosedKind::sphere: return distanceBy<ClosedKind::sphere>(shape, place);
+        case ClosedKind::box: return distanceBy<ClosedKind::box>(shape, place);
+        case ClosedKind::capsule: return distanceBy<ClosedKind::capsule>(shape, place);
+        case ClosedKind::cylinder: return distanceBy<ClosedKind::cylinder>(shape, place);
+        case ClosedKind::cone: return distanceBy<ClosedKind::cone>(shape, place);
+        case ClosedKind::halfSpace:
+        case ClosedKind::none: break;
+    }
+    return {};
+}
+
+// The distance falls from a and falls from b: in between its gradient along the edge has a zero, which regula falsi
+// with the halves of Illinois finds.
+std::optional<ElementNear> nearestInEdge(const ClosedShape& shape, const dvec3& a, const dvec3& b, const Nearest& atA,
+                                         const Nearest& atB) {
+    constexpr int mostRounds = 60;
+    constexpr double flat = 1e-9;  // sine
+    const dvec3 edge = b - a;
+    const double size = std::sqrt(glm::dot(edge, edge));
+    double low = 0, high = 1, riseAtLow = glm::dot(atA.normal, edge), riseAtHigh = glm::dot(atB.normal, edge);
+    if (!(riseAtLow < -level * size && riseAtHigh > level * size)) return std::nullopt;
+    ElementNear found;
+    for (int round = 0, last = 0; round < mostRounds; ++round) {
+        const double share = (low * riseAtHigh - high * riseAtLow) / (riseAtHigh - riseAtLow);
+        const Nearest near = distanceTo(shape, a + share * edge);
+        found = {near.distance, near.normal, {1.0 - share, share, 0.0}};
+        const double rise = glm::dot(near.normal, edge);
+        if (std::abs(rise) < flat * size) break;
+        const int sign = rise < 0 ? -1 : 1;
+        (sign < 0 ? low : high) = share;
+        (sign < 0 ? riseAtLow : riseAtHigh) = rise;
+        if (sign == last) (sign < 0 ? riseAtHigh : riseAtLow) *= 0.5;
+        last = sign;
+    }
+    return found;
+}
+
+std::optional<ElementNear> nearestInFace(const Convex& shape, const dvec3& a, const dvec3& b, const dvec3& c) {
+    const dvec3 ab = b - a, ac = c - a, area = glm::cross(ab, ac);
+    const double square = glm::dot(area, area);
+    if (!(square > 0)) return std::nullopt;
+    dvec3 normal = area / std::sqrt(square);
+    if (glm::dot(normal, a - shape.bounds()->centre()) < 0) normal = -normal;
+    const dvec3 reaches = shape.support(normal) + shape.rounding() * normal;
+    const double distance = glm::dot(normal, a - reaches);
+    const dvec3 foot = reaches + distance * normal, way = foot - a;
+    const double ofB = glm::dot(area, glm::cross(way, ac)) / square, ofC = glm::dot(area, glm::cross(ab, way)) / square;
+    if (!(ofB > 0 && ofC > 0 && ofB + ofC < 1)) return std::nullopt;
+    // What reaches through the plane may do so beside the triangle.
+    if (distance < 0 && distanceTo(shape.closed(), foot).distance > 0) return std::nullopt;
+    return ElementNear{distance, normal, {1.0 - ofB - ofC, ofB, ofC}};
+}
+
+}  // namespace taut::collision

@@ -1,0 +1,139 @@
+#include "taut/world/private/element_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut::world {
+namespace {
+
+constexpr double closeShare = 0.05;  // of the thickness: what is nearer counts though nothing closes
+
+}  // namespace
+
+struct ElementContacts::Query {
+    const contact::Elements& elements;
+    std::span<const dvec3> x0, x1;
+    double seconds;
+    const ShapeInMotion& shape;
+    int number;  // of the shape
+    collision::ClosedShape closed;
+    int surface;
+    double thickness;  // [m]
+
+    // [m] A place that is further from the shape, and goes no further than `way`, does not meet it.
+    double reach(double way) const { return way + shape.travel + (1 + closeShare) * thickness; }
+};
+
+std::span<const ElementTouch> ElementContacts::find(const contact::Elements& elements, std::span<const dvec3> x0,
+                                                    std::span<const dvec3> x1, double seconds,
+                                                    std::span<const ShapeInMotion> shapes, const MayTouch& mayTouch) {
+    touches_.clear();
+    local_.resize(x0.size());
+    near_.resize(x0.size());
+    ways_.resize(x0.size());
+    for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s) {
+        const contact::ContactSurface& surface = elements.surface(s);
+        if (!surface.meetsShapes || surface.isConvex) continue;
+        core::Aabb box;
+        for (const int i : surface.points) {
+            box.add(x0[static_cast<std::size_t>(i)]);
+            box.add(x1[static_cast<std::size_t>(i)]);
+        }
+        box.grow((1 + closeShare) * surface.thickness);
+        for (std::size_t k = 0; k < shapes.size(); ++k) {
+            const ShapeInMotion& shape = shapes[k];
+            const collision::ClosedShape closed = shape.convex->closed();
+            if (closed.kind == collision::ClosedKind::none || shape.convex->isHalfSpace()) continue;
+            if (!box.overlaps(shape.box, 0.0) || !mayTouch(s, shape.surface, shape.collider)) continue;
+            const Query query{elements, x0, x1, seconds, shape, static_cast<int>(k), closed, s, surface.thickness};
+            measurePoints(query);
+            if (shape.surface >= 0) addPoints(query);
+            addEdges(query);
+            addFaces(query);
+        }
+    }
+    return touches_;
+}
+
+void ElementContacts::measurePoints(const Query& query) {
+    for (const int i : query.elements.surface(query.surface).points) {
+        const auto k = static_cast<std::size_t>(i);
+        local_[k] = query.shape.from.toLocal(query.x0[k]);
+        near_[k] = collision::distanceTo(query.closed, local_[k]);
+        ways_[k] = glm::length(query.x1[k] - query.x0[k]);
+    }
+}
+
+void ElementContacts::addPoints(const Query& query) {
+    for (const int i : query.elements.surface(query.surface).points) {
+        const collision::Nearest& near = near_[static_cast<std::size_t>(i)];
+        if (near.distance < query.reach(ways_[static_cast<std::size_t>(i)]))
+            add(query, 3 * i, {i, -1, -1}, {near.distance, near.normal, {1.0, 0.0, 0.0}});
+    }
+}
+
+void ElementContacts::addEdges(const Query& query) {
+    const std::vector<contact::Edge>& edges = query.elements.edges();
+    for (int e = query.elements.firstEdgeOf(query.surface); e < query.elements.firstEdgeOf(query.surface + 1); ++e) {
+        const contact::Edge& edge = edges[static_cast<std::size_t>(e)];
+        if (edge.isGone || edge.a == edge.b) continue;
+        const auto a = static_cast<std::size_t>(edge.a), b = static_cast<std::size_t>(edge.b);
+        const double reach = query.reach(std::max(ways_[a], ways_[b]));
+        if (near_[a].distance + near_[b].distance - glm::length(local_[b] - local_[a]) > 2 * reach) continue;
+        const auto near = collision::nearestInEdge(query.closed, local_[a], local_[b], near_[a], near_[b]);
+        if (near && near->distance < reach) add(query, 3 * e + 1, {edge.a, edge.b, -1}, *near);
+    }
+}
+
+void ElementContacts::addFaces(const Query& query) {
+    const std::vector<contact::Triangle>& triangles = query.elements.triangles();
+    for (int t = query.elements.firstTriangleOf(query.surface); t < query.elements.firstTriangleOf(query.surface + 1);
+         ++t) {
+        const contact::Triangle& triangle = triangles[static_cast<std::size_t>(t)];
+        if (triangle.isGone) continue;
+        double least = 1e300, way = 0, size = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto i = static_cast<std::size_t>(triangle.points[k]);
+            const auto next = static_cast<std::size_t>(triangle.points[(k + 1) % 3]);
+            least = std::min(least, near_[i].distance);
+            way = std::max(way, ways_[i]);
+            size = std::max(size, glm::length(local_[next] - local_[i]));
+        }
+        const double reach = query.reach(way);
+        if (least - size > reach) continue;
+        const auto at = [&](std::size_t k) { return local_[static_cast<std::size_t>(triangle.points[k])]; };
+        const auto near = collision::nearestInFace(*query.shape.convex, at(0), at(1), at(2));
+        // What is deeper than an instant goes is no way out: the face is beside the shape, in a plane through it.
+        if (near && std::abs(near->distance) < reach) add(query, 3 * t + 2, triangle.points, *near);
+    }
+}
+
+void ElementContacts::add(const Query& query, int element, const std::array<int, 3>& points,
+                          const collision::ElementNear& near) {
+    const ShapeInMotion& shape = query.shape;
+    ElementTouch touch{.surface = query.surface,
+                       .solid = shape.surface,
+                       .collider = shape.collider,
+                       .shape = query.number,
+                       .element = element,
+                       .points = points,
+                       .weights = {near.weights[0], near.weights[1], near.weights[2]},
+                       .normal = shape.from.directionToWorld(near.normal),
+                       .place = dvec3(0.0),
+                       .gap = near.distance - query.thickness,
+                       .way = 0,
+                       .thickness = query.thickness + shape.thickness,
+                       .velocity = dvec3(0.0)};
+    dvec3 end(0.0);
+    for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k) {
+        touch.place += touch.weights[k] * query.x0[static_cast<std::size_t>(points[k])];
+        end += touch.weights[k] * query.x1[static_cast<std::size_t>(points[k])];
+    }
+    const dvec3 on = touch.place - near.distance * touch.normal,
+                wayOfShape = shape.to.toWorld(shape.from.toLocal(on)) - on;
+    touch.way = -glm::dot(touch.normal, end - touch.place - wayOfShape);
+    touch.velocity = wayOfShape / query.seconds;
+    touches_.push_back(touch);
+}
+
+}  // namespace taut::world

@@ -1,0 +1,69 @@
+// What convex solids do to each other and to convex colliders: the places where they touch, or come near, in an
+// instant.
+//
+//     swept boxes, sorted along an axis  -->  pairs  -->  collision::manifoldOf() of each  -->  touches
+//
+// A touch is measured at the start of the instant, so that its gap is speculative (contact_group.h). Where two shapes
+// that are apart meet within the instant, the normal is that of the moment when they do: balls that meet aslant fly
+// apart as they lie then. All of it is a function of the poses at both ends of the instant.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "taut/bodies/private/rigid_marks.h"
+#include "taut/world/private/convex_colliders.h"
+
+namespace taut::world {
+
+// One place of two shapes.
+struct RigidTouch {
+    int surface;              // of the group, of the first shape
+    int other;                // likewise of the second; -1: it is a collider's
+    int collider;             // else -1
+    int first, second;        // numbers of the shapes, for a name of the pair
+    int number;               // among the places of the pair
+    dvec3 normal;             // unit, towards the first
+    dvec3 onFirst, onSecond;  // [m] where they press each other, at the start of the instant
+    double gap, thickness;    // [m] then; of both
+    double way;               // [m] by which they close along the normal in the instant, if nothing stops them
+    dvec3 velocity;           // [m/s] of the collider's surface there
+};
+
+class RigidContacts {
+  public:
+    // A shape of a solid that is a surface of a group.
+    struct Solid {
+        int surface;
+        collision::PlacedConvex piece;
+        RigidMarks marks;  // points of the group
+        double thickness;  // [m]
+    };
+    void addSolid(const Solid& solid) { solids_.push_back(solid); }
+    bool isEmpty() const { return solids_.empty(); }
+
+    // Touches in an instant of `seconds` [s], of solids whose points go from x0 to x1 (points) [m], with each other and
+    // with shapes of colliders. `mayTouch` says which surfaces, and which surface and collider, may.
+    using MayTouch = std::function<bool(int surface, int other, int collider)>;
+    std::span<const RigidTouch> find(std::span<const dvec3> x0, std::span<const dvec3> x1, double seconds,
+                                     std::span<const ShapeInMotion> colliders, const MayTouch& mayTouch);
+
+    // Of the last find(): of solids, in their order, then of colliders.
+    std::span<const ShapeInMotion> shapes() const { return shapes_; }
+
+  private:
+    void takeShapes(std::span<const dvec3> x0, std::span<const dvec3> x1, std::span<const ShapeInMotion> colliders);
+    void findPairs(const MayTouch& mayTouch);
+    void touch(const ShapeInMotion& a, const ShapeInMotion& b, double seconds, std::vector<RigidTouch>& touches) const;
+
+    std::vector<Solid> solids_;
+    std::vector<ShapeInMotion> shapes_;       // of solids, then of colliders
+    std::vector<std::pair<int, int>> pairs_;  // of shapes, ascending
+    std::vector<int> order_;                  // scratch
+    std::vector<std::vector<RigidTouch>> perTask_;
+    std::vector<RigidTouch> touches_;
+};
+
+}  // namespace taut::world

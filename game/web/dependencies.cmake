@@ -29,11 +29,15 @@ foreach(header TAUT_BULLET_SOURCE/btBulletCollisionCommon.h TAUT_DEFLATE_SOURCE/
 endforeach()
 add_library(taut_bullet STATIC)
 add_library(taut::bullet ALIAS taut_bullet)
-set(shapes btBvhTriangleMeshShape btCollisionShape btConcaveShape btOptimizedBvh btStridingMeshInterface
-  btTriangleCallback btTriangleIndexVertexArray btTriangleMeshShape)
+set(shapes btBoxShape btBvhTriangleMeshShape btCapsuleShape btCollisionShape btConcaveShape btConeShape
+  btConvexHullShape btConvexInternalShape btConvexPolyhedron btConvexShape btCylinderShape btOptimizedBvh
+  btPolyhedralConvexShape btSphereShape btStridingMeshInterface btTriangleCallback btTriangleIndexVertexArray
+  btTriangleMeshShape)
 list(TRANSFORM shapes PREPEND BulletCollision/CollisionShapes/)
-set(sources ${shapes} BulletCollision/BroadphaseCollision/btQuantizedBvh LinearMath/btAlignedAllocator
-  LinearMath/btSerializer LinearMath/btVector3)
+set(detectors btGjkEpa2 btGjkEpaPenetrationDepthSolver btGjkPairDetector btVoronoiSimplexSolver)
+list(TRANSFORM detectors PREPEND BulletCollision/NarrowPhaseCollision/)
+set(sources ${shapes} ${detectors} BulletCollision/BroadphaseCollision/btQuantizedBvh LinearMath/btAlignedAllocator
+  LinearMath/btConvexHullComputer LinearMath/btGeometryUtil LinearMath/btSerializer LinearMath/btVector3)
 list(TRANSFORM sources PREPEND ${TAUT_BULLET_SOURCE}/)
 list(TRANSFORM sources APPEND .cpp)
 target_sources(taut_bullet PRIVATE ${sources})

@@ -763,8 +763,6 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
             isAgain = isAgain || verdicts[k] == TickVerdict::again;
         }
         if (!isAgain) break;
-            printf("DBG again at %d: coarse %d deepest %g turn %g slides %d\n", instants_, isCoarse, result_.deepest,
-                   turn_, result_.slides);
 
         // Goes back to the start of the tick and chooses a new number of instants.
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
@@ -787,8 +785,6 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
     for (Island* island : islands_) island->endTick(time);
     reportAccelerations();
     pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : room_);
-        printf("DBG instants %d pace %d deepest %g further %g turn %g slides %d impulses %d\n", instants_,
-               pace_.substeps(), result_.deepest, further_, turn_, result_.slides, result_.impulses);
     total_.instants += instants_;
     ++total_.ticks;
     return std::nullopt;

@@ -6,7 +6,19 @@
 namespace taut::world {
 namespace {
 
-constexpr double closeShare = 0.05;  // of the thickness: what is nearer counts though nothing closes
+// Of the thickness:
+constexpr double closeShare = 0.05;     // what is nearer counts though nothing closes
+constexpr double standsOutShare = 0.2;  // an edge or a face counts where it comes nearer than its points by so much
+
+double longestEdge(const contact::Elements& elements, int surface, std::span<const dvec3> x) {
+    double square = 0;
+    for (int e = elements.firstEdgeOf(surface); e < elements.firstEdgeOf(surface + 1); ++e) {
+        const contact::Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
+        const dvec3 way = x[static_cast<std::size_t>(edge.b)] - x[static_cast<std::size_t>(edge.a)];
+        if (!edge.isGone) square = std::max(square, glm::dot(way, way));
+    }
+    return std::sqrt(square);
+}
 
 }  // namespace
 
@@ -19,9 +31,14 @@ struct ElementContacts::Query {
     collision::ClosedShape closed;
     int surface;
     double thickness;  // [m]
+    double longest;    // [m] edge of the surface
 
     // [m] A place that is further from the shape, and goes no further than `way`, does not meet it.
     double reach(double way) const { return way + shape.travel + (1 + closeShare) * thickness; }
+    // Whether an element comes that much nearer than its nearest point.
+    bool standsOut(const collision::ElementNear& near, double ofPoints) const {
+        return near.distance < ofPoints - standsOutShare * thickness;
+    }
 };
 
 std::span<const ElementTouch> ElementContacts::find(const contact::Elements& elements, std::span<const dvec3> x0,
@@ -31,6 +48,7 @@ std::span<const ElementTouch> ElementContacts::find(const contact::Elements& ele
     local_.resize(x0.size());
     near_.resize(x0.size());
     ways_.resize(x0.size());
+    isNear_.resize(x0.size());
     for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s) {
         const contact::ContactSurface& surface = elements.surface(s);
         if (!surface.meetsShapes || surface.isConvex) continue;
@@ -40,13 +58,24 @@ std::span<const ElementTouch> ElementContacts::find(const contact::Elements& ele
             box.add(x1[static_cast<std::size_t>(i)]);
         }
         box.grow((1 + closeShare) * surface.thickness);
+        double longest = -1;  // found where it is needed
         for (std::size_t k = 0; k < shapes.size(); ++k) {
             const ShapeInMotion& shape = shapes[k];
             const collision::ClosedShape closed = shape.convex->closed();
             if (closed.kind == collision::ClosedKind::none || shape.convex->isHalfSpace()) continue;
             if (!box.overlaps(shape.box, 0.0) || !mayTouch(s, shape.surface, shape.collider)) continue;
-            const Query query{elements, x0, x1, seconds, shape, static_cast<int>(k), closed, s, surface.thickness};
-            measurePoints(query);
+            if (longest < 0) longest = longestEdge(elements, s, x0);
+            const Query query{.elements = elements,
+                              .x0 = x0,
+                              .x1 = x1,
+                              .seconds = seconds,
+                              .shape = shape,
+                              .number = static_cast<int>(k),
+                              .closed = closed,
+                              .surface = s,
+                              .thickness = surface.thickness,
+                              .longest = longest};
+            if (!measurePoints(query)) continue;
             if (shape.surface >= 0) addPoints(query);
             addEdges(query);
             addFaces(query);
@@ -55,13 +84,18 @@ std::span<const ElementTouch> ElementContacts::find(const contact::Elements& ele
     return touches_;
 }
 
-void ElementContacts::measurePoints(const Query& query) {
+// Returns whether any point is so near that an element of it may touch -> isNear_.
+bool ElementContacts::measurePoints(const Query& query) {
+    bool areAny = false;
     for (const int i : query.elements.surface(query.surface).points) {
         const auto k = static_cast<std::size_t>(i);
         local_[k] = query.shape.from.toLocal(query.x0[k]);
         near_[k] = collision::distanceTo(query.closed, local_[k]);
         ways_[k] = glm::length(query.x1[k] - query.x0[k]);
+        isNear_[k] = near_[k].distance < query.reach(ways_[k]) + query.longest ? 1 : 0;
+        areAny = areAny || isNear_[k] != 0;
     }
+    return areAny;
 }
 
 void ElementContacts::addPoints(const Query& query) {
@@ -78,10 +112,12 @@ void ElementContacts::addEdges(const Query& query) {
         const contact::Edge& edge = edges[static_cast<std::size_t>(e)];
         if (edge.isGone || edge.a == edge.b) continue;
         const auto a = static_cast<std::size_t>(edge.a), b = static_cast<std::size_t>(edge.b);
+        if (isNear_[a] == 0 && isNear_[b] == 0) continue;
         const double reach = query.reach(std::max(ways_[a], ways_[b]));
         if (near_[a].distance + near_[b].distance - glm::length(local_[b] - local_[a]) > 2 * reach) continue;
         const auto near = collision::nearestInEdge(query.closed, local_[a], local_[b], near_[a], near_[b]);
-        if (near && near->distance < reach) add(query, 3 * e + 1, {edge.a, edge.b, -1}, *near);
+        if (near && near->distance < reach && query.standsOut(*near, std::min(near_[a].distance, near_[b].distance)))
+            add(query, 3 * e + 1, {edge.a, edge.b, -1}, *near);
     }
 }
 
@@ -90,21 +126,21 @@ void ElementContacts::addFaces(const Query& query) {
     for (int t = query.elements.firstTriangleOf(query.surface); t < query.elements.firstTriangleOf(query.surface + 1);
          ++t) {
         const contact::Triangle& triangle = triangles[static_cast<std::size_t>(t)];
-        if (triangle.isGone) continue;
-        double least = 1e300, way = 0, size = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto i = static_cast<std::size_t>(triangle.points[k]);
-            const auto next = static_cast<std::size_t>(triangle.points[(k + 1) % 3]);
+        const auto isNear = [&](int i) { return isNear_[static_cast<std::size_t>(i)] != 0; };
+        if (triangle.isGone || std::none_of(triangle.points.begin(), triangle.points.end(), isNear)) continue;
+        double least = 1e300, way = 0;
+        for (const int point : triangle.points) {
+            const auto i = static_cast<std::size_t>(point);
             least = std::min(least, near_[i].distance);
             way = std::max(way, ways_[i]);
-            size = std::max(size, glm::length(local_[next] - local_[i]));
         }
         const double reach = query.reach(way);
-        if (least - size > reach) continue;
+        if (least > reach + query.longest) continue;
         const auto at = [&](std::size_t k) { return local_[static_cast<std::size_t>(triangle.points[k])]; };
         const auto near = collision::nearestInFace(*query.shape.convex, at(0), at(1), at(2));
-        // What is deeper than an instant goes is no way out: the face is beside the shape, in a plane through it.
-        if (near && std::abs(near->distance) < reach) add(query, 3 * t + 2, triangle.points, *near);
+        // A face is pierced between its corners; where one of them is in the shape, that one tells the way out.
+        if (near && near->distance < reach && query.standsOut(*near, least) && (near->distance > 0 || least >= 0))
+            add(query, 3 * t + 2, triangle.points, *near);
     }
 }
 
@@ -133,7 +169,7 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                 wayOfShape = shape.to.toWorld(shape.from.toLocal(on)) - on;
     touch.way = -glm::dot(touch.normal, end - touch.place - wayOfShape);
     touch.velocity = wayOfShape / query.seconds;
-    touches_.push_back(touch);
+    if (touch.gap < closeShare * touch.thickness || touch.way > touch.gap) touches_.push_back(touch);
 }
 
 }  // namespace taut::world

@@ -37,7 +37,7 @@ class ElementContacts {
 
   private:
     struct Query;
-    void measurePoints(const Query& query);
+    bool measurePoints(const Query& query);
     void addPoints(const Query& query);
     void addEdges(const Query& query);
     void addFaces(const Query& query);
@@ -47,6 +47,7 @@ class ElementContacts {
     std::vector<dvec3> local_;              // [m] at the start of the instant, in the axes of the shape
     std::vector<collision::Nearest> near_;  // to the shape
     std::vector<double> ways_;              // [m] how far they go
+    std::vector<char> isNear_;              // an element of theirs may touch
     std::vector<ElementTouch> touches_;
 };
 

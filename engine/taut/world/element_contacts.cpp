@@ -35,9 +35,9 @@ struct ElementContacts::Query {
 
     // [m] A place that is further from the shape, and goes no further than `way`, does not meet it.
     double reach(double way) const { return way + shape.travel + (1 + closeShare) * thickness; }
-    // Whether an element comes that much nearer than its nearest point.
+    // Whether an element comes nearer to a collider, by so much, than its nearest point, which others keep off.
     bool standsOut(const collision::ElementNear& near, double ofPoints) const {
-        return near.distance < ofPoints - standsOutShare * thickness;
+        return shape.surface >= 0 || near.distance < ofPoints - standsOutShare * thickness;
     }
 };
 

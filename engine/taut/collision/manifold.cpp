@@ -182,7 +182,8 @@ Manifold onHalfSpace(const Posed& a, const Posed& plane, double reach) {
     const dvec3 up = plane.at.directionToWorld(plane.shape.up());
     thread_local Places places;
     places.clear();
-    for (const dvec3& corner : a.faceTowards(-up).corners()) {
+    const SupportingFace face = a.faceTowards(-up);
+    for (const dvec3& corner : face.corners()) {
         const double height = glm::dot(up, corner - plane.at.position);
         places.push_back({corner, corner - height * up, height});
     }

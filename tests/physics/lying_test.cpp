@@ -1,4 +1,4 @@
-// What falls on a shape lies on it: every kind of body, whose points may all pass beside it.
+// Every kind of body that falls on a shape lies on it, although all of its points may pass beside the shape.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -108,7 +108,7 @@ TEST(CollisionOutline, AnOpenSheetHasItsBorder) {
     for (const Outline::Edge& edge : outline.edges) EXPECT_TRUE(edge.wingA >= 0 && edge.wingB < 0);
 }
 
-// What has a distance by a formula meets edges and faces by that.
+// Shapes with a distance formula need no outline: edges and faces use that formula.
 TEST(CollisionOutline, OfFormulasIsNothing) {
     EXPECT_TRUE(outlinesOf(planeShape()).empty());
     EXPECT_TRUE(outlinesOf(boxShape({0.5, 0.5, 0.5})).empty());

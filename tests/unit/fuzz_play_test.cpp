@@ -33,7 +33,7 @@ TEST_P(GrownScenes, AreTheSameHoweverTheyArePlayed) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, GrownScenes, testing::Range(0U, 60U));
 
-// What the grammar may put into a scene is in some of a thousand.
+// Every construct of the grammar is in some of a thousand scenes.
 TEST(SceneGrammar, EveryKindGrows) {
     for (const std::string kind :
          {"[cloth.", "[rope.", "[block.", "[solid.", "[net.", "[[joint]]", "[[seam]]", "[wind.", "[anchor.",

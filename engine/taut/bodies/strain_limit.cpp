@@ -68,7 +68,7 @@ bool StrainLimit::takeTurns(std::span<const dvec3> x, int mostTurns, const Proje
             }
         }
         bool moves = false;
-        // To and fro, so that what is too long is passed on both ways.
+        // Forwards and backwards, so that a correction spreads in both directions.
         for (std::size_t k = 0; k < long_.size(); ++k)
             if (project(long_[turn % 2 == 0 ? k : long_.size() - 1 - k])) moves = true;
         if (!moves) break;

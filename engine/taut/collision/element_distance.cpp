@@ -65,7 +65,7 @@ std::optional<ElementNear> nearestInFace(const Convex& shape, const dvec3& a, co
     const dvec3 foot = reaches + distance * normal, way = foot - a;
     const double ofB = glm::dot(area, glm::cross(way, ac)) / square, ofC = glm::dot(area, glm::cross(ab, way)) / square;
     if (!(ofB > 0 && ofC > 0 && ofB + ofC < 1)) return std::nullopt;
-    // What reaches through the plane may do so beside the triangle.
+    // The shape may pierce the plane beside the triangle.
     if (distance < 0 && distanceTo(shape.closed(), foot).distance > 0) return std::nullopt;
     return ElementNear{distance, normal, {1.0 - ofB - ofC, ofB, ofC}};
 }

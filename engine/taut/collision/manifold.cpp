@@ -86,14 +86,14 @@ dvec3 areaOf(const SupportingFace& face) {
     return sum;
 }
 
-// Unit, out of the face; 0 for what is no face.
+// The unit normal, out of the face; zero for an edge or a corner.
 dvec3 normalOf(const SupportingFace& face) {
     const dvec3 area = areaOf(face);
     const double size = std::sqrt(glm::dot(area, area));
     return size > 0.0 ? area / size : dvec3(0.0);
 }
 
-// What of a face or an edge is in the half-space direction · x <= limit.
+// Keeps the part of a face or an edge in the half-space direction · x <= limit.
 void clip(SupportingFace& face, const dvec3& direction, double limit) {
     SupportingFace left;
     const bool isEdge = face.count() == 2;
@@ -152,7 +152,7 @@ void clipFaces(const SupportingFace& reference, SupportingFace incident, const d
     }
 }
 
-// Two edges, nearly parallel to each other and across the normal: both ends of what they have in common.
+// Two edges that are nearly parallel and lie across the normal: both ends of their common part.
 void clipEdges(const SupportingFace& a, const SupportingFace& b, const dvec3& normal, Places& places) {
     const dvec3 ofA = glm::normalize(a[1] - a[0]), ofB = glm::normalize(b[1] - b[0]);
     const dvec3 turned = glm::cross(ofA, ofB);

@@ -30,8 +30,8 @@ struct ContactSurface {
     int solid = -1;
     // Its points, edges and faces meet shapes, which others find (Instant).
     bool meetsShapes = false;
-    // A rigid convex shape: its elements do not meet those of another. What such shapes do to each other is found by
-    // others (Instant::rigid).
+    // A rigid convex shape. Its elements do not meet those of another one: the caller finds these contacts
+    // (Instant::rigid).
     bool isConvex = false;
     // Besides, its distance is a formula, and elements of bodies meet it by that.
     bool isFormula = false;

@@ -23,7 +23,7 @@ class WebPageWriter : public GeometrySink {
     // Throws core::Error(badContent), too: more than mostBytes.
     void finish() override;
 
-    // Whatever packing gains, its text is shorter than 512 MiB, the longest that Chromium makes of a part of a page.
+    // The packed text is always shorter than 512 MiB, the longest string that Chromium makes of a part of a page.
     static constexpr std::uint64_t mostBytes = std::uint64_t{384} << 20U;  // [bytes] of the GLB
 
   private:

@@ -498,9 +498,9 @@ void ContactStage::addWholeContacts(double h) {
         });
 }
 
-// A collider around a held point is an axle.
+// A collider around a held point of a solid is its axle.
 bool ContactStage::isHeldIn(const Body& body, int collider) const {
-    for (std::size_t i = 0; i < body.model.held.size(); ++i)
+    for (std::size_t i = 0; body.spec->isRigid() && i < body.model.held.size(); ++i)
         if (body.model.held[i] &&
             body.island->colliders().inside(body.island->position(body.pointOf[i])).collider == collider)
             return true;
@@ -512,7 +512,7 @@ bool ContactStage::mayMeet(int surface, int collider) const {
     return body.spec->facesMeetColliders() && !mountedOn_.contains({surface, collider}) && !isHeldIn(body, collider);
 }
 
-// What shapes touch on the way from x0 to x1 (points) [m], in a part of the tick -> rigidTouches_, elementTouches_.
+// Finds the touches of shapes from x0 to x1 (points) [m], in a part of the tick -> rigidTouches_, elementTouches_.
 void ContactStage::findTouches(std::span<const dvec3> x0, std::span<const dvec3> x1, double from, double to,
                                bool alsoOfStill) {
     const auto meets = [&](int surface, int collider) {
@@ -570,6 +570,17 @@ void ContactStage::addTouches() {
         contact.restitution = material.restitution * spec.restitution;
         return contact;
     };
+    // Of a solid, the first side, and another body.
+    const auto addPair = [&](int solid, int other, double gap, double thickness) -> contact::ContactConstraint& {
+        const BodySpec &first = *bodyOf(solid).spec, &second = *bodyOf(other).spec;
+        contact::ContactConstraint& pair = rigidPairs_.emplace_back();
+        pair.distance = gap + thickness;
+        pair.thickness = thickness;
+        pair.friction = spec_.friction * first.friction * second.friction;
+        pair.restitution = spec_.restitution * first.restitution * second.restitution;
+        pair.isPoint = pair.isActive = true;
+        return pair;
+    };
     for (const RigidTouch& touch : rigidTouches_) {
         deepen(touch.way, touch.gap, touch.thickness);
         const int a = pointOf(touch.surface);
@@ -577,28 +588,21 @@ void ContactStage::addTouches() {
             add(touch.collider, a, touch.normal, touch.onFirst, touch.velocity, touch.gap);
             continue;
         }
-        const BodySpec &first = *bodyOf(touch.surface).spec, &second = *bodyOf(touch.other).spec;
         const int b = pointOf(touch.other);
-        contact::ContactConstraint& pair = rigidPairs_.emplace_back();
+        contact::ContactConstraint& pair = addPair(touch.surface, touch.other, touch.gap, touch.thickness);
         pair.points = {a, b, b, b};
         pair.weights = {1.0, 0.0, 0.0, -1.0};
         pair.normal = touch.normal;
-        pair.distance = touch.gap + touch.thickness;
-        pair.thickness = touch.thickness;
-        pair.friction = spec_.friction * first.friction * second.friction;
-        pair.restitution = spec_.restitution * first.restitution * second.restitution;
         pair.a = touch.first;
         pair.b = collision::Manifold::most * touch.second + touch.number;
-        pair.isPoint = pair.isActive = true;
         pair.places = {{touch.onFirst, touch.onSecond}};
     }
     for (const ElementTouch& touch : elementTouches_) {
         const contact::ContactSurface& surface = elements().surface(touch.surface);
         deepen(touch.way, touch.gap, touch.thickness);
         if (touch.solid >= 0) {
-            // The solid is the first side, and both are pressed where the element is.
-            const BodySpec &first = *bodyOf(touch.solid).spec, &second = *bodyOf(touch.surface).spec;
-            contact::ContactConstraint& pair = rigidPairs_.emplace_back();
+            // Both are pressed where the element is.
+            contact::ContactConstraint& pair = addPair(touch.solid, touch.surface, touch.gap, touch.thickness);
             pair.points[0] = pointOf(touch.solid);
             pair.weights[0] = 1.0;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -606,13 +610,8 @@ void ContactStage::addTouches() {
                 pair.weights[k + 1] = -touch.weights[k];
             }
             pair.normal = -touch.normal;
-            pair.distance = touch.gap + touch.thickness;
-            pair.thickness = touch.thickness;
-            pair.friction = spec_.friction * first.friction * second.friction;
-            pair.restitution = spec_.restitution * first.restitution * second.restitution;
             pair.a = ofElement | touch.shape;
             pair.b = touch.element;
-            pair.isPoint = pair.isActive = true;
             pair.places = {{touch.place, touch.place}};
             continue;
         }

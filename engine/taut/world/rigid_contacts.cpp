@@ -70,7 +70,7 @@ void RigidContacts::findPairs(const MayTouch& mayTouch) {
         order_.push_back(static_cast<int>(k));
         all.add(shapes_[k].box.centre());
     }
-    // What is not bounded may meet all.
+    // A half-space has no box, so every other shape is a pair with it.
     for (std::size_t plane = 0; plane < shapes_.size(); ++plane)
         if (shapes_[plane].convex->isHalfSpace())
             for (const int k : order_) take(k, static_cast<int>(plane));

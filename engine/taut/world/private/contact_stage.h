@@ -212,7 +212,7 @@ class ContactStage {
     std::span<const RigidTouch> rigidTouches_;
     std::span<const ElementTouch> elementTouches_;
     std::vector<collision::Material> materials_;  // (colliders)
-    std::vector<std::string> colliderNames_;      // likewise
+    std::vector<std::string> colliderNames_;      // (colliders)
     std::unique_ptr<contact::ContactGroup> group_;
     bool hasJumped_ = true;
     bool hadImpulse_ = false;

@@ -1,5 +1,4 @@
-// What convex solids do to each other and to convex colliders: the places where they touch, or come near, in an
-// instant.
+// The places where convex solids touch, or nearly touch, each other and convex colliders in an instant.
 //
 //     swept boxes, sorted along an axis  -->  pairs  -->  collision::manifoldOf() of each  -->  touches
 //
@@ -21,7 +20,7 @@ namespace taut::world {
 // One place of two shapes.
 struct RigidTouch {
     int surface;              // of the group, of the first shape
-    int other;                // likewise of the second; -1: it is a collider's
+    int other;                // the same of the second shape; -1: a collider's
     int collider;             // else -1
     int first, second;        // numbers of the shapes, for a name of the pair
     int number;               // among the places of the pair

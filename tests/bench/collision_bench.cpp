@@ -64,7 +64,7 @@ std::string nameOf(const Subject& subject, const ShapeSizes& sizes) {
 void build(benchmark::State& state) {
     const Subject& subject = subjects[static_cast<std::size_t>(state.range(0))];
     const ShapeSizes sizes = ballOfTriangles(subject.level, subject.rough);
-    for (auto _ : state) benchmark::DoNotOptimize(builtInShapes().find(subject.kind)->form(sizes));
+    for (auto _ : state) benchmark::DoNotOptimize(builtInShapes().find(subject.kind)->shape(sizes).form);
     state.SetLabel(nameOf(subject, sizes));
 }
 BENCHMARK(build)
@@ -131,7 +131,7 @@ void point(benchmark::State& state, double height) {
     const Subject& subject = subjects[static_cast<std::size_t>(state.range(0))];
     const ShapeSizes sizes = ballOfTriangles(subject.level, subject.rough);
     Colliders colliders;
-    colliders.add({builtInShapes().find(subject.kind)->form(sizes), {}}, {}, {});
+    colliders.add({builtInShapes().find(subject.kind)->shape(sizes).form, {}}, {}, {});
     Cloth<Real> cloth;
     cloth.settle(colliders, height);
     for (auto _ : state) {

@@ -209,7 +209,7 @@ TEST(CollisionDistance, HullOfARealModelAgreesWithBullet) {
     }
     bullet.setMargin(0.0);
     const double size = glm::length(high - low);
-    const auto form = builtInShapes().find("hull")->form(shape);
+    const auto form = builtInShapes().find("hull")->shape(shape).form;
     Numbers numbers;
     double worst = 0.0;
     for (int i = 0; i < 2000; ++i) {

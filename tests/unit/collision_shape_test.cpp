@@ -28,26 +28,26 @@ SizedShape hullOf(std::vector<glm::dvec3> vertices) {
 }
 
 TEST(CollisionShape, SizesNotAboveZeroAreRefused) {
-    expectRefused(roundShape("sphere", 0.0), "collider sphere: the radius has to be above zero, is 0.000000");
-    expectRefused(roundShape("capsule", -1.0), "collider capsule: the radius has to be above zero, is -1.000000");
-    expectRefused(roundShape("cylinder", 1.0, 0.0), "collider cylinder: the height has to be above zero, is 0.000000");
+    expectRefused(roundShape("sphere", 0.0), "sphere: the radius has to be above zero, is 0.000000");
+    expectRefused(roundShape("capsule", -1.0), "capsule: the radius has to be above zero, is -1.000000");
+    expectRefused(roundShape("cylinder", 1.0, 0.0), "cylinder: the height has to be above zero, is 0.000000");
     expectRefused(roundShape("cone", 1.0, std::numeric_limits<double>::quiet_NaN()),
-                  "collider cone: the height has to be above zero, is nan");
-    expectRefused(boxShape({1.0, 0.0, 1.0}), "collider box: a half size has to be above zero, is 0.000000");
+                  "cone: the height has to be above zero, is nan");
+    expectRefused(boxShape({1.0, 0.0, 1.0}), "box: a half size has to be above zero, is 0.000000");
     expectRefused(boxShape({1.0, 1.0, std::numeric_limits<double>::infinity()}),
-                  "collider box: a half size has to be above zero, is inf");
-    expectRefused(planeShape({0.0, 0.0, 0.0}), "collider plane: its normal has no direction");
+                  "box: a half size has to be above zero, is inf");
+    expectRefused(planeShape({0.0, 0.0, 0.0}), "plane: its normal has no direction");
 }
 
 TEST(CollisionShape, HullWithoutVolumeIsRefused) {
-    expectRefused(hullOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), "collider hull: needs at least four vertices, has 3");
-    const std::string flat = "collider hull: its vertices lie in one plane, so it has no volume";
+    expectRefused(hullOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), "hull: needs at least four vertices, has 3");
+    const std::string flat = "hull: its vertices lie in one plane, so it has no volume";
     expectRefused(hullOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), flat);
     expectRefused(hullOf({{0, 1, 0}, {0.3, 1, 0.2}, {0.7, 1, 0.1}, {0.4, 1, 0.9}, {0.1, 1, 0.5}}), flat);
     expectRefused(hullOf({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}), flat);
     expectRefused(hullOf({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}}), flat);
     expectRefused(hullOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::infinity()}}),
-                  "collider hull: a vertex is not finite");
+                  "hull: a vertex is not finite");
 }
 
 TEST(CollisionShape, FlatTurnedHullIsRefused) {
@@ -56,7 +56,7 @@ TEST(CollisionShape, FlatTurnedHullIsRefused) {
     const glm::dquat turn = turned({1.0, 2.0, 3.0}, 0.7);
     for (int i = 0; i < 12; ++i)
         shape.vertices.push_back(turn * glm::dvec3(core::cosine(0.5 * i), 0.0, core::sine(0.5 * i)));
-    expectRefused(shape, "collider hull: its vertices lie in one plane, so it has no volume");
+    expectRefused(shape, "hull: its vertices lie in one plane, so it has no volume");
 }
 
 TEST(CollisionShape, MeshWithoutTrianglesIsRefused) {
@@ -78,8 +78,7 @@ TEST(CollisionShape, BadPartsMaterialsAndPosesAreRefused) {
     SizedShape compound;
     compound.kind = "compound";
     expectRefused(compound, "collider compound: has no parts");
-    expectRefused(compoundOf(roundShape("sphere", -2.0)),
-                  "collider sphere: the radius has to be above zero, is -2.000000");
+    expectRefused(compoundOf(roundShape("sphere", -2.0)), "sphere: the radius has to be above zero, is -2.000000");
     const SizedShape ball = roundShape("sphere", 1.0);
     expectRefused(ball, "collider material: the friction has to be zero or more", {-0.1, 0.0});
     expectRefused(ball, "collider material: the restitution has to be from 0 to 1", {0.3, 1.1});

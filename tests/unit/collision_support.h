@@ -101,11 +101,7 @@ struct SizedShape::Part {
 };
 inline SizedShape::operator Shape() const {
     Shape made;
-    if (kind != "compound") {
-        const ShapeKind& row = *builtInShapes().find(kind);
-        made.form = row.form(*this);
-        if (row.convex) made.convex = row.convex(*this, 0.0);
-    }
+    if (kind != "compound") made = builtInShapes().find(kind)->shape(*this);
     for (const Part& part : parts) made.parts.push_back({part.shape, part.pose});
     return made;
 }

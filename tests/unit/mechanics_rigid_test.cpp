@@ -11,6 +11,9 @@
 namespace taut::mechanics {
 namespace {
 
+using core::MassProperties;
+using core::massPropertiesOf;
+
 constexpr double pi = 3.14159265358979323846;
 
 // A box with its corners, and triangles that face outward.
@@ -78,7 +81,7 @@ TEST(Rigid, PropertiesOfRoundShapesAreThoseOfFinePolyhedra) {
         }
         const MassProperties fine = massPropertiesOf(x, triangles);
         const MassProperties own =
-            isCone ? massPropertiesOfCone(radius, height) : massPropertiesOfCylinder(radius, height);
+            isCone ? core::massPropertiesOfCone(radius, height) : core::massPropertiesOfCylinder(radius, height);
         EXPECT_NEAR(own.volume / fine.volume, 1.0, 3e-5);
         EXPECT_LT(glm::distance(own.centre, fine.centre), 1e-9);
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(own.spread[k][k] / fine.spread[k][k], 1.0, 3e-5);
@@ -89,7 +92,7 @@ TEST(Rigid, PointsHaveTheInertiaOfTheBody) {
     RigidShape capsule;
     capsule.positions = {{0.0, -0.2, 0.0}, {0.0, 0.2, 0.0}};
     capsule.lines = {{0, 1}};
-    capsule.properties = massPropertiesOfCapsule(0.1, 0.4);
+    capsule.properties = core::massPropertiesOfCapsule(0.1, 0.4);
     RigidShape lopsided = boxOf({0.3, 0.2, 0.1});
     lopsided.positions.resize(5);  // points that touch only on one side
     lopsided.triangles.clear();

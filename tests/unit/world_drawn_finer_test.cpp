@@ -22,7 +22,7 @@ collision::Colliders boxOfOneMetre() {
     collision::ShapeSizes sizes;
     sizes.halfSize = {0.5, 0.5, 0.5};
     collision::Shape shape;
-    shape.form = collision::builtInShapes().find("box")->form(sizes);
+    shape.form = collision::builtInShapes().find("box")->shape(sizes).form;
     collision::Colliders colliders;
     colliders.add(shape, {}, {});
     return colliders;

@@ -6,6 +6,7 @@
 #include "collision_support.h"
 #include "support/small_scenes.h"
 #include "taut/bodies/rope.h"
+#include "taut/core/rigid_motion.h"
 #include "taut/scene/load.h"
 #include "taut/world/world.h"
 
@@ -55,17 +56,33 @@ view::Mesh meshOfTorus(const collision::ShapeSizes& sizes) {
     return view::creasedMesh(positions, triangles, 1.0F);
 }
 
+// Its mass: V = 2π²R r², and about the axis V (R² + 3/4 r²).
+collision::SolidShape solidTorus(const collision::ShapeSizes& sizes, double) {
+    const view::Mesh mesh = meshOfTorus(sizes);
+    const double ring = sizes.radius, tube = sizes.own.at("tube_m");
+    const double volume = 2.0 * core::pi * core::pi * ring * tube * tube;
+    const double across = 0.5 * volume * (ring * ring + 0.75 * tube * tube), along = 0.25 * volume * tube * tube;
+    collision::SolidShape solid;
+    for (const glm::vec3& x : mesh.geometry->positions) solid.positions.emplace_back(x);
+    const std::vector<std::uint32_t>& corners = mesh.topology->triangles;
+    for (std::size_t k = 0; k < corners.size(); k += 3)
+        solid.triangles.push_back(
+            {static_cast<int>(corners[k]), static_cast<int>(corners[k + 1]), static_cast<int>(corners[k + 2])});
+    solid.properties = {volume, dvec3(0.0), glm::dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
+    return solid;
+}
+
 std::shared_ptr<const collision::ShapeKinds> withTorus() {
     collision::ShapeKinds kinds = collision::builtInShapes();
     kinds.add({.name = "torus",
                .fields = {"radius"},
                .own = {{"tube_m", "m", 1e-3, 10.0, 0.125, "Radius of the tube."}},
-               .isBounded = true,
                .form =
                    [](const collision::ShapeSizes& sizes) {
                        return std::make_shared<Torus>(sizes.radius, sizes.own.at("tube_m"));
                    },
-               .mesh = meshOfTorus});
+               .mesh = meshOfTorus,
+               .solid = solidTorus});
     return std::make_shared<const collision::ShapeKinds>(std::move(kinds));
 }
 
@@ -75,7 +92,7 @@ collision::Colliders torus(const collision::Pose& pose = {}) {
     sizes.radius = 0.5;
     sizes.own["tube_m"] = 0.125;
     collision::Colliders colliders;
-    colliders.add({withTorus()->find("torus")->form(sizes), {}}, {2.0, 0.0}, pose);
+    colliders.add(withTorus()->find("torus")->shape(sizes), {2.0, 0.0}, pose);
     return colliders;
 }
 
@@ -162,6 +179,39 @@ TEST(OwnShape, StandsInASceneWithASizeOfItsOwn) {
     EXPECT_NO_THROW(World{scene});
     EXPECT_NE(scene::jsonSchema(kinds).find("Radius of the tube. [m]"), std::string::npos);
     EXPECT_THROW(scene::loadSceneText(text, "s.toml", {}), core::Error);
+}
+
+// Two rings lie on the ground and on a ring that is a collider, one of them a part of a compound.
+TEST(OwnShape, IsASolidAndAPartOfOne) {
+    scene::LoadOptions options;
+    Kinds kinds = builtIn();
+    kinds.shapes = *withTorus();
+    options.kinds = std::make_shared<const Kinds>(kinds);
+    const std::string text =
+        "schema = 1\ncollider.ground = { shape = \"plane\" }\n"
+        "collider.ring = { shape = \"torus\", radius = 0.5, tube_m = 0.125, position = [2, 0.125, 0] }\n"
+        "[solid.low]\nshape = \"torus\"\nradius = 0.5\ntube_m = 0.1\nposition = [0, 0.11, 0]\n"
+        "density_kg_per_m3 = 100\n"
+        "[solid.high]\nshape = \"compound\"\nposition = [2, 0.36, 0]\n"
+        "parts = [{ shape = \"torus\", radius = 0.5, tube_m = 0.1 }]\n";
+    const SceneSpec scene = scene::loadSceneText(text, "s.toml", options).spec;
+    World world(scene);
+    const double volume = 2 * core::pi * core::pi * 0.5 * 0.01;
+    const auto motionOf = [&](const char* name) {
+        const PointsNow points = world.points(name);
+        return core::rigidMotionOf(points.mass, points.x, points.v);
+    };
+    const core::RigidMotion low = motionOf("solid.low");
+    EXPECT_NEAR(low.mass / (100 * volume), 1.0, 1e-12);
+    EXPECT_NEAR(low.inverseInertia[1][1] * 100 * volume * (0.25 + 0.75 * 0.01), 1.0, 1e-7);  // the corners are floats
+    for (int i = 0; i < 60; ++i) ASSERT_FALSE(world.advance());
+    // Meshes rest within a tenth of their thickness.
+    EXPECT_NEAR(motionOf("solid.low").centre.y, 0.102, 2e-4);
+    EXPECT_NEAR(motionOf("solid.high").centre.y, 0.352, 2e-4);
+    EXPECT_THROW(scene::loadSceneText(text, "s.toml", {}), core::Error);
+    SceneSpec unknown = scene;
+    unknown.shapes = nullptr;
+    EXPECT_THROW(World{unknown}, core::Error);
 }
 
 }  // namespace

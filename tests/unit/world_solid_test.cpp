@@ -187,7 +187,7 @@ kind = "rod"
 TEST_F(Solids, WhatCannotBeOneIsRefused) {
     EXPECT_EQ(complaint("[solid.ball]\nshape = \"sphere\"\nthickness = 0.1\n"),
               "s.toml:4:1: error: thickness does not go with shape \"sphere\"\n  thickness = 0.1\n  ^ it belongs to "
-              "box, cylinder, cone, mesh, hull, compound");
+              "box, cylinder, cone, hull, mesh, compound");
     EXPECT_EQ(complaint("[solid.box]\nshape = \"box\"\nsize = [1, 0.2, 1]\nthickness = 0.1\n"),
               "s.toml:5:13: error: the thickness goes into the box from all sides: it must be less than the radius of "
               "the largest ball in it, 0.1 m\n  thickness = 0.1\n              ^");

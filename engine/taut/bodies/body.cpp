@@ -83,7 +83,7 @@ void addCopies(std::vector<Body>& bodies, const BodySpec& spec, const SceneSpec&
                 const dvec3 shift = static_cast<double>(x) * array.stepX + static_cast<double>(y) * array.stepY +
                                     static_cast<double>(z) * array.stepZ;
                 for (dvec3& position : body.model.positions) position += shift;
-                for (collision::PlacedConvex& piece : body.pieces) piece.at.position += shift;
+                for (RigidPiece& piece : body.pieces) piece.at.position += shift;
                 if (!single) {
                     body.name = spec.name + "." + std::to_string(number);
                     body.seed = spec.seed + number;
@@ -164,7 +164,7 @@ Body buildBody(const BodySpec& spec, const SceneSpec& scene) {
     return body;
 }
 
-std::vector<collision::PlacedConvex> BodySpec::pieces(const SceneSpec&) const {
+std::vector<RigidPiece> BodySpec::pieces(const SceneSpec&) const {
     return {};
 }
 
@@ -245,7 +245,7 @@ bool bodiesTouch(const SceneSpec& spec) {
 }
 
 void meetFigures(SceneSpec& spec) {
-    if (std::any_of(spec.colliders.begin(), spec.colliders.end(), [](const auto& c) { return c.shape == "figure"; }))
+    if (std::any_of(spec.colliders.begin(), spec.colliders.end(), [&](const auto& c) { return spec.isFigure(c); }))
         for (BodySpec& body : spec.bodies) body.meetsFigures = body.collide;
 }
 

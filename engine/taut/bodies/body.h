@@ -14,10 +14,16 @@
 #include "taut/core/value.h"
 #include "taut/mechanics/model.h"
 #include "taut/spec/body_spec.h"
+#include "taut/view/primitives.h"
 
 namespace taut::world {
 
 class Island;
+
+// One of the shapes of a rigid body, as it touches (null: not as a convex shape) and as it is drawn.
+struct RigidPiece : collision::PlacedConvex {
+    view::Mesh mesh;
+};
 
 struct Body {
     TAUT_VALUE(Body);
@@ -25,7 +31,7 @@ struct Body {
     std::string name;                      // "flag", or "flag.2" in an array
     std::int64_t seed = 1;                 // of its jitter
     mechanics::Model model;
-    std::vector<collision::PlacedConvex> pieces;  // of a rigid body, (parts of the model)
+    std::vector<RigidPiece> pieces;  // of a rigid body, (parts of the model)
     PlasticitySpec plasticity;
 
     std::vector<int> carried;            // ascending points of the model that a collider holds by its spec

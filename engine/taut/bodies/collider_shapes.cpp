@@ -9,24 +9,13 @@
 namespace taut::world {
 namespace {
 
-collision::ShapeSizes sizesOf(const ColliderSpec& spec) {
-    collision::ShapeSizes sizes;
-    sizes.normal = spec.normal / std::sqrt(glm::dot(spec.normal, spec.normal));
-    sizes.halfSize = 0.5 * spec.size;
-    sizes.radius = spec.radius;
-    sizes.height = spec.height;
-    sizes.edge = spec.edge;
-    sizes.own = spec.sizes;
-    if (spec.meshData != nullptr) {
-        for (const dvec3& x : spec.meshData->positions) sizes.vertices.push_back(spec.scale * x);
-        for (const auto& triangle : spec.meshData->triangles)
-            for (int i : triangle) sizes.triangles.push_back(static_cast<std::uint32_t>(i));
-    }
-    return sizes;
+bool isPlane(const ColliderSpec& spec, const collision::ShapeKinds& kinds) {
+    const collision::ShapeKind* kind = kinds.find(spec.shape);
+    return kind != nullptr && kind->extent == collision::Extent::halfSpace;
 }
 
-bool isFloor(const ColliderSpec& spec) {
-    return spec.shape == "plane" && spec.normal.y > 0 && spec.normal.x == 0 && spec.normal.z == 0 &&
+bool isFloor(const ColliderSpec& spec, const collision::ShapeKinds& kinds) {
+    return isPlane(spec, kinds) && spec.normal.y > 0 && spec.normal.x == 0 && spec.normal.z == 0 &&
            spec.rotation == dvec3(0.0) && spec.keys.empty();
 }
 
@@ -39,22 +28,20 @@ class Maker {
 
     collision::Shape make(const ColliderSpec& spec, const glm::mat4& transform) const {
         collision::Shape shape;
-        if (spec.shape == "compound") {
+        const collision::ShapeKind& kind = shapeKindOf(spec, kinds_);
+        if (kind.extent == collision::Extent::parts) {
             for (const ColliderSpec& part : spec.parts) {
                 const collision::Pose pose{part.position, rotationOf(part.rotation)};
                 shape.parts.push_back({make(part, transform * matrixOf(pose)), pose});
             }
             return shape;
         }
-        const collision::ShapeKind* kind = kinds_.find(spec.shape);
-        if (kind == nullptr) throw core::Error(core::ErrorKind::badContent, "there is no shape \"" + spec.shape + "\"");
-        collision::ShapeSizes sizes = sizesOf(spec);
-        for (const collision::OwnSize& own : kind->own) sizes.own.emplace(own.key, own.standard);
-        shape.form = kind->form(sizes);
-        if (kind->convex) shape.convex = kind->convex(sizes, 0.0);
+        collision::ShapeSizes sizes = sizesOf(spec, kind);
+        sizes.normal = spec.normal / std::sqrt(glm::dot(spec.normal, spec.normal));
+        shape = kind.shape(sizes);
         sizes.stands = stands(sizes, transform);
         if (pieces_ != nullptr)
-            pieces_->push_back({kind->mesh(sizes), transform, finishOf(spec.ownFinish.value_or(whole_.finish))});
+            pieces_->push_back({kind.mesh(sizes), transform, finishOf(spec.ownFinish.value_or(whole_.finish))});
         return shape;
     }
 
@@ -64,7 +51,7 @@ class Maker {
         constexpr double near = 1e-4;  // [m]
         const glm::mat4 at = matrixOf(poseAt(whole_, 0.0)) * transform;
         return at[1].y > 1.0F - 1e-6F && std::any_of(all_.begin(), all_.end(), [&](const ColliderSpec& other) {
-                   return isFloor(other) && at[3].y - sizes.halfSize.y < other.position.y + near;
+                   return isFloor(other, kinds_) && at[3].y - sizes.halfSize.y < other.position.y + near;
                });
     }
 
@@ -86,8 +73,10 @@ std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec,
                                                        bool mayTurn, std::span<const ColliderSpec> all) {
     auto model = std::make_shared<ColliderModel>();
     model->material = {spec.friction, spec.restitution};
-    model->isGround = isFloor(spec) && !mayTurn;
-    const bool isFigure = spec.shape == "figure";
+    model->isPlane = isPlane(spec, kinds);
+    model->isGround = isFloor(spec, kinds) && !mayTurn;
+    const collision::ShapeKind* kind = kinds.find(spec.shape);
+    const bool isFigure = kind != nullptr && kind->extent == collision::Extent::animated;
     const bool isDrawn = spec.visible && !model->isGround && !isFigure;
     try {  // errors are found here, where the line is known
         if (isFigure && (spec.meshData == nullptr || spec.meshData->figure == nullptr))

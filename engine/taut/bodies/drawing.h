@@ -38,6 +38,7 @@ std::unique_ptr<BodyDrawing> rodDrawing(const Body& body, double radius, double 
 struct ColliderModel {
     collision::Shape shape;
     collision::Material material;
+    bool isPlane = false;
     bool isGround = false;  // a level plane: drawn as the floor
     struct Piece {
         view::Mesh mesh;

@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "taut/bodies/drawing.h"
 #include "taut/bodies/private/bound_mesh.h"
 #include "taut/bodies/private/rigid_marks.h"
-#include "taut/collision/private/convex_hull.h"
-#include "taut/core/trig.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/closed_mesh.h"
@@ -17,6 +14,7 @@
 #include "taut/spec/common_rows.h"
 #include "taut/spec/kinds.h"
 #include "taut/spec/private/rotation.h"
+#include "taut/spec/private/shape_rows.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {
@@ -24,6 +22,11 @@ namespace taut::world {
 SolidSpec::SolidSpec() {
     touch = Touch::others;
     thickness = 0.002;
+    shape = "box";
+    size = dvec3(0.5);
+    radius = 0.25;
+    height = 0.5;
+    edge = 0.0;
 }
 TAUT_VALUE_COPIES(SolidSpec);
 
@@ -35,86 +38,9 @@ using fields::Section;
 
 namespace {
 
-constexpr float creaseAngle = 0.6F;  // [rad] drawn edges of a mesh that are sharper stay sharp
-
-enum class In { solid, compound };
-
-std::vector<std::string> shapeNames(In where) {
-    std::vector<std::string> names{"box", "sphere", "capsule", "cylinder", "cone", "mesh", "hull"};
-    if (where == In::solid) names.emplace_back("compound");
-    return names;
-}
-
-// Corner i is on the positive side of axis k if bit k of i is set.
-void addBox(const dvec3& half, mechanics::RigidShape& shape) {
-    for (int i = 0; i < 8; ++i) {
-        const auto side = [&](int k) { return ((i >> k) & 1) != 0 ? half[k] : -half[k]; };
-        shape.positions.emplace_back(side(0), side(1), side(2));
-    }
-    for (int k = 0; k < 3; ++k) {
-        const int u = 1 << ((k + 1) % 3), v = 1 << ((k + 2) % 3), top = 1 << k;
-        shape.triangles.push_back({top, top | u, top | u | v});
-        shape.triangles.push_back({top, top | u | v, top | v});
-        shape.triangles.push_back({0, u | v, u});
-        shape.triangles.push_back({0, v, u | v});
-    }
-}
-
-constexpr int prismSides = 24;
-
-// A prism with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is 0. The points
-// of the lower end come first.
-void addPrism(double radius, double radiusAbove, double low, double high, mechanics::RigidShape& shape) {
-    const auto add = [&](double r, double y, int k) {
-        const double angle = 2.0 * core::pi * k / prismSides;
-        shape.positions.emplace_back(r * core::cosine(angle), y, r * core::sine(angle));
-    };
-    const bool hasTip = !(radiusAbove > 0);
-    add(0.0, low, 0);
-    for (int k = 0; k < prismSides; ++k) add(radius, low, k);
-    const int top = static_cast<int>(shape.positions.size());
-    add(0.0, high, 0);
-    for (int k = 0; k < prismSides && !hasTip; ++k) add(radiusAbove, high, k);
-    for (int k = 0; k < prismSides; ++k) {
-        const int a = 1 + k, b = 1 + (k + 1) % prismSides;
-        shape.triangles.push_back({0, a, b});
-        if (hasTip) {
-            shape.triangles.push_back({top, b, a});
-            continue;
-        }
-        shape.triangles.push_back({a, top + a, b});
-        shape.triangles.push_back({b, top + a, top + b});
-        shape.triangles.push_back({top, top + b, top + a});
-    }
-    shape.parts.back().sag = radius * (1.0 - core::cosine(core::pi / prismSides));
-}
-
-// The least convex body around the points.
-void addHull(std::span<const dvec3> points, mechanics::RigidShape& shape) {
-    const std::vector<std::uint32_t> corners = collision::convexHull(points);
-    if (corners.empty())
-        throw mechanics::MeshFault("the points of the mesh lie in one plane, so that their hull has no inside", -1);
-    std::vector<int> placeOf(points.size(), -1);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        int& place = placeOf[corners[k]];
-        if (place < 0) {
-            place = static_cast<int>(shape.positions.size());
-            shape.positions.push_back(points[corners[k]]);
-        }
-        if (k % 3 == 0) shape.triangles.emplace_back();
-        shape.triangles.back()[k % 3] = place;
-    }
-}
-
-collision::ShapeSizes sizesOf(const SolidSpec& solid) {
-    collision::ShapeSizes sizes;
-    sizes.halfSize = 0.5 * solid.size;
-    sizes.radius = solid.radius;
-    sizes.height = solid.height;
-    if (solid.meshData != nullptr)
-        for (const dvec3& x : solid.meshData->positions) sizes.vertices.push_back(solid.scale * x);
-    return sizes;
-}
+using collision::Extent;
+using collision::ShapeKind;
+using collision::ShapeKinds;
 
 // A shape of a solid, as it is drawn.
 struct Piece {
@@ -122,21 +48,6 @@ struct Piece {
     std::shared_ptr<const view::Finish> finish;
     glm::mat4 place{1.0F};  // at the start
 };
-
-view::Mesh meshOf(const SolidSpec& solid) {
-    const auto r = static_cast<float>(solid.radius), height = static_cast<float>(solid.height);
-    if (solid.shape == "sphere") return view::sphereMesh(r);
-    if (solid.shape == "capsule") return view::capsuleMesh(r, height);
-    if (solid.shape == "cylinder") return view::cylinderMesh(r, height);
-    if (solid.shape == "cone") return view::coneMesh(r, height);
-    if (solid.shape == "box") return view::boxMesh(0.5 * solid.size, static_cast<float>(solid.edge));
-    std::vector<glm::vec3> positions;
-    for (const dvec3& x : solid.meshData->positions) positions.emplace_back(solid.scale * x);
-    std::vector<std::uint32_t> triangles;
-    for (const auto& t : solid.meshData->triangles)
-        for (const int i : t) triangles.push_back(static_cast<std::uint32_t>(i));
-    return view::creasedMesh(positions, triangles, creaseAngle);
-}
 
 glm::mat4 matrixOf(const collision::Frame& frame) {
     glm::mat4 m{glm::mat3(frame.rotation)};
@@ -149,9 +60,11 @@ class SolidDrawing final : public BodyDrawing {
   public:
     explicit SolidDrawing(const Body& body) : name_(body.fullName()), marks_(marksOf(body)) {
         const auto& spec = dynamic_cast<const SolidSpec&>(*body.spec);
-        if (spec.parts.empty()) pieces_.push_back({meshOf(spec), finishOf(spec.finish)});
-        for (const SolidSpec& part : spec.parts) pieces_.push_back({meshOf(part), finishOf(part.finish)});
-        for (std::size_t k = 0; k < pieces_.size(); ++k) pieces_[k].place = matrixOf(body.pieces[k].at);
+        for (std::size_t k = 0; k < body.pieces.size(); ++k) {
+            const RigidPiece& piece = body.pieces[k];
+            pieces_.push_back(
+                {piece.mesh, finishOf((spec.parts.empty() ? spec : spec.parts[k]).finish), matrixOf(piece.at)});
+        }
     }
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
         std::array<dvec3, 3> now;
@@ -173,27 +86,24 @@ class SolidDrawing final : public BodyDrawing {
     RigidMarks marks_;
 };
 
+bool isSolid(const ShapeKind& kind) {
+    return kind.solid || kind.extent == Extent::parts;
+}
+// The shapes that solids may have.
+ShapeKinds solidShapes(const ShapeKinds& shapes) {
+    return shapesThat(shapes, isSolid);
+}
+ShapeKinds solidParts(const ShapeKinds& shapes) {
+    return shapesThat(
+        shapes, [](const ShapeKind& kind) { return static_cast<bool>(kind.solid); });
+}
+
 // The fields that a solid and a shape of a compound share.
-FieldList<SolidSpec> shapeFields(In where) {
-    FieldList<SolidSpec> list;
-    list.choice("shape", &SolidSpec::shape, shapeNames(where), "Its shape.")
-        .required()
-        .vector("size", &SolidSpec::size, "m", lengthRange, "Its three edges.")
-        .only({"box"})
-        .number("edge", &SolidSpec::edge, "m", notNegative, "Rounding of its edges as they are drawn.")
-        .only({"box"})
-        .number("radius", &SolidSpec::radius, "m", lengthRange, "Its radius.")
-        .only({"sphere", "capsule", "cylinder", "cone"})
-        .number("height", &SolidSpec::height, "m", lengthRange,
-                "Along y; of a capsule, between the centres of its half spheres.")
-        .only({"capsule", "cylinder", "cone"})
-        .text("mesh", &SolidSpec::mesh, Role::mesh, "OBJ or glTF file; its surfaces are closed, but for a hull.")
-        .required()
-        .only({"mesh", "hull"})
-        .number("scale", &SolidSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-        .only({"mesh", "hull"})
-        .vector("position", &SolidSpec::position, "m", placeRange, "Its centre; of a mesh the origin of its file.")
-        .rotation("rotation_deg", &SolidSpec::rotation, "About x, then y, then z.")
+FieldList<SolidSpec> solidRows(const ShapeKinds& shapes) {
+    FieldList<SolidSpec> list =
+        shapeRows<SolidSpec>(shapes, "OBJ or glTF file; its surfaces are closed, but for a hull.");
+    list.number("edge", &SolidSpec::edge, "m", notNegative, "Rounding of its edges as they are drawn.")
+        .only(namesOf(solidParts(shapes), "edge"))
         .number("density_kg_per_m3", &SolidSpec::density, "kg/m³", positive,
                 "Mass of a cubic metre; of a part, that of the compound if not given.")
         .number("mass_kg", &SolidSpec::mass, "kg", positive, "Its mass, in place of the density.")
@@ -201,18 +111,12 @@ FieldList<SolidSpec> shapeFields(In where) {
     return list;
 }
 
-std::string shapeNameOf(const fields::Node& table) {
-    return table.textAt("shape");
-}
-
 // What has sharp edges and no thickness in the file gets one that fits.
-void checkThickness(const fields::CheckInput& input, SolidSpec& solid, const std::string& name) {
-    if (solid.isRound()) {
-        solid.thickness = solid.radius;
-        return;
-    }
-    const double most = solid.mostThickness();
-    if (solid.thickness < most) return;
+void checkThickness(const fields::CheckInput& input, const ShapeKind& kind, SolidSpec& solid, const std::string& name) {
+    if (!kind.largestBall) return;
+    const double most = kind.largestBall(sizesOf(solid, kind));
+    if (kind.isRound) solid.thickness = most;
+    if (kind.isRound || solid.thickness < most) return;
     if (input.table.find("thickness") != nullptr)
         input.problems.addError(input.at("thickness"),
                                 fmt::format("the thickness goes into the {} from all sides: it must be less than the "
@@ -222,19 +126,19 @@ void checkThickness(const fields::CheckInput& input, SolidSpec& solid, const std
         solid.thickness = 0.2 * most;
 }
 
-Section partSection() {
+Section partSection(const ShapeKinds& shapes) {
     Section section;
-    section.variant = shapeNameOf;
+    section.variant = shapeNameIn;
     section.variantKey = "shape";
     section.fields =
-        shapeFields(In::compound)
+        solidRows(solidParts(shapes))
             .table("finish", &SolidSpec::finish, finishSection(), "How it looks; as the compound if not given.")
             .take();
     return section;
 }
 
 // The parts take from the compound what they do not have of their own.
-void checkParts(const fields::CheckInput& input, SolidSpec& compound) {
+void checkParts(const fields::CheckInput& input, const ShapeKinds& shapes, SolidSpec& compound) {
     const fields::Member* rows = input.table.find("parts");
     if (compound.parts.empty() || rows == nullptr)
         return input.problems.addError(input.at("parts"), "a compound needs parts",
@@ -246,9 +150,9 @@ void checkParts(const fields::CheckInput& input, SolidSpec& compound) {
         if (row.find("finish") == nullptr) part.finish = compound.finish;
         part.thickness = compound.thickness;
         part.name = compound.name;
-        checkThickness(input, part, fmt::format("{} of part {}", part.shape, k));
+        checkThickness(input, shapeKindOf(part, shapes), part, fmt::format("{} of part {}", part.shape, k));
     }
-    const auto isRound = [](const SolidSpec& part) { return part.isRound(); };
+    const auto isRound = [&](const SolidSpec& part) { return shapeKindOf(part, shapes).isRound; };
     if (input.table.find("thickness") != nullptr && std::all_of(compound.parts.begin(), compound.parts.end(), isRound))
         input.problems.addWarning(input.at("thickness"), "that of spheres and capsules is their radius",
                                   "leave it out");
@@ -258,23 +162,26 @@ void checkParts(const fields::CheckInput& input, SolidSpec& compound) {
 
 }  // namespace
 
-Section SolidSpec::section() {
+Section SolidSpec::section(const ShapeKinds& known) {
+    const ShapeKinds shapes = solidShapes(known);
     Section section;
     section.help = "A rigid body.";
-    section.variant = shapeNameOf;
+    section.variant = shapeNameIn;
     section.variantKey = "shape";
-    section.fields = shapeFields(In::solid)
-                         .tables("parts", &SolidSpec::parts, partSection(), "Shapes joined into one.")
+    section.fields = solidRows(shapes)
+                         .tables("parts", &SolidSpec::parts, partSection(shapes), "Shapes joined into one.")
                          .required()
-                         .only({"compound"})
+                         .only(namesOf(shapes, "parts"))
                          .number("drag_per_s", &SolidSpec::drag, "1/s", dragRange, "Rate at which still air slows it.")
                          .take();
-    section.check = [](const fields::CheckInput& input, void* target) {
+    section.check = [shapes](const fields::CheckInput& input, void* target) {
         auto& solid = *static_cast<SolidSpec*>(target);
-        if (solid.shape != "compound")
-            checkThickness(input, solid, solid.shape);
+        const ShapeKind* kind = shapes.find(solid.shape);
+        if (kind == nullptr) return;  // reported already
+        if (kind->extent != Extent::parts)
+            checkThickness(input, *kind, solid, solid.shape);
         else if (input.isClean)
-            checkParts(input, solid);
+            checkParts(input, shapes, solid);
     };
     return section;
 }
@@ -294,48 +201,49 @@ RigidMarks marksOf(const Body& body) {
     return marks;
 }
 
-double SolidSpec::mostThickness() const {
-    if (shape == "box") return 0.5 * std::min({size.x, size.y, size.z});
-    if (shape == "cylinder") return std::min(radius, 0.5 * height);
-    if (shape == "cone") return radius * height / (std::sqrt(height * height + radius * radius) + radius);
-    return HUGE_VAL;
-}
-
 std::vector<const BodySpec*> SolidSpec::shapes() const {
     std::vector<const BodySpec*> all{this};
     for (const SolidSpec& part : parts) all.push_back(&part);
     return all;
 }
 
-std::vector<collision::PlacedConvex> SolidSpec::pieces(const SceneSpec& scene) const {
-    const collision::ShapeKinds& kinds = scene.shapes != nullptr ? *scene.shapes : collision::builtInShapes();
-    const auto frameOf = [](const SolidSpec& of) {
-        return collision::Frame{glm::mat3_cast(rotationOf(of.rotation)), of.position, true};
-    };
-    const auto pieceOf = [&](const SolidSpec& part) {
-        const collision::ShapeKind* kind = kinds.find(part.shape);
-        collision::PlacedConvex piece;
-        if (kind != nullptr && kind->convex) piece.shape = kind->convex(sizesOf(part), part.thickness);
-        return piece;
-    };
-    std::vector<collision::PlacedConvex> all;
-    if (parts.empty()) all.push_back(pieceOf(*this));
+const ShapeKind& SolidSpec::kindIn(const ShapeKinds& kinds) const {
+    const ShapeKind* kind = kinds.find(shape);
+    if (kind == nullptr || !isSolid(*kind))
+        throw core::Error(core::ErrorKind::badContent,
+                          at(source) + fmt::format("there is no solid of shape \"{}\"", shape));
+    return *kind;
+}
+
+RigidPiece SolidSpec::piece(const ShapeKinds& kinds) const {
+    const ShapeKind& kind = kindIn(kinds);
+    const collision::ShapeSizes own = sizesOf(*this, kind);
+    RigidPiece piece;
+    piece.at = {glm::mat3_cast(rotationOf(rotation)), position, true};
+    if (kind.convex) piece.shape = kind.convex(own, thickness);
+    piece.mesh = kind.mesh(own);
+    return piece;
+}
+
+std::vector<RigidPiece> SolidSpec::pieces(const SceneSpec& scene) const {
+    if (parts.empty()) return {piece(scene.knownShapes())};
+    std::vector<RigidPiece> all;
+    const collision::Frame at{glm::mat3_cast(rotationOf(rotation)), position, true};
     for (const SolidSpec& part : parts) {
-        all.push_back(pieceOf(part));
-        all.back().at = frameOf(part);
+        all.push_back(part.piece(scene.knownShapes()));
+        all.back().at = at.of(all.back().at);
     }
-    for (collision::PlacedConvex& piece : all) piece.at = frameOf(*this).of(piece.at);
     return all;
 }
 
 // Its shape at its place.
-mechanics::RigidShape SolidSpec::made() const {
+mechanics::RigidShape SolidSpec::made(const ShapeKinds& kinds) const {
     mechanics::RigidShape made;
-    if (shape == "compound") {
+    if (!parts.empty()) {
         made.mass = 0;
-        for (const SolidSpec& part : parts) join(made, part.made());
+        for (const SolidSpec& part : parts) join(made, part.made(kinds));
     } else {
-        addShape(made);
+        addShape(kindIn(kinds), made);
         made.mass = density * made.properties.volume;
     }
     if (mass) made.mass = *mass;
@@ -345,89 +253,64 @@ mechanics::RigidShape SolidSpec::made() const {
     return made;
 }
 
-void SolidSpec::addShape(mechanics::RigidShape& made) const {
-    mechanics::RigidPart& part = made.parts.emplace_back();
-    part.thickness = thickness;
-    const bool isRounded = shape != "mesh" && shape != "hull";
-    part.rounding = isRounded ? thickness : 0.0;
-    if (shape == "sphere") {
-        made.positions = {dvec3(0.0)};
-        made.properties = mechanics::massPropertiesOfBall(radius);
-    } else if (shape == "capsule") {
-        made.positions = {{0.0, -0.5 * height, 0.0}, {0.0, 0.5 * height, 0.0}};
-        made.lines = {{0, 1}};
-        made.properties = mechanics::massPropertiesOfCapsule(radius, height);
-    } else if (shape == "cylinder") {
-        addPrism(radius - thickness, radius - thickness, thickness - 0.5 * height, 0.5 * height - thickness, made);
-        made.properties = mechanics::massPropertiesOfCylinder(radius, height);
-    } else if (shape == "cone") {
-        const double side = std::sqrt(height * height + radius * radius);
-        addPrism(radius - thickness * (side + radius) / height, 0.0, thickness - 0.5 * height,
-                 0.5 * height - thickness * side / radius, made);
-        made.properties = mechanics::massPropertiesOfCone(radius, height);
-    } else if (!isRounded && meshData != nullptr) {
-        std::vector<dvec3> points;
-        for (const dvec3& x : meshData->positions) points.push_back(scale * x);
-        try {
-            if (shape == "hull") {
-                addHull(points, made);
-            } else {
-                made.positions = std::move(points);
-                made.triangles = meshData->triangles;
-                mechanics::expectClosed(made.positions, made.triangles);
-            }
-        } catch (const mechanics::MeshFault& fault) {
-            throw core::Error(fault.kind(), at(source) + meshFaultText(*this, fault.what(), fault.triangle));
-        }
-        made.properties = mechanics::massPropertiesOf(made.positions, made.triangles);
-    } else {
-        addBox(0.5 * size, made);
-        made.properties = mechanics::massPropertiesOf(made.positions, made.triangles);
-        for (dvec3& corner : made.positions) corner -= thickness * glm::sign(corner);
+void SolidSpec::addShape(const ShapeKind& kind, mechanics::RigidShape& made) const {
+    collision::SolidShape own;
+    const auto fail = [&](const core::Error& fault, int triangle) {
+        throw core::Error(
+            fault.kind(),
+            at(source) + (meshData == nullptr ? fault.what() : meshFaultText(*this, fault.what(), triangle)));
+    };
+    try {
+        own = kind.solid(sizesOf(*this, kind), thickness);
+        if (!own.properties) mechanics::expectClosed(own.positions, own.triangles);
+    } catch (const mechanics::MeshFault& fault) {
+        fail(fault, fault.triangle);
+    } catch (const core::Error& fault) {
+        fail(fault, -1);
     }
-    part.last = static_cast<int>(made.positions.size());
+    made.properties = own.properties ? *own.properties : core::massPropertiesOf(own.positions, own.triangles);
+    mechanics::RigidPart& part = made.parts.emplace_back();
+    part.last = static_cast<int>(own.positions.size());
+    part.thickness = thickness;
+    part.rounding = kind.largestBall ? thickness : 0.0;
+    part.sag = own.sag;
+    made.positions = std::move(own.positions);
+    made.triangles = std::move(own.triangles);
+    made.lines = std::move(own.lines);
+    made.groups = std::move(own.sides);
 }
 
-mechanics::Model SolidSpec::build(const SceneSpec&) const {
-    const auto isCompound = [](const SolidSpec& own) { return own.shape == "compound"; };
+mechanics::Model SolidSpec::build(const SceneSpec& scene) const {
+    const ShapeKinds& kinds = scene.knownShapes();
+    const auto isCompound = [&](const SolidSpec& own) { return own.kindIn(kinds).extent == Extent::parts; };
     if (isCompound(*this) == parts.empty() || std::any_of(parts.begin(), parts.end(), isCompound))
         throw core::Error(core::ErrorKind::badContent,
                           at(source) + "a compound, and nothing else, has parts; none of them is a compound");
-    mechanics::RigidShape whole = made();
+    mechanics::RigidShape whole = made(kinds);
     whole.dragRate = drag;
-    mechanics::Model model;
     try {
-        model = mechanics::buildRigid(whole);
+        return mechanics::buildRigid(whole);
     } catch (const core::Error& error) {
         throw core::Error(error.kind(), at(source) + error.what());
     }
-    // Points of a shape by the side that they are on.
-    const auto addSides = [&](const SolidSpec& of, const mechanics::RigidPart& part, const std::string& prefix) {
-        static constexpr const char* sides[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
-        for (int i = part.first; i < part.last; ++i) {
-            if (part.sag > 0) model.groups[prefix + (i - part.first <= prismSides ? "bottom" : "top")].push_back(i);
-            for (int k = 0; k < 3 && of.shape == "box"; ++k)
-                model.groups[prefix + sides[k][((i - part.first) >> k) & 1]].push_back(i);
-        }
-    };
-    if (parts.empty()) addSides(*this, model.parts.front(), "");
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        const std::string group = fmt::format("part{}", k);
-        for (int i = model.parts[k].first; i < model.parts[k].last; ++i) model.groups[group].push_back(i);
-        addSides(parts[k], model.parts[k], group + "-");
-    }
-    return model;
 }
 
 std::unique_ptr<BodyDrawing> SolidSpec::drawing(const Body& body) const {
     return std::make_unique<SolidDrawing>(body);
 }
 
-// The thickness of a sphere or a capsule is its radius.
+// The thickness of what is round is its radius.
 Kind<BodySpec> solidKind() {
     Kind<BodySpec> kind = bodyKind<SolidSpec>();
-    for (fields::Field& row : kind.section.fields)
-        if (row.key == "thickness") row.only = {"box", "cylinder", "cone", "mesh", "hull", "compound"};
+    kind.sectionWith = [rest = bodyRows<SolidSpec>()](const ShapeKinds& known) {
+        Section section = SolidSpec::section(known);
+        section.fields.insert(section.fields.end(), rest.begin(), rest.end());
+        for (fields::Field& row : section.fields)
+            if (row.key == "thickness")
+                row.only = namesOf(shapesThat(solidShapes(known), [](const ShapeKind& own) { return !own.isRound; }));
+        return section;
+    };
+    kind.section = kind.sectionWith(collision::builtInShapes());
     return kind;
 }
 

@@ -30,7 +30,7 @@ struct ConvexParts;
 struct Shape {
     std::shared_ptr<const Form> form;
     struct Part;
-    std::vector<Part> parts;  // of a compound; then there is no form
+    std::vector<Part> parts;                 // of a compound; then there is no form
     std::shared_ptr<const Convex> convex{};  // for contact with other convex shapes; null: it is not convex
 };
 struct Shape::Part {

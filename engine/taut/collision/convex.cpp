@@ -3,9 +3,31 @@
 #include <cmath>
 
 #include "taut/collision/private/bullet_convex.h"
+#include "taut/collision/private/convex_form.h"
 #include "taut/core/trig.h"
 
 namespace taut::collision {
+namespace {
+
+template <ClosedKind kind>
+struct Formula {
+    ClosedShape shape;
+    core::Aabb filled;
+
+    Nearest nearest(const dvec3& p) const {
+        const ClosedDistance at = closedDistance<kind>(shape.size, p.x, p.y, p.z);
+        return {at.distance, {at.x, at.y, at.z}};
+    }
+    core::Aabb bounds() const { return filled; }
+    ClosedShape closed() const { return shape; }
+};
+
+template <ClosedKind kind>
+std::shared_ptr<const Form> byFormula(const Convex& convex) {
+    return std::make_shared<ConvexForm<Formula<kind>>>(Formula<kind>{convex.closed(), *convex.bounds()});
+}
+
+}  // namespace
 
 Convex::Convex(std::unique_ptr<btConvexShape> bullet, double rounding, const dvec3& offset)
     : bullet_(std::move(bullet)), rounding_(rounding), offset_(offset) {
@@ -26,6 +48,19 @@ Convex::~Convex() = default;
 dvec3 Convex::support(const dvec3& direction) const {
     if (bullet_ == nullptr) return dvec3(0.0);
     return fromBullet(bullet_->localGetSupportVertexWithoutMarginNonVirtual(toBullet(direction))) + offset_;
+}
+
+std::shared_ptr<const Form> Convex::form() const {
+    switch (closed().kind) {
+        case ClosedKind::sphere: return byFormula<ClosedKind::sphere>(*this);
+        case ClosedKind::box: return byFormula<ClosedKind::box>(*this);
+        case ClosedKind::capsule: return byFormula<ClosedKind::capsule>(*this);
+        case ClosedKind::cylinder: return byFormula<ClosedKind::cylinder>(*this);
+        case ClosedKind::cone: return byFormula<ClosedKind::cone>(*this);
+        case ClosedKind::halfSpace:
+        case ClosedKind::none: break;
+    }
+    return nullptr;
 }
 
 dvec3 acrossAxis(const dvec3& direction) {

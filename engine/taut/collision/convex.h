@@ -21,6 +21,8 @@ class btConvexShape;
 
 namespace taut::collision {
 
+class Form;
+
 // Corners of the core that support it in a direction: of a face, in order around it; of an edge both ends; or one.
 class SupportingFace {
   public:
@@ -49,6 +51,8 @@ class Convex {
     virtual SupportingFace faceTowards(const dvec3& direction) const = 0;
     // The whole shape's distance as a formula, if it has one.
     virtual ClosedShape closed() const { return {}; }
+    // What points meet; by default closed(). Expects a shape that is not rounded, or is a sphere or a capsule.
+    virtual std::shared_ptr<const Form> form() const;
     // The place of the core that is furthest in a direction [m].
     dvec3 support(const dvec3& direction) const;
     // [m] Of the whole shape; none: it is a half-space, whose plane goes through the origin.

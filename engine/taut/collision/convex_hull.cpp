@@ -60,6 +60,7 @@ class Builder {
     // Starts with a tetrahedron of points far from each other. False if all points lie in one plane.
     bool start() {
         const auto count = static_cast<std::uint32_t>(points_.size());
+        if (count < 4) return false;
         const auto farthest = [&](const auto& measure) {
             std::uint32_t best = 0;
             for (std::uint32_t i = 1; i < count; ++i)

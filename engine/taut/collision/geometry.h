@@ -24,6 +24,23 @@ struct Frame {
     }
 };
 
+// The box around a box of a shape that stands there.
+inline core::Aabb boxAt(const Frame& frame, const core::Aabb& local) {
+    const glm::dmat3& r = frame.rotation;
+    const dvec3 half = glm::dmat3(glm::abs(r[0]), glm::abs(r[1]), glm::abs(r[2])) * local.halfSize();
+    const dvec3 centre = frame.toWorld(local.centre());
+    return {centre - half, centre + half};
+}
+// [m] How far the fastest corner of a box goes.
+inline double travelOf(const core::Aabb& box, const Frame& from, const Frame& to) {
+    double most = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        const dvec3 way = to.toWorld(box.corner(i)) - from.toWorld(box.corner(i));
+        most = glm::max(most, glm::dot(way, way));
+    }
+    return std::sqrt(most);
+}
+
 // Signed distance to a surface [m], negative inside, and its gradient, a unit vector away from the solid.
 struct Nearest {
     double distance;

@@ -13,13 +13,19 @@
     SHAPE(coneKind)        \
     SHAPE(hullKind)        \
     SHAPE(meshKind)        \
-    SHAPE(figureKind)
+    SHAPE(figureKind)      \
+    SHAPE(compoundKind)
 
 namespace taut::collision {
 
 #define TAUT_DECLARE(kind) ShapeKind kind();
 TAUT_SHAPES(TAUT_DECLARE)
 #undef TAUT_DECLARE
+
+// The shapes of its parts. Rounding of edges, for the eye, is theirs.
+ShapeKind compoundKind() {
+    return {.name = "compound", .fields = {"parts", "edge"}, .extent = Extent::parts};
+}
 
 const ShapeKinds& builtInShapes() {
     static const ShapeKinds table = [] {
@@ -32,8 +38,16 @@ const ShapeKinds& builtInShapes() {
     return table;
 }
 
+Shape ShapeKind::shape(const ShapeSizes& sizes) const {
+    Shape made;
+    if (convex) made.convex = convex(sizes, 0.0);
+    made.form = form ? form(sizes) : made.convex->form();
+    return made;
+}
+
 void ShapeKinds::add(ShapeKind kind) {
-    TAUT_EXPECTS(kind.form != nullptr && kind.mesh != nullptr);
+    TAUT_EXPECTS(kind.extent == Extent::parts ||
+                 (kind.mesh != nullptr && (kind.form != nullptr || kind.convex != nullptr)));
     Table::add(std::move(kind));
 }
 

@@ -19,14 +19,6 @@ glm::dquat unit(const glm::dquat& q) {
     return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
 
-core::Aabb worldBox(const core::Aabb& local, const Frame& frame) {
-    const glm::dmat3& r = frame.rotation;
-    const glm::dmat3 size(glm::abs(r[0]), glm::abs(r[1]), glm::abs(r[2]));
-    const dvec3 half = size * local.halfSize();
-    const dvec3 centre = frame.toWorld(local.centre());
-    return {centre - half, centre + half};
-}
-
 }  // namespace
 
 Frame frameOf(const Pose& pose) {
@@ -111,9 +103,9 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
         solid.above.offset = glm::dot(solid.above.normal, solid.to.position);
         return;
     }
-    solid.bounds = worldBox(solid.localBounds, solid.from);
+    solid.bounds = boxAt(solid.from, solid.localBounds);
     const auto include = [&](const Frame& frame) {
-        const core::Aabb box = worldBox(solid.localBounds, frame);
+        const core::Aabb box = boxAt(frame, solid.localBounds);
         solid.bounds.add(box.low);
         solid.bounds.add(box.high);
     };
@@ -125,14 +117,7 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
 }
 
 double travelOf(const Solid& solid) {
-    const core::Aabb box = solid.bounded ? solid.localBounds : core::Aabb{dvec3(-1.0), dvec3(1.0)};
-    double most = 0.0;
-    for (int i = 0; i < 8; ++i) {
-        const dvec3 way = solid.to.toWorld(box.corner(i)) - solid.from.toWorld(box.corner(i));
-        const double square = glm::dot(way, way);
-        if (square > most) most = square;
-    }
-    return std::sqrt(most);
+    return travelOf(solid.bounded ? solid.localBounds : core::Aabb{dvec3(-1.0), dvec3(1.0)}, solid.from, solid.to);
 }
 
 }  // namespace taut::collision

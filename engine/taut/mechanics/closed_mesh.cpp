@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "taut/core/mass_properties.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/rigid.h"
 
 namespace taut::mechanics {
 namespace {
@@ -64,7 +64,7 @@ void expectMatchingSides(std::span<const std::array<int, 3>> triangles) {
 
 void expectClosed(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles) {
     expectMatchingSides(triangles);
-    const double volume = massPropertiesOf(positions, triangles).volume;
+    const double volume = core::massPropertiesOf(positions, triangles).volume;
     if (!(volume > 0.0))
         throw MeshFault(volume < 0.0 ? "the mesh is inside out: its faces look inwards; turn them over"
                                      : "the mesh is flat, and has no inside",

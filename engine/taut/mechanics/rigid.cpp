@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 
 #include "taut/core/error.h"
 #include "taut/core/rigid_motion.h"
@@ -57,62 +56,18 @@ dvec3 centreOf(std::span<const double> masses, std::span<const dvec3> x, double&
 
 }  // namespace
 
-// Tetrahedra from one corner: ∫ x xᵀ of one is det / 120 (a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a + b + c.
-MassProperties massPropertiesOf(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles) {
-    MassProperties all;
-    const dvec3 origin = positions[0];
-    dmat3 spread(0.0);
-    dvec3 moment(0.0);
-    for (const std::array<int, 3>& t : triangles) {
-        const dvec3 a = positions[static_cast<std::size_t>(t[0])] - origin;
-        const dvec3 b = positions[static_cast<std::size_t>(t[1])] - origin;
-        const dvec3 c = positions[static_cast<std::size_t>(t[2])] - origin;
-        const dvec3 s = a + b + c;
-        const double det = glm::dot(a, glm::cross(b, c));
-        all.volume += det / 6;
-        moment += (det / 24) * s;
-        spread += (det / 120) * (outer(a, a) + outer(b, b) + outer(c, c) + outer(s, s));
-    }
-    if (!(all.volume > 0)) return all;
-    const dvec3 centre = moment / all.volume;
-    all.centre = origin + centre;
-    all.spread = spread - all.volume * outer(centre, centre);
-    return all;
-}
-
-MassProperties massPropertiesOfBall(double radius) {
-    return massPropertiesOfCapsule(radius, 0.0);
-}
-
-// A cylinder and two half balls, each of which has 3/8 r between its middle and its centre of mass.
-MassProperties massPropertiesOfCapsule(double radius, double height) {
-    const double square = radius * radius, cylinder = glm::pi<double>() * square * height;
-    const double ball = 4.0 / 3.0 * glm::pi<double>() * square * radius, h = 0.5 * height;
-    const double across = cylinder * square / 4 + ball * square / 5;
-    const double along = cylinder * h * h / 3 + ball * (square / 5 + h * h + 0.75 * h * radius);
-    return {cylinder + ball, dvec3(0.0), dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
-}
-
-MassProperties massPropertiesOfCylinder(double radius, double height) {
-    const double volume = glm::pi<double>() * radius * radius * height;
-    const double across = volume * radius * radius / 4, along = volume * height * height / 12;
-    return {volume, dvec3(0.0), dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
-}
-
-MassProperties massPropertiesOfCone(double radius, double height) {
-    const double volume = glm::pi<double>() * radius * radius * height / 3;
-    const double across = 3 * volume * radius * radius / 20, along = 3 * volume * height * height / 80;
-    return {volume, {0.0, -0.25 * height, 0.0}, dmat3(across, 0, 0, 0, along, 0, 0, 0, across)};
-}
-
 void join(RigidShape& compound, const RigidShape& shape) {
     const int first = static_cast<int>(compound.positions.size());
     for (const dvec3& x : shape.positions) compound.positions.push_back(shape.place + shape.axes * x);
     for (const auto& [a, b, c] : shape.triangles) compound.triangles.push_back({first + a, first + b, first + c});
     for (const auto& [a, b] : shape.lines) compound.lines.push_back({first + a, first + b});
+    const std::string name = "part" + std::to_string(compound.parts.size());
+    for (int i = first; i < static_cast<int>(compound.positions.size()); ++i) compound.groups[name].push_back(i);
+    for (const auto& [side, points] : shape.groups)
+        for (const int i : points) compound.groups[name + "-" + side].push_back(first + i);
     for (const RigidPart& part : shape.parts) compound.parts.push_back(shifted(part, first));
-    MassProperties& all = compound.properties;
-    const MassProperties& own = shape.properties;
+    core::MassProperties& all = compound.properties;
+    const core::MassProperties& own = shape.properties;
     const double mass = compound.mass + shape.mass, volume = all.volume + own.volume;
     const dvec3 centre = shape.place + shape.axes * own.centre;
     const dvec3 between = centre - all.centre;
@@ -175,6 +130,8 @@ Model buildRigid(const RigidShape& shape) {
                                                            shape.positions[static_cast<std::size_t>(line[0])])});
     for (int i = 0; i < model.pointCount(); ++i) model.groups["all"].push_back(i);
     for (int i = 0; i < innerPoints; ++i) model.groups["inner"].push_back(i);
+    for (const auto& [name, points] : shape.groups)
+        for (const int i : points) model.groups[name].push_back(i + innerPoints);
     model.innerPoints = innerPoints;
     for (const RigidPart& part : shape.parts) model.parts.push_back(shifted(part, innerPoints));
     return model;

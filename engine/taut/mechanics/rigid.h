@@ -1,12 +1,15 @@
-// A rigid body made of point masses: its mass properties, the model that has them, and the places and velocities of a
-// rigid motion that keep the momenta of free points.
+// A rigid body made of point masses: the model that has its mass properties, and the places and velocities of a rigid
+// motion that keep the momenta of free points.
 #pragma once
 
 #include <array>
 #include <glm/mat3x3.hpp>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "taut/core/mass_properties.h"
 #include "taut/mechanics/model.h"
 
 namespace taut::mechanics {
@@ -14,31 +17,17 @@ namespace taut::mechanics {
 using glm::dmat3;
 using glm::dvec3;
 
-// Of a body of density 1.
-struct MassProperties {
-    double volume = 0;  // [m³]
-    dvec3 centre{0.0};  // [m] of mass
-    dmat3 spread{0.0};  // [m⁵] ∫ r rᵀ dV about the centre
-};
-// Exact for a closed polyhedron with outward triangles; volume <= 0 if they face inward.
-MassProperties massPropertiesOf(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles);
-MassProperties massPropertiesOfBall(double radius);
-// Axis y; `height` between the centres of its half balls.
-MassProperties massPropertiesOfCapsule(double radius, double height);
-// About y, between -height/2 and height/2, of a cylinder or a cone with its tip up.
-MassProperties massPropertiesOfCylinder(double radius, double height);
-MassProperties massPropertiesOfCone(double radius, double height);
-
 struct RigidShape {
     std::vector<dvec3> positions;  // [m] of what touches, in the body's own axes
     std::vector<std::array<int, 3>> triangles;
-    std::vector<std::array<int, 2>> lines;  // a capsule's
-    std::vector<RigidPart> parts;           // of these positions
-    MassProperties properties;              // mass / volume times its spread is the spread of its mass
-    double mass = 1;                        // [kg]
-    dmat3 axes{1.0};                        // columns: the body's axes in the scene
-    dvec3 place{0.0};                       // [m] of its origin
-    double dragRate = 0;                    // [1/s]
+    std::vector<std::array<int, 2>> lines;           // a capsule's
+    std::vector<RigidPart> parts;                    // of these positions
+    std::map<std::string, std::vector<int>> groups;  // of these positions; in a compound "part0", "part0-top"
+    core::MassProperties properties;                 // mass / volume times its spread is the spread of its mass
+    double mass = 1;                                 // [kg]
+    dmat3 axes{1.0};                                 // columns: the body's axes in the scene
+    dvec3 place{0.0};                                // [m] of its origin
+    double dragRate = 0;                             // [1/s]
 };
 // Makes a shape a part of a compound, which has no mass before its first. Shapes that overlap weigh twice there.
 void join(RigidShape& compound, const RigidShape& shape);

@@ -7,66 +7,17 @@
 
 #include "taut/bodies/joints/joints.h"
 #include "taut/bodies/private/ties.h"
-#include "taut/collision/shape_table.h"
 #include "taut/fields/field_list.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/merged_rows.h"
 #include "taut/scene/private/sections.h"
+#include "taut/spec/private/shape_rows.h"
 
 namespace taut::scene {
 
 using namespace world;
 
 namespace {
-
-// The names of the shapes that use this field.
-std::vector<std::string> shapesWith(const collision::ShapeKinds& shapes, std::string_view field) {
-    std::vector<std::string> names;
-    for (const collision::ShapeKind& kind : shapes.all())
-        if (std::find(kind.fields.begin(), kind.fields.end(), field) != kind.fields.end())
-            names.emplace_back(kind.name);
-    return names;
-}
-
-enum class In { collider, compound };
-
-std::vector<std::string> shapeNames(const collision::ShapeKinds& shapes, In where) {
-    std::vector<std::string> names;
-    for (const collision::ShapeKind& kind : shapes.all())
-        if (where == In::collider || kind.isBounded) names.emplace_back(kind.name);
-    if (where == In::collider) names.emplace_back("compound");
-    return names;
-}
-
-// Sizes and place of a shape, which a collider and a part of a compound share.
-FieldList<ColliderSpec> shapeFields(const collision::ShapeKinds& shapes, In where) {
-    FieldList<ColliderSpec> list;
-    list.choice("shape", &ColliderSpec::shape, shapeNames(shapes, where), "Its shape.")
-        .required()
-        .vector("position", &ColliderSpec::position, "m", placeRange, "Its centre.")
-        .rotation("rotation_deg", &ColliderSpec::rotation, "About x, then y, then z.")
-        .vector("size", &ColliderSpec::size, "m", lengthRange, "Its three edges.")
-        .only(shapesWith(shapes, "size"))
-        .number("radius", &ColliderSpec::radius, "m", lengthRange, "Its radius.")
-        .only(shapesWith(shapes, "radius"))
-        .number("height", &ColliderSpec::height, "m", lengthRange,
-                "Whole height along y; of a capsule between the centres of its half spheres.")
-        .only(shapesWith(shapes, "height"))
-        .text("mesh", &ColliderSpec::mesh, Role::mesh, "OBJ or glTF file.")
-        .required()
-        .only(shapesWith(shapes, "mesh"))
-        .number("scale", &ColliderSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-        .only(shapesWith(shapes, "scale"));
-    for (const collision::ShapeKind& kind : shapes.all())
-        for (const collision::OwnSize& own : kind.own)
-            list.entry(own.key, &ColliderSpec::sizes, own.unit, Range{own.least, own.most}, own.standard, own.help)
-                .only({std::string(kind.name)});
-    return list;
-}
-
-std::string shapeOf(const Node& table) {
-    return table.textAt("shape");
-}
 
 Section poseKeySection() {
     Section section;
@@ -81,12 +32,19 @@ Section poseKeySection() {
     return section;
 }
 
+collision::ShapeKinds partsOf(const collision::ShapeKinds& shapes) {
+    return shapesThat(
+        shapes, [](const auto& kind) { return kind.extent == collision::Extent::bounded; });
+}
+
+constexpr const char* colliderMesh = "OBJ or glTF file.";
+
 Section partSection(const collision::ShapeKinds& shapes) {
     Section section;
-    section.variant = shapeOf;
+    section.variant = shapeNameIn;
     section.variantKey = "shape";
     section.fields =
-        shapeFields(shapes, In::compound)
+        shapeRows<ColliderSpec>(partsOf(shapes), colliderMesh)
             .table("finish", &ColliderSpec::ownFinish, finishSection(), "How it looks; as the compound if not given.")
             .take();
     return section;
@@ -96,7 +54,7 @@ void checkCollider(const CheckInput& input, ColliderSpec& collider) {
     checkAscending(input);
     if (input.table.find("finish") != nullptr) collider.ownFinish = collider.finish;
     collider.normal /= std::sqrt(glm::dot(collider.normal, collider.normal));
-    if (input.isClean && collider.shape == "compound" && collider.parts.empty())
+    if (input.isClean && input.table.find("parts") != nullptr && collider.parts.empty())
         input.problems.addError(input.at("parts"), "a compound needs parts");
     if (input.table.find("keys") == nullptr) return;
     for (const char* key : {"position", "rotation_deg"}) {
@@ -218,35 +176,33 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
     section.help = "A rigid thing that stops bodies, still or moved by keys.";
     section.enter = enterNamed(&SceneSpec::colliders);
     section.existing = findNamed(&SceneSpec::colliders);
-    section.variant = shapeOf;
+    section.variant = shapeNameIn;
     section.variantKey = "shape";
-    std::vector<std::string> edged = shapesWith(shapes, "edge");  // and shapes that may have such parts
-    edged.emplace_back("compound");
     section.fields =
-        shapeFields(shapes, In::collider)
+        shapeRows<ColliderSpec>(shapes, colliderMesh)
             .direction("normal", &ColliderSpec::normal, "Away from the solid; any length.")
-            .only(shapesWith(shapes, "normal"))
+            .only(namesOf(shapes, "normal"))
             .tables("parts", &ColliderSpec::parts, partSection(shapes), "Shapes joined into one.")
             .required()
-            .only({"compound"})
+            .only(namesOf(shapes, "parts"))
             .number("friction", &ColliderSpec::friction, "", Range{0.0, 100.0}, "Coulomb's coefficient.")
             .ramps(Affects::colliders)
             .number("restitution", &ColliderSpec::restitution, "", share, "Speed after a bounce over speed before.")
             .ramps(Affects::colliders)
             .text("animation", &ColliderSpec::animation, Role::none, "The animation of its file that moves it.")
-            .only(shapesWith(shapes, "animation"))
+            .only(namesOf(shapes, "animation"))
             .number("start_s", &ColliderSpec::start, "s", placeRange,
                     "Where the animation begins; below 0 it waits until then.")
-            .only(shapesWith(shapes, "animation"))
+            .only(namesOf(shapes, "animation"))
             .number("speed", &ColliderSpec::speed, "", placeRange, "How fast the animation goes.")
-            .only(shapesWith(shapes, "animation"))
+            .only(namesOf(shapes, "animation"))
             .flag("loop", &ColliderSpec::loops, "Whether the animation begins again at its end.")
-            .only(shapesWith(shapes, "animation"))
+            .only(namesOf(shapes, "animation"))
             .tables("keys", &ColliderSpec::keys, poseKeySection(), "Keyframes, in the order of time.")
             .flag("visible", &ColliderSpec::visible, "Whether it is drawn.")
             .number("edge", &ColliderSpec::edge, "m", Range{0.0, 1e3},
                     "Rounding of a drawn box's edges, but for its foot on the ground.")
-            .only(edged)
+            .only(namesOf(shapes, "edge"))
             .table("finish", &ColliderSpec::finish, finishSection(), "How it looks.")
             .take();
     section.check = [](const CheckInput& input, void* target) {

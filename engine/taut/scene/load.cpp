@@ -160,6 +160,7 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     std::vector<std::string> fabrics = addFabrics(options.assetFolders, root, problems);
     inherit(sections, root, problems);
     ReadScene scene = readScene(root, sections, fileName, problems);
+    scene.spec.shapes = std::make_shared<const collision::ShapeKinds>(kinds.shapes);
     scene.spec.bases = std::move(bases);
     scene.spec.fabrics = std::move(fabrics);
     loadAssets(options, confinementOf(fileName, options), scene, problems);
@@ -180,7 +181,6 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     sortByName(scene.spec, kinds);
     scene.spec.solver.methods = std::make_shared<const ode::Methods>(kinds.methods);
     scene.spec.actionKinds = std::make_shared<const world::KindTable<world::ActionSpec>>(kinds.actions);
-    scene.spec.shapes = std::make_shared<const collision::ShapeKinds>(kinds.shapes);
     StateKeys keys(root, scene.spec);
     return {std::move(scene.spec), problems.warnings(), std::move(keys),
             std::make_shared<const ActionReader>(std::move(root), kinds)};

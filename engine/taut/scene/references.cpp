@@ -31,8 +31,8 @@ void checkName(const NameReference& reference, const std::string& kind, const st
 
 // A joint of a figure.
 void checkJointName(const NameReference& reference, const world::ColliderTarget& target,
-                    const world::ColliderSpec& collider, Problems& problems) {
-    if (collider.shape != "figure")
+                    const world::ColliderSpec& collider, const world::SceneSpec& scene, Problems& problems) {
+    if (!scene.isFigure(collider))
         return problems.addError(reference.place,
                                  fmt::format("{} has no joints: it is a {}", target.collider, collider.shape),
                                  fmt::format("write {}", target.collider));
@@ -52,7 +52,7 @@ void checkCollider(const NameReference& reference, const std::vector<std::string
     const world::ColliderTarget target = world::parseCollider(reference.text);
     for (const world::ColliderSpec& collider : scene.colliders)
         if (!target.joint.empty() && "collider." + collider.name == target.collider)
-            return checkJointName(reference, target, collider, problems);
+            return checkJointName(reference, target, collider, scene, problems);
     const auto say = [&](const std::string& message, const std::string& remedy) {
         problems.addError(reference.place, message, remedy);
     };

@@ -10,9 +10,12 @@ namespace {
 
 // The section of a kind whose structs go into a list of the scene.
 template <class Base>
-SceneSection kindSection(const world::Kind<Base>& kind, world::Specs<Base> world::SceneSpec::*list) {
+SceneSection kindSection(const world::Kind<Base>& kind, const collision::ShapeKinds& shapes,
+                         world::Specs<Base> world::SceneSpec::*list) {
     SceneSection section;
-    static_cast<Section&>(section) = kind.section;
+    static_cast<Section&>(section) = kind.sectionWith ? kind.sectionWith(shapes) : kind.section;
+    section.name = kind.name;
+    section.layout = Layout::named;
     section.enter = [list, make = kind.make](world::SceneSpec& scene, const std::string& name,
                                              const core::Source& source) -> void* {
         Base& spec = (scene.*list).add(make());
@@ -106,11 +109,12 @@ std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
                                   contactSection(), runSection(),  pictureSection(), materialSection()};
     const std::size_t material = all.size() - 1;
     for (const auto& kind : kinds.bodies.all()) {
-        all.push_back(kindSection(kind, &world::SceneSpec::bodies));
+        all.push_back(kindSection(kind, kinds.shapes, &world::SceneSpec::bodies));
         if (all.back().find("material") != nullptr) all[material].fields.push_back(thingsOfMaterial(all.back()));
     }
     all.insert(all.end(), {jointSection(kinds.joints), seamSection(), massSection()});
-    for (const auto& kind : kinds.forces.all()) all.push_back(kindSection(kind, &world::SceneSpec::forces));
+    for (const auto& kind : kinds.forces.all())
+        all.push_back(kindSection(kind, kinds.shapes, &world::SceneSpec::forces));
     all.insert(all.end(), {colliderSection(kinds.shapes), cameraSection(), lightSection(), lampSection(),
                            environmentSection(), backgroundSection(), labelSection(), handSection(),
                            atSection(kinds.actions), checkSection(), fitSection(), goldenSection()});

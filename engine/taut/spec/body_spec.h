@@ -16,14 +16,11 @@
 #include "taut/spec/solver_spec.h"
 #include "taut/spec/source.h"
 
-namespace taut::collision {
-struct PlacedConvex;
-}
-
 namespace taut::world {
 
 struct Body;
 struct IslandPlan;
+struct RigidPiece;
 struct SceneSpec;
 class BodyDrawing;
 
@@ -120,7 +117,7 @@ struct BodySpec {
     // Whether its points keep their distances, so that what presses one presses all.
     virtual bool isRigid() const { return false; }
     // Of a rigid body, one for each part of its model.
-    virtual std::vector<collision::PlacedConvex> pieces(const SceneSpec& scene) const;
+    virtual std::vector<RigidPiece> pieces(const SceneSpec& scene) const;
     // Whether a surface that goes with its points meets others in their place.
     virtual bool hasCarriedSurface() const { return false; }
     // Whether it meets colliders in contact with bodies, not point by point as its island moves.

@@ -23,10 +23,6 @@
 #include "taut/spec/solver_spec.h"
 #include "taut/spec/specs.h"
 
-namespace taut::collision {
-class ShapeKinds;
-}
-
 namespace taut::world {
 
 template <class Base>
@@ -81,7 +77,7 @@ struct SceneSpec {
     Specs<JointSpec> joints;       // in the order of the file
     std::vector<MassSpec> masses;  // in the order of the file
     std::vector<ColliderSpec> colliders;
-    std::shared_ptr<const collision::ShapeKinds> shapes;  // that colliders may have; none: the engine's own
+    std::shared_ptr<const collision::ShapeKinds> shapes;  // of colliders and solids; none: the engine's own
     Specs<ForceSpec> forces;                              // in the order in which they are added
     std::vector<CameraSpec> cameras;
     std::vector<LabelSpec> labels;
@@ -90,6 +86,9 @@ struct SceneSpec {
     std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // of their kinds; none: the engine's own
     std::vector<CheckSpec> checks;                             // in the order of the file
     std::vector<GoldenSpec> goldens;
+
+    const collision::ShapeKinds& knownShapes() const;
+    bool isFigure(const ColliderSpec& collider) const;  // an animation moves its mesh
 };
 
 // Whether any body of the scene touches others or itself.

@@ -18,6 +18,10 @@
 
 #include "taut/fields/field.h"
 
+namespace taut::collision {
+class ShapeKinds;
+}
+
 namespace taut::world {
 
 // Iterates over pointers of any sort and gives the Items to which they point.
@@ -146,6 +150,8 @@ struct Kind {
     std::string name;
     fields::Section section;  // of a struct of this kind
     std::function<std::unique_ptr<Base>()> make;
+    // Its section for such a table of shapes; none: it has no shapes.
+    std::function<fields::Section(const collision::ShapeKinds&)> sectionWith{};
 };
 
 template <class Own, class Base>

@@ -55,9 +55,9 @@ BodySurfaces::BodySurfaces(const Selection& first, const Selection& second) : ge
             const std::size_t before = bodies_.size();
             if (std::find(bodies_.begin(), bodies_.end(), part.body) == bodies_.end())
                 for (const mechanics::RigidPart& surface : surfacesOf(*part.body)) {
-                    const std::vector<collision::PlacedConvex>& pieces = part.body->pieces;
+                    const std::vector<RigidPiece>& pieces = part.body->pieces;
                     const std::size_t number = bodies_.size() - before;
-                    pieces_.push_back(number < pieces.size() ? pieces[number] : collision::PlacedConvex{});
+                    pieces_.push_back(number < pieces.size() ? pieces[number] : RigidPiece{});
                     bodies_.push_back(part.body);
                     parts_.push_back(surface);
                     isFirst_.push_back(false);

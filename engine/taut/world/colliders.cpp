@@ -17,8 +17,8 @@ ecs::Entity addCollider(WorldImpl& w, const ColliderSpec& collider) {
         const Target target = parseTarget(move.target);
         return move.rotation && target.kind == "collider" && matches(target.name, collider.name);
     });
-    const collision::ShapeKinds& kinds = w.spec.shapes != nullptr ? *w.spec.shapes : collision::builtInShapes();
-    w.registry.add(entity, ColliderPart{collider, makeColliderModel(collider, kinds, mayTurn, w.spec.colliders)});
+    w.registry.add(
+        entity, ColliderPart{collider, makeColliderModel(collider, w.spec.knownShapes(), mayTurn, w.spec.colliders)});
     const collision::Pose pose = poseAt(collider, w.seconds());
     w.registry.add(entity, Placement{pose, pose});
     return entity;

@@ -14,26 +14,13 @@ Frame frameOfPose(const collision::Pose& pose) {
     return {glm::mat3_cast(glm::normalize(pose.rotation)), pose.position, true};
 }
 
-// [m] How far the fastest place of the box goes.
-double travelOf(const core::Aabb& box, const Frame& from, const Frame& to) {
-    double most = 0;
-    for (int i = 0; i < 8; ++i) {
-        const dvec3 way = to.toWorld(box.corner(i)) - from.toWorld(box.corner(i));
-        most = std::max(most, glm::dot(way, way));
-    }
-    return std::sqrt(most);
-}
-
 }  // namespace
 
 ShapeInMotion inMotion(ShapeInMotion shape) {
     const std::optional<core::Aabb>& local = shape.convex->bounds();
     if (!local) return shape;
     if (!shape.isStill) shape.travel = travelOf(*local, shape.from, shape.to);
-    const glm::dmat3& r = shape.from.rotation;
-    const dvec3 half = glm::dmat3(glm::abs(r[0]), glm::abs(r[1]), glm::abs(r[2])) * local->halfSize();
-    const dvec3 centre = shape.from.toWorld(local->centre());
-    shape.box = {centre - half, centre + half};
+    shape.box = collision::boxAt(shape.from, *local);
     shape.box.grow(shape.travel);
     return shape;
 }

@@ -160,7 +160,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
         }
         for (const ColliderModel::Piece& piece : part.model->pieces)
             view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
-                                     matrixOf(pose) * piece.transform, part.spec.shape == "plane"});
+                                     matrixOf(pose) * piece.transform, part.model->isPlane});
         if (part.model->figure != nullptr && part.spec.visible)
             part.model->figure->addSurfaces(time, pose, view.surfaces);
     });

@@ -110,9 +110,16 @@ std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added
         if (known.forces.find(force.kind()) == nullptr) need("force " + force.fullName());
     for (const BodySpec& body : scene.bodies)
         if (known.bodies.find(body.kind()) == nullptr) need("body " + body.fullName());
-    for (const ColliderSpec& collider : scene.colliders)
-        if (collider.shape != "compound" && known.shapes.find(collider.shape) == nullptr)
-            need("shape " + collider.shape);
+    const auto needShape = [&](const ShapeSpec& spec) {
+        if (known.shapes.find(spec.shape) == nullptr) need("shape " + spec.shape);
+    };
+    for (const BodySpec& body : scene.bodies)
+        for (const BodySpec* part : body.shapes())
+            if (const auto* shape = dynamic_cast<const ShapeSpec*>(part)) needShape(*shape);
+    for (const ColliderSpec& collider : scene.colliders) {
+        needShape(collider);
+        for (const ColliderSpec& part : collider.parts) needShape(part);
+    }
     for (const auto& island : islands)
         if (known.methods.find(island->plan().solver.integrator) == nullptr)
             need("method " + island->plan().solver.integrator);

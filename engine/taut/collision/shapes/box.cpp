@@ -1,10 +1,10 @@
 // A box about its middle.
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 
+#include <algorithm>
+
 #include "taut/collision/private/bullet_convex.h"
-#include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/shapes/shape_parts.h"
-#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 namespace {
@@ -38,9 +38,33 @@ class BoxConvex final : public Convex {
     dvec3 core_;
 };
 
-std::shared_ptr<const Form> makeBox(const ShapeSizes& sizes) {
+std::shared_ptr<const Convex> makeBox(const ShapeSizes& sizes, double rounding) {
     for (int k = 0; k < 3; ++k) expectSize(sizes.halfSize[k], "box: a half size");
-    return byFormula<ClosedKind::box>(BoxConvex(sizes.halfSize, 0.0));
+    return std::make_shared<const BoxConvex>(sizes.halfSize, rounding);
+}
+
+// Corner i is on the positive side of axis k if bit k of i is set.
+SolidShape solidBox(const ShapeSizes& sizes, double rounding) {
+    static constexpr const char* names[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
+    SolidShape box;
+    for (int i = 0; i < 8; ++i) {
+        dvec3& corner = box.positions.emplace_back();
+        for (int k = 0; k < 3; ++k) {
+            const int side = (i >> k) & 1;
+            corner[k] = side != 0 ? sizes.halfSize[k] : -sizes.halfSize[k];
+            box.sides[names[k][side]].push_back(i);
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        const int u = 1 << ((k + 1) % 3), v = 1 << ((k + 2) % 3), top = 1 << k;
+        box.triangles.push_back({top, top | u, top | u | v});
+        box.triangles.push_back({top, top | u | v, top | v});
+        box.triangles.push_back({0, u | v, u});
+        box.triangles.push_back({0, v, u | v});
+    }
+    box.properties = core::massPropertiesOf(box.positions, box.triangles);
+    for (dvec3& corner : box.positions) corner -= rounding * glm::sign(corner);
+    return box;
 }
 
 }  // namespace
@@ -48,15 +72,16 @@ std::shared_ptr<const Form> makeBox(const ShapeSizes& sizes) {
 ShapeKind boxKind() {
     return {.name = "box",
             .fields = {"size", "edge"},
-            .own = {},
-            .isBounded = true,
-            .form = makeBox,
+            .convex = makeBox,
             .mesh =
                 [](const ShapeSizes& sizes) {
                     return view::boxMesh(glm::vec3(sizes.halfSize), static_cast<float>(sizes.edge), sizes.stands);
                 },
-            .convex = [](const ShapeSizes& sizes,
-                         double rounding) { return std::make_shared<const BoxConvex>(sizes.halfSize, rounding); }};
+            .solid = solidBox,
+            .largestBall =
+                [](const ShapeSizes& sizes) {
+                    return std::min({sizes.halfSize.x, sizes.halfSize.y, sizes.halfSize.z});
+                }};
 }
 
 }  // namespace taut::collision

@@ -2,9 +2,7 @@
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 
 #include "taut/collision/private/bullet_convex.h"
-#include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/shapes/shape_parts.h"
-#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 namespace {
@@ -29,10 +27,16 @@ class CapsuleConvex final : public Convex {
     double half_;
 };
 
-std::shared_ptr<const Form> makeCapsule(const ShapeSizes& sizes) {
+std::shared_ptr<const Convex> makeCapsule(const ShapeSizes& sizes, double) {
     expectSize(sizes.radius, "capsule: the radius");
     expectSize(sizes.height, "capsule: the height");
-    return byFormula<ClosedKind::capsule>(CapsuleConvex(sizes.radius, sizes.height));
+    return std::make_shared<const CapsuleConvex>(sizes.radius, sizes.height);
+}
+
+SolidShape solidCapsule(const ShapeSizes& sizes, double) {
+    return {.positions = {{0.0, -0.5 * sizes.height, 0.0}, {0.0, 0.5 * sizes.height, 0.0}},
+            .lines = {{0, 1}},
+            .properties = core::massPropertiesOfCapsule(sizes.radius, sizes.height)};
 }
 
 }  // namespace
@@ -40,15 +44,14 @@ std::shared_ptr<const Form> makeCapsule(const ShapeSizes& sizes) {
 ShapeKind capsuleKind() {
     return {.name = "capsule",
             .fields = {"radius", "height"},
-            .own = {},
-            .isBounded = true,
-            .form = makeCapsule,
+            .convex = makeCapsule,
             .mesh =
                 [](const ShapeSizes& sizes) {
                     return view::capsuleMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
                 },
-            .convex = [](const ShapeSizes& sizes,
-                         double) { return std::make_shared<const CapsuleConvex>(sizes.radius, sizes.height); }};
+            .solid = solidCapsule,
+            .largestBall = [](const ShapeSizes& sizes) { return sizes.radius; },
+            .isRound = true};
 }
 
 }  // namespace taut::collision

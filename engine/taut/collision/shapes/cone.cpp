@@ -1,10 +1,10 @@
 // A cone about the y axis, its middle at half its height, its tip up.
 #include <BulletCollision/CollisionShapes/btConeShape.h>
 
+#include <cmath>
+
 #include "taut/collision/private/bullet_convex.h"
-#include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/shapes/shape_parts.h"
-#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 namespace {
@@ -52,10 +52,22 @@ class ConeConvex final : public Convex {
     ConeCore core_;
 };
 
-std::shared_ptr<const Form> makeCone(const ShapeSizes& sizes) {
+std::shared_ptr<const Convex> makeCone(const ShapeSizes& sizes, double rounding) {
     expectSize(sizes.radius, "cone: the radius");
     expectSize(sizes.height, "cone: the height");
-    return byFormula<ClosedKind::cone>(ConeConvex(ConeCore(sizes.radius, sizes.height, 0.0), 0.0));
+    return std::make_shared<const ConeConvex>(ConeCore(sizes.radius, sizes.height, rounding), rounding);
+}
+
+SolidShape solidCone(const ShapeSizes& sizes, double rounding) {
+    const ConeCore core(sizes.radius, sizes.height, rounding);
+    SolidShape cone = prism(core.base, 0.0, core.low, core.high);
+    cone.properties = core::massPropertiesOfCone(sizes.radius, sizes.height);
+    return cone;
+}
+
+double ballInCone(const ShapeSizes& sizes) {
+    const double radius = sizes.radius, height = sizes.height;
+    return radius * height / (std::sqrt(height * height + radius * radius) + radius);
 }
 
 }  // namespace
@@ -63,17 +75,13 @@ std::shared_ptr<const Form> makeCone(const ShapeSizes& sizes) {
 ShapeKind coneKind() {
     return {.name = "cone",
             .fields = {"radius", "height"},
-            .own = {},
-            .isBounded = true,
-            .form = makeCone,
+            .convex = makeCone,
             .mesh =
                 [](const ShapeSizes& sizes) {
                     return view::coneMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
                 },
-            .convex =
-                [](const ShapeSizes& sizes, double rounding) {
-                    return std::make_shared<const ConeConvex>(ConeCore(sizes.radius, sizes.height, rounding), rounding);
-                }};
+            .solid = solidCone,
+            .largestBall = ballInCone};
 }
 
 }  // namespace taut::collision

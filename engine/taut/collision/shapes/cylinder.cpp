@@ -1,10 +1,10 @@
 // A cylinder about the y axis.
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 
+#include <algorithm>
+
 #include "taut/collision/private/bullet_convex.h"
-#include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/shapes/shape_parts.h"
-#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 namespace {
@@ -37,10 +37,17 @@ class CylinderConvex final : public Convex {
     double radius_, half_;
 };
 
-std::shared_ptr<const Form> makeCylinder(const ShapeSizes& sizes) {
+std::shared_ptr<const Convex> makeCylinder(const ShapeSizes& sizes, double rounding) {
     expectSize(sizes.radius, "cylinder: the radius");
     expectSize(sizes.height, "cylinder: the height");
-    return byFormula<ClosedKind::cylinder>(CylinderConvex(sizes.radius, 0.5 * sizes.height, 0.0));
+    return std::make_shared<const CylinderConvex>(sizes.radius, 0.5 * sizes.height, rounding);
+}
+
+SolidShape solidCylinder(const ShapeSizes& sizes, double rounding) {
+    const double radius = sizes.radius - rounding, half = 0.5 * sizes.height;
+    SolidShape cylinder = prism(radius, radius, rounding - half, half - rounding);
+    cylinder.properties = core::massPropertiesOfCylinder(sizes.radius, sizes.height);
+    return cylinder;
 }
 
 }  // namespace
@@ -48,17 +55,13 @@ std::shared_ptr<const Form> makeCylinder(const ShapeSizes& sizes) {
 ShapeKind cylinderKind() {
     return {.name = "cylinder",
             .fields = {"radius", "height"},
-            .own = {},
-            .isBounded = true,
-            .form = makeCylinder,
+            .convex = makeCylinder,
             .mesh =
                 [](const ShapeSizes& sizes) {
                     return view::cylinderMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
                 },
-            .convex =
-                [](const ShapeSizes& sizes, double rounding) {
-                    return std::make_shared<const CylinderConvex>(sizes.radius, 0.5 * sizes.height, rounding);
-                }};
+            .solid = solidCylinder,
+            .largestBall = [](const ShapeSizes& sizes) { return std::min(sizes.radius, 0.5 * sizes.height); }};
 }
 
 }  // namespace taut::collision

@@ -18,8 +18,7 @@ class NoForm final : public Form {
 ShapeKind figureKind() {
     return {.name = "figure",
             .fields = {"mesh", "scale", "animation"},
-            .own = {},
-            .isBounded = false,
+            .extent = Extent::animated,
             .form = [](const ShapeSizes&) { return std::make_shared<const NoForm>(); },
             .mesh = [](const ShapeSizes&) { return view::Mesh{}; }};
 }

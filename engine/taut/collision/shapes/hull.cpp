@@ -2,6 +2,7 @@
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "taut/collision/private/bullet_convex.h"
@@ -9,7 +10,6 @@
 #include "taut/collision/private/convex_hull.h"
 #include "taut/collision/private/foot_finder.h"
 #include "taut/collision/private/shapes/shape_parts.h"
-#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 
@@ -19,8 +19,10 @@ constexpr float hullCrease = 0.7F;  // [rad] edges sharper than this look sharp
 
 class Hull final : public Form {
   public:
-    // Throws core::Error(badContent) for fewer than four vertices or a hull without volume.
-    explicit Hull(std::span<const dvec3> vertices);
+    explicit Hull(const Facets& facets) : finder_(facets) {
+        const dvec3 size = bounds()->high - bounds()->low;
+        tiny_ = 1e-24 * glm::dot(size, size);
+    }
     Nearest nearest(const dvec3& p) const override;
     bool sweep(const Path& path, HalfSpace& touch, bool& crossed) const override;
     std::optional<core::Aabb> bounds() const override { return finder_.bounds(); }
@@ -31,27 +33,6 @@ class Hull final : public Form {
     FootFinder finder_;
     double tiny_ = 0.0;  // [m²] square of the rounding of a distance
 };
-
-Hull::Hull(std::span<const dvec3> vertices) {
-    if (vertices.size() < 4) failShape("hull: needs at least four vertices, has " + std::to_string(vertices.size()));
-    dvec3 mean(0.0);
-    for (const dvec3& v : vertices) {
-        if (!isFinite(v)) failShape("hull: a vertex is not finite");
-        mean += v / static_cast<double>(vertices.size());
-    }
-    const auto failFlat = [] { failShape("hull: its vertices lie in one plane, so it has no volume"); };
-    const std::vector<std::uint32_t> triangles = convexHull(vertices);
-    if (triangles.empty()) failFlat();
-    Facets facets = makeFacets(vertices, triangles);
-    facets.isClosed = true;  // even if a triangle is too narrow to have a direction
-    double depth = std::numeric_limits<double>::infinity();
-    for (const Facet& t : facets.triangles) depth = std::min(depth, glm::dot(t.corner - mean, t.normal));
-    finder_ = FootFinder(std::move(facets));
-    const dvec3 size = finder_.bounds().high - finder_.bounds().low;
-    const double longest = glm::max(size.x, glm::max(size.y, size.z));
-    if (!(depth > 1e-9 * longest)) failFlat();
-    tiny_ = 1e-24 * glm::dot(size, size);
-}
 
 Nearest Hull::nearest(const dvec3& p) const {
     const Foot foot = finder_.foot(p, finder_.place(p));
@@ -76,11 +57,11 @@ bool Hull::sweep(const Path& path, HalfSpace& touch, bool&) const {
 // The flat faces of a hull, which its triangles are parts of.
 class HullConvex final : public Convex {
   public:
-    HullConvex(const Facets& facets, std::unique_ptr<btConvexHullShape> shape, double rounding)
-        : Convex(std::move(shape), rounding) {
+    HullConvex(Facets facets, std::unique_ptr<btConvexHullShape> shape, double rounding)
+        : Convex(std::move(shape), rounding), facets_(std::move(facets)) {
         constexpr double sameNormal = 1e-12;  // 1 - cosine
         std::vector<std::vector<dvec3>> corners;
-        for (const Facet& facet : facets.triangles) {
+        for (const Facet& facet : facets_.triangles) {
             std::size_t k = 0;
             while (k < faces_.size() && glm::dot(faces_[k].normal, facet.normal) < 1.0 - sameNormal) ++k;
             if (k == faces_.size()) {
@@ -98,6 +79,7 @@ class HullConvex final : public Convex {
         });
         return best->corners;
     }
+    std::shared_ptr<const Form> form() const override { return std::make_shared<const Hull>(facets_); }
 
   private:
     struct Face {
@@ -127,20 +109,61 @@ class HullConvex final : public Convex {
         const std::size_t step = (around.size() + SupportingFace::most - 1) / SupportingFace::most;
         for (std::size_t k = 0; k < around.size(); k += step) face.corners.add(around[k]);
     }
+    Facets facets_;
     std::vector<Face> faces_;
 };
 
-std::shared_ptr<const Convex> makeHullConvex(const ShapeSizes& sizes, double rounding) {
-    const std::vector<std::uint32_t> triangles = convexHull(sizes.vertices);
-    if (triangles.empty()) failShape("hull: its vertices lie in one plane, so it has no volume");
+[[noreturn]] void failFlat() {
+    failShape("hull: its vertices lie in one plane, so it has no volume");
+}
+
+// Throws core::Error(badContent) for fewer than four vertices or a hull without volume.
+std::shared_ptr<const Convex> makeHull(const ShapeSizes& sizes, double rounding) {
+    const std::vector<dvec3>& vertices = sizes.vertices;
+    if (vertices.size() < 4) failShape("hull: needs at least four vertices, has " + std::to_string(vertices.size()));
+    dvec3 mean(0.0);
+    for (const dvec3& v : vertices) {
+        if (!isFinite(v)) failShape("hull: a vertex is not finite");
+        mean += v / static_cast<double>(vertices.size());
+    }
+    const std::vector<std::uint32_t> triangles = convexHull(vertices);
+    if (triangles.empty()) failFlat();
+    Facets facets = makeFacets(vertices, triangles);
+    facets.isClosed = true;  // even if a triangle is too narrow to have a direction
+    core::Aabb box;
+    double depth = std::numeric_limits<double>::infinity();
+    for (const Facet& t : facets.triangles) depth = std::min(depth, glm::dot(t.corner - mean, t.normal));
     auto shape = std::make_unique<btConvexHullShape>();
     shape->setMargin(Convex::unit * rounding);
     std::vector<std::uint32_t> used(triangles);
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (const std::uint32_t i : used) shape->addPoint(toBullet(sizes.vertices[i]), false);
+    for (const std::uint32_t i : used) {
+        box.add(vertices[i]);
+        shape->addPoint(toBullet(vertices[i]), false);
+    }
     shape->recalcLocalAabb();
-    return std::make_shared<const HullConvex>(makeFacets(sizes.vertices, triangles), std::move(shape), rounding);
+    const dvec3 size = box.high - box.low;
+    if (!(depth > 1e-9 * std::max({size.x, size.y, size.z}))) failFlat();
+    return std::make_shared<const HullConvex>(std::move(facets), std::move(shape), rounding);
+}
+
+// Corners in the order in which triangles have them.
+SolidShape solidHull(const ShapeSizes& sizes, double) {
+    SolidShape solid;
+    const std::vector<std::uint32_t> corners = convexHull(sizes.vertices);
+    if (corners.empty()) failFlat();
+    std::vector<int> placeOf(sizes.vertices.size(), -1);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        int& place = placeOf[corners[k]];
+        if (place < 0) {
+            place = static_cast<int>(solid.positions.size());
+            solid.positions.push_back(sizes.vertices[corners[k]]);
+        }
+        if (k % 3 == 0) solid.triangles.emplace_back();
+        solid.triangles.back()[k % 3] = place;
+    }
+    return solid;
 }
 
 view::Mesh meshOfHull(const ShapeSizes& sizes) {
@@ -151,13 +174,7 @@ view::Mesh meshOfHull(const ShapeSizes& sizes) {
 }  // namespace
 
 ShapeKind hullKind() {
-    return {.name = "hull",
-            .fields = {"mesh", "scale"},
-            .own = {},
-            .isBounded = true,
-            .form = [](const ShapeSizes& sizes) { return std::make_shared<const Hull>(sizes.vertices); },
-            .mesh = meshOfHull,
-            .convex = makeHullConvex};
+    return {.name = "hull", .fields = {"mesh", "scale"}, .convex = makeHull, .mesh = meshOfHull, .solid = solidHull};
 }
 
 }  // namespace taut::collision

@@ -12,18 +12,25 @@ view::Mesh meshOfTriangles(const ShapeSizes& sizes) {
     return view::creasedMesh(positions, sizes.triangles, meshCrease);
 }
 
+SolidShape solidMesh(const ShapeSizes& sizes, double) {
+    SolidShape solid{.positions = sizes.vertices};
+    for (std::size_t k = 0; k + 2 < sizes.triangles.size(); k += 3)
+        solid.triangles.push_back({static_cast<int>(sizes.triangles[k]), static_cast<int>(sizes.triangles[k + 1]),
+                                   static_cast<int>(sizes.triangles[k + 2])});
+    return solid;
+}
+
 }  // namespace
 
 ShapeKind meshKind() {
     return {.name = "mesh",
             .fields = {"mesh", "scale"},
-            .own = {},
-            .isBounded = true,
             .form =
                 [](const ShapeSizes& sizes) {
                     return std::make_shared<const TriangleMesh>(sizes.vertices, sizes.triangles);
                 },
-            .mesh = meshOfTriangles};
+            .mesh = meshOfTriangles,
+            .solid = solidMesh};
 }
 
 }  // namespace taut::collision

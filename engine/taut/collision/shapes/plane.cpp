@@ -1,7 +1,6 @@
 // The half-space behind a plane.
 #include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/shapes/shape_parts.h"
-#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 namespace {
@@ -16,30 +15,29 @@ struct PlaneForm {
     ClosedShape closed() const { return {ClosedKind::halfSpace}; }
 };
 
-dvec3 normalOf(const ShapeSizes& sizes) {
-    const double length = std::sqrt(glm::dot(sizes.normal, sizes.normal));
-    if (!(length > 0.0) || !isFinite(length)) failShape("plane: its normal has no direction");
-    return sizes.normal / length;
-}
-
 class PlaneConvex final : public Convex {
   public:
     explicit PlaneConvex(const dvec3& normal) : Convex(normal) {}
     SupportingFace faceTowards(const dvec3&) const override { return {}; }
+    std::shared_ptr<const Form> form() const override {
+        return std::make_shared<ConvexForm<PlaneForm>>(PlaneForm{up()});
+    }
 };
+
+std::shared_ptr<const Convex> makePlane(const ShapeSizes& sizes, double) {
+    const double length = std::sqrt(glm::dot(sizes.normal, sizes.normal));
+    if (!(length > 0.0) || !isFinite(length)) failShape("plane: its normal has no direction");
+    return std::make_shared<const PlaneConvex>(sizes.normal / length);
+}
 
 }  // namespace
 
 ShapeKind planeKind() {
-    return {
-        .name = "plane",
-        .fields = {"normal"},
-        .own = {},
-        .isBounded = false,
-        .form =
-            [](const ShapeSizes& sizes) { return std::make_shared<ConvexForm<PlaneForm>>(PlaneForm{normalOf(sizes)}); },
-        .mesh = [](const ShapeSizes& sizes) { return view::quadMesh(glm::vec3(sizes.normal), boardHalfSize); },
-        .convex = [](const ShapeSizes& sizes, double) { return std::make_shared<const PlaneConvex>(normalOf(sizes)); }};
+    return {.name = "plane",
+            .fields = {"normal"},
+            .extent = Extent::halfSpace,
+            .convex = makePlane,
+            .mesh = [](const ShapeSizes& sizes) { return view::quadMesh(glm::vec3(sizes.normal), boardHalfSize); }};
 }
 
 }  // namespace taut::collision

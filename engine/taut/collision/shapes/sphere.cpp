@@ -2,9 +2,7 @@
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
 #include "taut/collision/private/bullet_convex.h"
-#include "taut/collision/private/convex_form.h"
 #include "taut/collision/private/shapes/shape_parts.h"
-#include "taut/collision/shape_table.h"
 
 namespace taut::collision {
 namespace {
@@ -22,22 +20,25 @@ class SphereConvex final : public Convex {
     }
 };
 
-std::shared_ptr<const Form> makeSphere(const ShapeSizes& sizes) {
+std::shared_ptr<const Convex> makeSphere(const ShapeSizes& sizes, double) {
     expectSize(sizes.radius, "sphere: the radius");
-    return byFormula<ClosedKind::sphere>(SphereConvex(sizes.radius));
+    return std::make_shared<const SphereConvex>(sizes.radius);
 }
 
 }  // namespace
 
 ShapeKind sphereKind() {
-    return {
-        .name = "sphere",
-        .fields = {"radius"},
-        .own = {},
-        .isBounded = true,
-        .form = makeSphere,
-        .mesh = [](const ShapeSizes& sizes) { return view::sphereMesh(static_cast<float>(sizes.radius)); },
-        .convex = [](const ShapeSizes& sizes, double) { return std::make_shared<const SphereConvex>(sizes.radius); }};
+    return {.name = "sphere",
+            .fields = {"radius"},
+            .convex = makeSphere,
+            .mesh = [](const ShapeSizes& sizes) { return view::sphereMesh(static_cast<float>(sizes.radius)); },
+            .solid =
+                [](const ShapeSizes& sizes, double) {
+                    return SolidShape{.positions = {dvec3(0.0)},
+                                      .properties = core::massPropertiesOfBall(sizes.radius)};
+                },
+            .largestBall = [](const ShapeSizes& sizes) { return sizes.radius; },
+            .isRound = true};
 }
 
 }  // namespace taut::collision

@@ -1,17 +1,15 @@
-// What the files of the shapes share: checks of sizes, and forms by a formula.
+// What the files of the shapes share: checks of sizes, and prisms.
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include "taut/collision/convex.h"
-#include "taut/collision/private/convex_form.h"
+#include "taut/collision/shape_table.h"
 #include "taut/core/error.h"
 
 namespace taut::collision {
 
 [[noreturn]] inline void failShape(const std::string& what) {
-    throw core::Error(core::ErrorKind::badContent, "collider " + what);
+    throw core::Error(core::ErrorKind::badContent, what);
 }
 
 inline void expectSize(double size, const char* what) {
@@ -19,25 +17,8 @@ inline void expectSize(double size, const char* what) {
         failShape(std::string(what) + " has to be above zero, is " + std::to_string(size));
 }
 
-// A convex shape whose distance is in closed_shape.h.
-template <ClosedKind kind>
-struct ShapeByFormula {
-    ClosedShape shape;
-    core::Aabb filled;
-
-    Nearest nearest(const dvec3& p) const {
-        const ClosedDistance at = closedDistance<kind>(shape.size, p.x, p.y, p.z);
-        return {at.distance, {at.x, at.y, at.z}};
-    }
-    core::Aabb bounds() const { return filled; }
-    ClosedShape closed() const { return shape; }
-};
-
-// Its numbers are those of the Bullet shape. Expects one without rounding, or a sphere or a capsule.
-template <ClosedKind kind>
-std::shared_ptr<const Form> byFormula(const Convex& convex) {
-    using Formula = ShapeByFormula<kind>;
-    return std::make_shared<ConvexForm<Formula>>(Formula{convex.closed(), *convex.bounds()});
-}
+// A prism of 24 sides with these radii at its ends, `low` and `high` on the axis y; a pyramid if the second radius is
+// 0. The points of the lower end come first.
+SolidShape prism(double radius, double radiusAbove, double low, double high);
 
 }  // namespace taut::collision

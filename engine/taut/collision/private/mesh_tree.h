@@ -1,5 +1,9 @@
-// The tree of boxes over the triangles of a mesh. Bullet builds it. It is walked here, because Bullet's own walk writes
-// a global counter, which bodies that are resolved in parallel would share. It knows only boxes.
+// The tree of boxes over the triangles of a mesh. It knows only boxes. Bullet builds it. This is a copy, as Bullet's own
+// tree cannot take its place:
+// - Its walk writes a global counter, which bodies that are resolved in parallel would share.
+// - It has no walk to the nearest triangles first.
+// - In a mesh of 82 000 triangles it takes 860 ns to find those in a box of 1 cm, 2.7 µs in one of 4 cm. This walk takes
+//   460 ns and 1.2 µs.
 #pragma once
 
 #include <array>

@@ -6,6 +6,7 @@
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/solid.h"
 #include "taut/spec/spec.h"
+#include "taut/world/private/rigid_contacts.h"
 #include "taut/world/world.h"
 
 namespace taut {
@@ -85,12 +86,15 @@ world::SceneSpec boxes(const std::vector<world::SolidSpec>& all) {
 }
 
 // Each turned otherwise, on top of each other in columns.
-world::SceneSpec heap(int count) {
+world::SceneSpec heap(int count, const std::string& shape = "box") {
     std::vector<world::SolidSpec> all;
     for (int y = 0; y < count; ++y)
         for (int x = 0; x < count; ++x)
             for (int z = 0; z < count; ++z) {
                 all.push_back(box({0.16 * x + 0.01 * y, 0.15 + 0.17 * y, 0.16 * z}));
+                all.back().shape = shape;
+                all.back().radius = 0.05;
+                all.back().height = 0.1;
                 all.back().rotation = {1.1 * x + 0.3 * y, 0.7 * z, 0.9 * y};
             }
     return boxes(all);
@@ -123,6 +127,33 @@ BENCHMARK_CAPTURE(touching, two on a ball, draped(), 90)->Unit(benchmark::kMilli
 BENCHMARK_CAPTURE(touching, 125 boxes fall, heap(5), 20)->Unit(benchmark::kMillisecond)->Iterations(60);
 BENCHMARK_CAPTURE(touching, 1000 boxes fall, heap(10), 20)->Unit(benchmark::kMillisecond)->Iterations(60);
 BENCHMARK_CAPTURE(touching, 55 bricks stand, wall(10), 20)->Unit(benchmark::kMillisecond)->Iterations(60);
+
+// One detection among the shapes of solids, without the ground: what is found and solved after it is left out.
+void detecting(benchmark::State& state, const world::SceneSpec& spec, int ticks) {
+    world::World world(spec, {.threads = 1});
+    for (int i = 0; i < ticks; ++i) (void)world.advance();
+    const std::vector<world::Body> bodies = world::buildBodies(spec);
+    world::RigidContacts contacts;
+    std::vector<glm::dvec3> x0, x1;
+    const double seconds = 0.25 * world.tickSeconds();
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        world::RigidMarks marks = world::marksOf(bodies[k]);
+        for (int& i : marks.points) i += static_cast<int>(x0.size());
+        const world::RigidContacts::Solid solid{static_cast<int>(k), bodies[k].pieces[0], marks, 0.005};
+        contacts.addSolid(solid);
+        const world::PointsNow points = world.points(bodies[k].fullName());
+        for (std::size_t i = 0; i < points.x.size(); ++i) {
+            x0.push_back(points.x[i]);
+            x1.push_back(points.x[i] + seconds * points.v[i]);
+        }
+    }
+    std::size_t touches = 0;
+    for (auto _ : state) touches = contacts.find(x0, x1, seconds, {}, [](int, int, int) { return true; }).size();
+    state.counters["touches"] = static_cast<double>(touches);
+}
+BENCHMARK_CAPTURE(detecting, 1000 boxes fall, heap(10), 20)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(detecting, 1000 boxes lie, heap(10), 205)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(detecting, 1000 cylinders lie, heap(10, "cylinder"), 205)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace taut

@@ -50,7 +50,7 @@ TEST(Lying, EveryBodyLiesOnEveryShape) {
             const std::size_t end = body.text.find(".above]"), start = body.text.rfind('[', end) + 1;
             const std::string target = body.text.substr(start, end - start) + ".above";
             const std::string text = "schema = 1\n" + body.text + "[collider.under]\n" + shape.text;
-            world::World world(scene::loadSceneText(text, what).spec);
+            world::World world(scene::loadSceneText(text, what, {}).spec);
             double deepest = 0;
             while (world.time() < 0.3) {
                 ASSERT_FALSE(world.advance()) << what;

@@ -12,6 +12,7 @@ list(APPEND TAUT_PHYSICS_TESTS
   implicit_euler_test.cpp
   led_points_test.cpp
   linear_modes_test.cpp
+  lying_test.cpp
   mesh_block_test.cpp
   network_energy_test.cpp
   network_limits_test.cpp

@@ -95,6 +95,19 @@ TEST(House, IncludesPointOneWay) {
     EXPECT_GT(seen, 300U);  // the test reads real includes
 }
 
+// A file of tests that no list names is never compiled.
+TEST(House, EveryTestIsBuilt) {
+    for (const char* group : {"unit", "physics", "determinism", "golden"}) {
+        const std::filesystem::path folder = source / "tests" / group;
+        std::string lists;
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+            if (entry.path().extension() == ".cmake") lists += contentOf(entry.path());
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+            if (const std::string name = entry.path().filename(); name.ends_with("_test.cpp"))
+                EXPECT_NE(lists.find(name), std::string::npos) << group << "/" << name;
+    }
+}
+
 TEST(House, TheEngineDoesNotKnowTheProgram) {
     for (const Include& include : includesBelow(source / "engine"))
         EXPECT_FALSE(include.what.starts_with("game/")) << include.file;

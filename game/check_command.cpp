@@ -1,13 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <regex>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -37,10 +33,10 @@ struct CheckFlags {
 };
 
 struct Verdict {
-    std::string scene;                  // its file
-    std::optional<core::Error> error;   // all that is wrong
-    std::vector<std::string> warnings;  // of the loader and the rehearsal
-    std::vector<std::string> notes;     // of its figures
+    std::string scene;                    // its file
+    std::optional<core::Error> error;     // all that is wrong
+    std::vector<core::Finding> warnings;  // of the loader and the rehearsal
+    std::vector<std::string> notes;       // of its figures
     std::vector<std::string> advice;
     std::string large;  // what so many pictures take
     ExitCode code = ExitCode::ok;
@@ -91,8 +87,7 @@ Verdict judge(const std::string& argument, const CheckFlags& flags) {
             world::Rehearsal rehearsal = world::rehearse(spec);
             std::ranges::move(rehearsal.warnings, std::back_inserter(verdict.warnings));
             verdict.advice = std::move(rehearsal.advice);
-            if (!rehearsal.faults.empty())
-                throw core::Error(core::ErrorKind::badContent, fmt::format("{}", fmt::join(rehearsal.faults, "\n")));
+            if (!rehearsal.faults.empty()) throw core::Error(core::ErrorKind::badContent, std::move(rehearsal.faults));
         }
         if (flags.strict && !verdict.warnings.empty()) verdict.code = ExitCode::badContent;
     } catch (const core::Error& error) {
@@ -115,38 +110,29 @@ void print(const Verdict& verdict, bool isAlone) {
     }
 }
 
-// "FILE:LINE:COLUMN: error: TEXT" with the line of the file, and a caret and a remedy below it, becomes one entry. A
-// message without a place has no line and column.
-Json entriesOf(const std::string& text) {
-    static const std::regex place("(.*?):(\\d+):(\\d+): (?:error|warning): (.*)");
-    Json entries = Json::array();
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        std::smatch found;
-        if (std::regex_match(line, found, place))
-            entries.push_back({{"file", found[1].str()},
-                               {"line", std::stoi(found[2])},
-                               {"column", std::stoi(found[3])},
-                               {"message", found[4].str()}});
-        else if (!line.starts_with("  ") || entries.empty())
-            entries.push_back({{"message", line}});
-        else if (const std::size_t caret = line.find("^ "); line.find_first_not_of(' ') == caret)
-            entries.back()["remedy"] = line.substr(caret + 2);
+// Without a file, line or column where none is known.
+Json jsonOf(const std::vector<core::Finding>& findings) {
+    Json all = Json::array();
+    for (const core::Finding& finding : findings) {
+        Json& entry = all.emplace_back();
+        if (!finding.source.file.empty()) entry["file"] = finding.source.file;
+        if (finding.source.line > 0) entry["line"] = finding.source.line;
+        if (finding.source.column > 0) entry["column"] = finding.source.column;
+        entry["message"] = finding.text;
+        if (!finding.remedy.empty()) entry["remedy"] = finding.remedy;
     }
-    return entries;
+    return all;
 }
 
 void printJson(const std::vector<Verdict>& verdicts) {
     Json all = Json::array();
     for (const Verdict& verdict : verdicts) {
-        Json warnings = Json::array(), notes = verdict.notes;
-        for (const std::string& warning : verdict.warnings)
-            for (Json& entry : entriesOf(warning)) warnings.push_back(std::move(entry));
+        Json notes = verdict.notes;
         for (const std::string& advice : verdict.advice) notes.push_back(advice);
         all.push_back({{"scene", verdict.scene},
                        {"ok", verdict.code == ExitCode::ok},
-                       {"errors", verdict.error ? entriesOf(verdict.error->what()) : Json::array()},
-                       {"warnings", std::move(warnings)},
+                       {"errors", verdict.error ? jsonOf(verdict.error->findings()) : Json::array()},
+                       {"warnings", jsonOf(verdict.warnings)},
                        {"notes", std::move(notes)}});
     }
     printResult("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace));

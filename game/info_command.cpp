@@ -90,7 +90,8 @@ struct Facts {
     std::vector<world::IslandInfo> islands;
     std::vector<world::JointInfo> joints;
     world::ContactInfo contact;  // of the ticks that were measured
-    std::vector<std::string> warnings, notes;
+    std::vector<core::Finding> warnings;
+    std::vector<std::string> notes;
     double tickSeconds = 0.0;
     int ticksPerFrame = 1;
     std::int64_t frames = 0;
@@ -106,7 +107,7 @@ Facts gatherFacts(const InfoFlags& flags) {
     facts.islands = world.islands();
     facts.joints = world.joints();
     facts.warnings = world.warnings();
-    for (const std::string& doubt : world::startDoubts(world)) facts.warnings.push_back(doubt);
+    for (core::Finding& doubt : world::startDoubts(world)) facts.warnings.push_back(std::move(doubt));
     facts.notes = world::coarseCells(facts.spec);
     facts.tickSeconds = world.tickSeconds();
     facts.ticksPerFrame = world.ticksPerFrame();
@@ -207,7 +208,7 @@ void printJson(const Facts& facts) {
                        {"joints", std::move(joints)},
                        {"contact", contactJson(facts.contact)},
                        {"colliders", facts.spec.colliders.size()},
-                       {"warnings", facts.warnings},
+                       {"warnings", printed(facts.warnings)},
                        {"notes", facts.notes}};
     printResult("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
 }
@@ -335,8 +336,8 @@ void printTable(const Facts& facts) {
         "\nin all {} points, {} springs, {} islands, {} colliders, about {:.3g} MB, {:.3g} MB of it for pictures\n",
         points, springs, facts.islands.size(), spec.colliders.size(), size.bytes() / 1e6, size.pictures / 1e6);
     if (facts.cost.ticks > 0) printCost(facts, pointSteps);
-    for (const std::string& warning : facts.warnings)
-        printResult("{}{}\n", warning.find("warning: ") == std::string::npos ? "warning: " : "", warning);
+    for (const core::Finding& warning : facts.warnings)
+        printResult("{}{}\n", warning.source.file.empty() ? "warning: " : "", printed(warning));
     for (const std::string& note : facts.notes) printResult("note: {}\n", note);
 }
 

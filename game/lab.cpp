@@ -58,7 +58,7 @@ LabFolder::LabFolder(std::filesystem::path folder, bool isQuiet)
          at = at.parent_path())
         made_.push_back(at);
     core::prepareFolderOf(folder_ / "any");
-    if (!draws_) printWarnings({report::gnuplotMissing() + "; only CSV and JSON will be written"});
+    if (!draws_) printWarning(report::gnuplotMissing() + "; only CSV and JSON will be written");
 }
 
 void LabFolder::write(const std::string& name, const std::string& text) const {

@@ -102,8 +102,7 @@ std::string LivePlay::keptRecording() {
 void LivePlay::adopt(std::unique_ptr<live::Session> session, scene::StateKeys keys) {
     session_ = std::move(session);
     keys_ = std::move(keys);
-    for (const std::string& warning : session_->world().warnings())
-        if (!settings_.isQuiet) printWarnings({warning});
+    if (!settings_.isQuiet) printWarnings(session_->world().warnings());
     overlay_ = std::make_unique<pipeline::Overlay>(fontFile(), pipeline::smallestStep(session_->world()));
     overlay_->add({session_->metrics(), session_->tick()});
     pace_ = live::Pace(session_->world().tickSeconds());

@@ -35,7 +35,7 @@ Fabric read(const path& file) {
     const auto found = scene.materials.find(file.stem().string());
     if (found == scene.materials.end())
         throw core::Error(core::ErrorKind::badContent,
-                          fmt::format("{}: error: it has no [material.{}]", file.string(), file.stem().string()));
+                          core::at({file.string()}) + fmt::format("it has no [material.{}]", file.stem().string()));
     return {scene.title, found->second};
 }
 

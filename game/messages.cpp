@@ -50,9 +50,16 @@ void printError(const core::Error& error) {
     printNote("{}{}\n", error.kind() == core::ErrorKind::badContent ? "" : "taut: ", error.what());
 }
 
-void printWarnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-        printNote("{}{}\n", warning.find("warning: ") == std::string::npos ? "taut: warning: " : "", warning);
+void printWarning(std::string_view text) {
+    printNote("taut: warning: {}\n", text);
+}
+
+void printWarnings(const std::vector<core::Finding>& warnings) {
+    for (const core::Finding& warning : warnings)
+        if (warning.source.file.empty())
+            printWarning(printed(warning));
+        else
+            printNote("{}\n", printed(warning));
 }
 
 bool areResultsWritten() {

@@ -33,7 +33,8 @@ void printNote(fmt::format_string<Values...> format, Values&&... values) {
 // Faults of a file start with FILE:LINE:COLUMN, because editors understand that only at the start of a line. Other
 // messages start with the name of the program.
 void printError(const core::Error& error);
-void printWarnings(const std::vector<std::string>& warnings);
+void printWarning(std::string_view text);
+void printWarnings(const std::vector<core::Finding>& warnings);
 
 // Flushes the output. Returns whether all of it was written, or its reader closed it early.
 bool areResultsWritten();

@@ -217,7 +217,7 @@ void noteWhatIsAhead(const RenderFlags& flags, const RunPart& part, const world:
 }
 
 // What came up on the way, such as a block squashed flat.
-void warnOfNew(const std::vector<std::string>& foreseen, std::vector<std::string> met) {
+void warnOfNew(const std::vector<core::Finding>& foreseen, std::vector<core::Finding> met) {
     std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
     printWarnings(met);
 }
@@ -254,7 +254,7 @@ int render(const RenderFlags& flags) {
     noteWhatIsAhead(flags, part, spec);
     const core::ThreadLimit threads(flags.threads);
     world::World world(spec, {.threads = flags.threads});
-    const std::vector<std::string> foreseen = world.warnings();
+    const std::vector<core::Finding> foreseen = world.warnings();
     printWarnings(foreseen);
 
     const std::filesystem::path states = checkpointFolder(flags);

@@ -64,11 +64,11 @@ world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape)
                   flags.tape);
     if (tape.origin.files.empty() &&
         (!core::isThere(tape.origin.scene) || core::fileContent(tape.origin.scene) != tape.origin.text))
-        printWarnings({fmt::format("{} is not what it was; the text on the tape is played", tape.origin.scene)});
+        printWarning(fmt::format("{} is not what it was; the text on the tape is played", tape.origin.scene));
     for (const std::string& change : scene::changedSince(tape.origin.files)) {
         const bool isScene = change.starts_with(tape.origin.scene + " ");
-        printWarnings({fmt::format("{} since this tape was recorded{}", change,
-                                   isScene ? "; the text on the tape is played" : "")});
+        printWarning(fmt::format("{} since this tape was recorded{}", change,
+                                 isScene ? "; the text on the tape is played" : ""));
     }
     return scene::loadSceneText(tape.origin.text, tape.origin.scene, options).spec;
 }

@@ -97,7 +97,7 @@ int test(const TestFlags& flags) {
     const auto start = Clock::now();
     report::TestReport report = blankReport(run);
     report.notes = orphans(flags, run);
-    printWarnings(report.notes);
+    for (const std::string& note : report.notes) printWarning(note);
     {
         LiveLine line(flags.quiet);
         const int count = static_cast<int>(run.read.scenarios.size());
@@ -110,7 +110,7 @@ int test(const TestFlags& flags) {
     }
     if (const std::string note = regression::otherRendererNote(report, run.manifest); !note.empty()) {
         report.notes.push_back(note);
-        printWarnings({note});
+        printWarning(note);
     }
     if (flags.calibrate && !interruption.flag())
         report.calibration =

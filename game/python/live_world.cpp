@@ -45,7 +45,7 @@ LiveWorld::LiveWorld(SceneSource source, scene::Loaded loaded, int threads)
     : source_(std::move(source)),
       actions_(loaded.actions),
       keys_(loaded.keys),
-      warnings_(loaded.warnings),
+      warnings_(printed(loaded.warnings)),
       world_(std::move(loaded.spec), optionsFor(threads)) {
     source_.file = lastingName(source_.file, source_.isText);
 }

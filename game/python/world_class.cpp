@@ -194,7 +194,7 @@ void addAsking(Class& type) {
         "warnings",
         [](const LiveWorld& w) {
             std::vector<std::string> all = w.warnings();
-            for (const std::string& warning : w.asked().warnings()) all.push_back(warning);
+            for (std::string& warning : printed(w.asked().warnings())) all.push_back(std::move(warning));
             return all;
         },
         "What the scene, its steps and its callbacks give reason to say.");

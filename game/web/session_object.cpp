@@ -74,7 +74,7 @@ SessionObject::SessionObject(const Json& with) : SessionObject(sourceIn(with), r
 SessionObject::SessionObject(SceneSource source, scene::Loaded loaded)
     : source_(std::move(source)),
       actions_(loaded.actions),
-      warnings_(loaded.warnings),
+      warnings_(printed(loaded.warnings)),
       session_(std::move(loaded.spec), 1),
       pace_(session_.world().tickSeconds()) {}
 
@@ -85,7 +85,7 @@ Json SessionObject::call(const std::string& what, const Json& with) {
 Json SessionObject::about() const {
     const world::World& world = session_.world();
     std::vector<std::string> warnings = warnings_, bodies;
-    for (const std::string& warning : world.warnings()) warnings.push_back(warning);
+    for (std::string& warning : printed(world.warnings())) warnings.push_back(std::move(warning));
     for (const live::BodyPoints& body : session_.bodies(true)) bodies.push_back(body.name);
     return {{"tickSeconds", world.tickSeconds()},
             {"ticksPerFrame", world.ticksPerFrame()},

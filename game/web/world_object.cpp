@@ -71,7 +71,7 @@ WorldObject::WorldObject(SceneSource source, scene::Loaded loaded)
     : source_(std::move(source)),
       actions_(loaded.actions),
       keys_(loaded.keys),
-      warnings_(loaded.warnings),
+      warnings_(printed(loaded.warnings)),
       world_(std::move(loaded.spec), {.threads = 1}) {
     watch();
 }
@@ -123,7 +123,7 @@ Json WorldObject::about() const {
     Json bodies = Json::array();
     for (const world::BodyHash& body : world.bodyHashes()) bodies.push_back(body.name);
     std::vector<std::string> warnings = warnings_;
-    for (const std::string& warning : world.warnings()) warnings.push_back(warning);
+    for (std::string& warning : printed(world.warnings())) warnings.push_back(std::move(warning));
     return {{"tickSeconds", world.tickSeconds()},
             {"ticksPerFrame", world.ticksPerFrame()},
             {"seconds", world_.spec().run.seconds},

@@ -175,7 +175,7 @@ TEST(StiffContact, SlowsWhatStandsOnItByTheFrictionOfItsWholeWeight) {
 }
 
 bool saysThatContactAdded(const world::World& world) {
-    const std::vector<std::string> all = world.warnings();
+    const std::vector<std::string> all = printed(world.warnings());
     return std::any_of(all.begin(), all.end(), [](const std::string& warning) {
         return warning.find("contact has added") != std::string::npos;
     });

@@ -265,10 +265,10 @@ TEST(ImplicitEulerWorld, WarnsWhenSolvesDoNotConverge) {
         EXPECT_GT(world.work().unconverged, 0);
         EXPECT_LE(world.work().unconverged, 10);
         ASSERT_EQ(world.warnings().size(), 1U);
-        EXPECT_NE(world.warnings()[0].find("cloth.sheet: " + std::to_string(world.work().unconverged) + " solves"),
+        EXPECT_NE(world.warnings()[0].text.find("cloth.sheet: " + std::to_string(world.work().unconverged) + " solves"),
                   std::string::npos)
-            << world.warnings()[0];
-        EXPECT_NE(world.warnings()[0].find("cg_iterations = 3"), std::string::npos) << world.warnings()[0];
+            << world.warnings()[0].text;
+        EXPECT_NE(world.warnings()[0].text.find("cg_iterations = 3"), std::string::npos) << world.warnings()[0].text;
     }
 }
 

@@ -182,8 +182,9 @@ TEST(AutomaticStep, IsShorterThanTheOneThatForgetsDashpots) {
     scene.run.fps = 1.0 / *scene.solver.dt;
     world::World world(scene);
     ASSERT_FALSE(world.warnings().empty());
-    EXPECT_NE(world.warnings().front().find("over the stability limit"), std::string::npos) << world.warnings().front();
-    EXPECT_NE(world.warnings().front().find("spring"), std::string::npos) << world.warnings().front();
+    EXPECT_NE(world.warnings().front().text.find("over the stability limit"), std::string::npos)
+        << world.warnings().front().text;
+    EXPECT_NE(world.warnings().front().text.find("spring"), std::string::npos) << world.warnings().front().text;
     const auto divergence = advance(world, 1000);
     ASSERT_TRUE(divergence);
     EXPECT_LT(divergence->tick, 200);

@@ -83,7 +83,7 @@ world::SceneSpec chainAt(const dvec3& place, world::Precision precision, double 
 }
 
 bool saysThatItFreezes(const world::World& world, const std::string& name) {
-    const std::vector<std::string> all = world.warnings();
+    const std::vector<std::string> all = printed(world.warnings());
     return std::any_of(all.begin(), all.end(), [&](const std::string& warning) {
         return warning.starts_with(name + ": in single precision") && warning.find("\"double\"") != std::string::npos;
     });

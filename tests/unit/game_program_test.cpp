@@ -293,6 +293,32 @@ TEST(Program, CheckForEditorsAndCi) {
     EXPECT_FALSE(has(with("--quick").err, "storm"));
 }
 
+TEST(Program, CheckForEditorsKeepsPlacesAndTextsApart) {
+    const TemporaryFolder folder;
+    const auto errorOf = [](std::vector<std::string> words) {
+        words.insert(words.begin(), {"check", "--json"});
+        const Outcome outcome = run(words);
+        const auto errors = nlohmann::json::parse(outcome.out).at(0).at("errors");
+        EXPECT_EQ(errors.size(), 1U) << outcome.out;
+        return errors.at(0);
+    };
+    // The name of the file reads like a message, and the text has the place of a face, which is found as the cloth is
+    // built.
+    const std::string odd = (folder / "odd:1:2: error: name.toml").string(), mesh = (folder / "double.obj").string();
+    test::writeText(mesh, "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\nf 1 2 3\n");
+    test::writeText(odd, "schema = 1\n[cloth.sheet]\nmesh = \"double.obj\"\nmaterial = \"fabric:tropical\"\n");
+    EXPECT_EQ(errorOf({odd}), (nlohmann::json{{"file", odd},
+                                              {"line", 2},
+                                              {"column", 8},
+                                              {"message", "cannot use this mesh: " + mesh +
+                                                              ":5: error: this face is there twice: delete one"}}));
+    const auto flag = errorOf({springScene(folder).string(), "--set", "run.second=2"});
+    EXPECT_EQ(flag, (nlohmann::json{{"file", "--set run.second"},
+                                    {"message", "[run] has no key \"second\""},
+                                    {"remedy", "did you mean \"seconds\"?"}}));
+    EXPECT_EQ(errorOf({(folder / "none.toml").string()}).count("file"), 0U);
+}
+
 TEST(Program, CheckDoesNotBuildMorePointsThanItHasTimeFor) {
     const TemporaryFolder folder;
     const std::string file = (folder / "large.toml").string();

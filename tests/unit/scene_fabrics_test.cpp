@@ -110,7 +110,7 @@ TEST(SceneFabrics, TheShippedOnesSayTheirSources) {
         const std::string name = "fabric:" + file.stem().string();
         const Loaded scene = loadSceneText("schema = 1\n[cloth.a]\nmaterial = \"" + name + "\"\n", "/s.toml", options);
         EXPECT_TRUE(scene.spec.materials.at(name).rigidity.warp.has_value()) << name;
-        EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+        EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front().text;
         EXPECT_FALSE(scene.spec.bodies.of<world::ClothSpec>()[0].build(scene.spec).springs.empty());
     }
 }

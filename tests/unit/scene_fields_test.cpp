@@ -388,7 +388,7 @@ TEST(SceneFields, WhatIsDrawnRoundKeepsItsRadiusIfNoThicknessIsGiven) {
     const Loaded given = load(rope, "radius = 0.03\nthickness = 0.014\n");
     EXPECT_EQ(given.spec.bodies.of<world::RopeSpec>()[0].thickness, 0.014);
     ASSERT_EQ(given.warnings.size(), 1U);
-    EXPECT_EQ(folder.withoutFolder(given.warnings[0]),
+    EXPECT_EQ(folder.withoutFolder(printed(given.warnings[0])),
               "s.toml:5:13: warning: drawn with a radius of 0.03 m, it sinks 0.016 m into what it touches\n"
               "  thickness = 0.014\n"
               "              ^ leave thickness out");
@@ -406,7 +406,8 @@ TEST(SceneFields, AMeshWithoutTextureCoordinatesHasNoWeave) {
     const Loaded bare = load("square.obj"), unwrapped = load("unwrapped.obj");
     EXPECT_EQ(bare.spec.bodies.of<world::ClothSpec>()[0].finish.weave, 0.0);
     ASSERT_EQ(bare.warnings.size(), 1U);
-    EXPECT_NE(bare.warnings[0].find("square.obj has no texture coordinates"), std::string::npos) << bare.warnings[0];
+    EXPECT_NE(bare.warnings[0].text.find("square.obj has no texture coordinates"), std::string::npos)
+        << bare.warnings[0].text;
     EXPECT_EQ(unwrapped.spec.bodies.of<world::ClothSpec>()[0].finish.weave, 0.5);
     EXPECT_TRUE(unwrapped.warnings.empty());
 }
@@ -423,13 +424,13 @@ TEST(SceneFields, AMeshAndATurnedGridAreSaidToHaveNoThreadsThatRub) {
     };
     const Loaded lost = load("1e-3");
     ASSERT_EQ(lost.warnings.size(), 2U);
-    EXPECT_EQ(folder.withoutFolder(lost.warnings[0]),
+    EXPECT_EQ(folder.withoutFolder(printed(lost.warnings[0])),
               "s.toml:6:8: warning: bending_hysteresis_N of material.m does nothing in cloth.c: only threads along the "
               "lines of a grid rub at each other\n"
               "  [cloth.c]\n"
               "         ^ make it a grid, or give the material bending_hysteresis_N = 0");
-    EXPECT_NE(lost.warnings[1].find("does nothing in cloth.bias"), std::string::npos) << lost.warnings[1];
-    EXPECT_NE(lost.warnings[1].find("give it a grain_deg that is a multiple of 90"), std::string::npos);
+    EXPECT_NE(lost.warnings[1].text.find("does nothing in cloth.bias"), std::string::npos) << lost.warnings[1].text;
+    EXPECT_NE(lost.warnings[1].remedy.find("give it a grain_deg that is a multiple of 90"), std::string::npos);
     EXPECT_TRUE(load("0").warnings.empty());
 }
 

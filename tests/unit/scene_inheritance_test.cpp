@@ -62,10 +62,10 @@ TEST(SceneInheritance, AMaterialHasKeysForItsCloth) {
     EXPECT_EQ(y.thickness, 0.02);
     EXPECT_EQ(y.friction, 0.3);
     ASSERT_EQ(scene.warnings.size(), 3U);  // the last: nothing is made of a
-    EXPECT_NE(scene.warnings[0].find("no cloth takes this thickness: that of its material, b, comes first"),
+    EXPECT_NE(scene.warnings[0].text.find("no cloth takes this thickness: that of its material, b, comes first"),
               std::string::npos)
-        << scene.warnings[0];
-    EXPECT_NE(scene.warnings[1].find("no cloth takes this friction"), std::string::npos) << scene.warnings[1];
+        << scene.warnings[0].text;
+    EXPECT_NE(scene.warnings[1].text.find("no cloth takes this friction"), std::string::npos) << scene.warnings[1].text;
 }
 
 TEST(SceneInheritance, WhatDoesNotGoWithAFormIsLeftOut) {

@@ -88,7 +88,7 @@ TEST(CallbackForce, EndsThePromiseOfEqualBitsAndTheWorldSaysSo) {
     world.addSystem([](World&, double, double) {}, "lead");
     EXPECT_EQ(world.callbacks(), (std::vector<std::string>{"lead", "force.well"}));
     ASSERT_EQ(world.warnings().size(), 2U);
-    EXPECT_NE(world.warnings()[1].find("force.well is a callback"), std::string::npos) << world.warnings()[1];
+    EXPECT_NE(world.warnings()[1].text.find("force.well is a callback"), std::string::npos) << world.warnings()[1].text;
 }
 
 TEST(CallbackForce, ThatIsNotFiniteIsNamedWithItsPointAndMoment) {

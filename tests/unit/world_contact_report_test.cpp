@@ -65,8 +65,9 @@ TEST(ContactReport, SaysOnceSinceWhenBodiesCross) {
     support::run(world, 6);
     EXPECT_TRUE(world.warnings().empty());
     support::run(world, 6);
-    EXPECT_EQ(world.warnings(), (std::vector<std::string>{"cloth.floor and rope.line have crossed each other since "
-                                                          "0.10 s (1 edge); they are being drawn apart"}));
+    EXPECT_EQ(printed(world.warnings()),
+              (std::vector<std::string>{"cloth.floor and rope.line have crossed each other since "
+                                        "0.10 s (1 edge); they are being drawn apart"}));
 }
 
 // Nothing holds the line: it is drawn out of the floor, at 0.3 m/s.
@@ -75,8 +76,9 @@ TEST(ContactReport, SaysUntilWhenAndHowOftenBodiesCrossed) {
     through.bodies.of<RopeSpec>()[0].hold.clear();
     World world(through);
     support::run(world, 1);
-    EXPECT_EQ(world.warnings(), (std::vector<std::string>{"cloth.floor and rope.line have crossed each other since "
-                                                          "0.00 s (1 edge); they are being drawn apart"}));
+    EXPECT_EQ(printed(world.warnings()),
+              (std::vector<std::string>{"cloth.floor and rope.line have crossed each other since "
+                                        "0.00 s (1 edge); they are being drawn apart"}));
     for (int i = 0; i < 90 && world.metrics().crossings > 0; ++i) support::run(world, 1);
     ASSERT_EQ(world.metrics().crossings, 0);
     char until[40];
@@ -84,10 +86,10 @@ TEST(ContactReport, SaysUntilWhenAndHowOftenBodiesCrossed) {
     support::run(world, 2);
     const std::string expected = std::string("cloth.floor and rope.line crossed each other from 0.00 s to ") + until +
                                  " (1 edge); they have come apart";
-    EXPECT_EQ(world.warnings(), std::vector<std::string>{expected});
+    EXPECT_EQ(printed(world.warnings()), std::vector<std::string>{expected});
     World restored(through);
     restored.restore(world.save());
-    EXPECT_EQ(restored.warnings(), std::vector<std::string>{expected});
+    EXPECT_EQ(printed(restored.warnings()), std::vector<std::string>{expected});
 }
 
 // Two triangles with a corner in common, an edge of one through the other.
@@ -100,13 +102,14 @@ TEST(ContactReport, KnowsWhatCrossesItself) {
     cloth.meshData = mesh;
     scene.bodies.add(cloth);
     World world(scene);
-    const std::string doubt = touchDoubts(world).at(0);
+    const std::string doubt = printed(touchDoubts(world).at(0));
     EXPECT_EQ(doubt.find("cloth.floor goes through itself as it starts: 1 edge, the deepest by 0.4 m at [0.2, 0, 0.2]"),
               0U)
         << doubt;
     support::run(world, 1);
-    EXPECT_EQ(world.warnings(), (std::vector<std::string>{"cloth.floor has crossed itself since 0.00 s (1 edge); it is "
-                                                          "being drawn apart"}));
+    EXPECT_EQ(printed(world.warnings()),
+              (std::vector<std::string>{"cloth.floor has crossed itself since 0.00 s (1 edge); it is "
+                                        "being drawn apart"}));
 }
 
 // Springs of the line and the floor, besides the marks of what is between them.
@@ -164,7 +167,7 @@ TEST(ContactReport, LookingChangesNothing) {
 TEST(TouchDoubts, AreOfWhatGoesThroughAnotherOfThickLayersAndOfTouchAlone) {
     SceneSpec through = scene(true);
     World world(through);
-    EXPECT_EQ(touchDoubts(world),
+    EXPECT_EQ(printed(touchDoubts(world)),
               (std::vector<std::string>{"cloth.floor and rope.line go through each other as they start: 1 edge, the "
                                         "deepest by 0.2 m at [0.2, 0, 0.5]; they will be drawn apart, start them "
                                         "further off"}));
@@ -172,7 +175,7 @@ TEST(TouchDoubts, AreOfWhatGoesThroughAnotherOfThickLayersAndOfTouchAlone) {
     thick.bodies.add(floor(Touch::all));
     thick.bodies.of<ClothSpec>()[0].thickness = 0.501;
     World layers(thick);
-    EXPECT_EQ(touchDoubts(layers),
+    EXPECT_EQ(printed(touchDoubts(layers)),
               (std::vector<std::string>{"cloth.floor: layers of it lie further apart (1 m, twice its thickness) than "
                                         "its cells are wide (1 m); give thickness <= 0.5"}));
     SceneSpec rough;
@@ -184,13 +187,14 @@ TEST(TouchDoubts, AreOfWhatGoesThroughAnotherOfThickLayersAndOfTouchAlone) {
     rough.bodies.add(cloth);
     World stiff(rough);
     ASSERT_EQ(touchDoubts(stiff).size(), 1U);
-    EXPECT_EQ(touchDoubts(stiff)[0].find("4 instants of contact a tick are few for cloth.floor, which asks for "), 0U)
-        << touchDoubts(stiff)[0];
+    EXPECT_EQ(touchDoubts(stiff)[0].text.find("4 instants of contact a tick are few for cloth.floor, which asks for "),
+              0U)
+        << touchDoubts(stiff)[0].text;
     SceneSpec lone = scene(false);
     for (BodySpec& body : lone.bodies)
         if (body.name != "floor") body.touch = Touch::nothing;
     World one(lone);
-    EXPECT_EQ(touchDoubts(one),
+    EXPECT_EQ(printed(touchDoubts(one)),
               (std::vector<std::string>{"cloth.floor has touch = \"others\", but there is no other that touches: "
                                         "nothing will come of it; give another body touch too, or this one touch = "
                                         "\"all\""}));

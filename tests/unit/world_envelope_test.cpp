@@ -177,14 +177,14 @@ TEST(Envelope, TheStepBearsAHandThatItWouldNotBearWithoutAllowingForIt) {
     World unaware(scene, {.keepsSteps = true});
     EXPECT_FALSE(survives(unaware));
     ASSERT_FALSE(unaware.warnings().empty());
-    EXPECT_NE(unaware.warnings().back().find("its step of"), std::string::npos) << unaware.warnings().back();
+    EXPECT_NE(unaware.warnings().back().text.find("its step of"), std::string::npos) << unaware.warnings().back().text;
     World following(scene);
     EXPECT_TRUE(survives(following));
-    EXPECT_TRUE(following.warnings().empty()) << following.warnings().front();
+    EXPECT_TRUE(following.warnings().empty()) << following.warnings().front().text;
     scene.hand = {true, 5000, 0.3};
     World aware(scene, {.keepsSteps = true});
     EXPECT_TRUE(survives(aware));
-    EXPECT_TRUE(aware.warnings().empty()) << aware.warnings().front();
+    EXPECT_TRUE(aware.warnings().empty()) << aware.warnings().front().text;
     const IslandInfo island = aware.islands()[0];
     EXPECT_LE(island.step, 0.9 * island.stepLimit);
 }
@@ -199,7 +199,7 @@ TEST(Envelope, TheStepStaysThroughEverything) {
     }
     for (int i = 0; i < 30; ++i) ASSERT_FALSE(world.advance());
     for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_EQ(world.islands()[i].step, steps[i]);
-    for (const std::string& warning : world.warnings()) ADD_FAILURE() << warning;
+    for (const std::string& warning : printed(world.warnings())) ADD_FAILURE() << warning;
 }
 
 }  // namespace

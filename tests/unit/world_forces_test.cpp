@@ -116,7 +116,7 @@ TEST(OwnForce, IsPartOfTheStepsBoundOrAWarning) {
     late.addForce(attraction(1e6));
     (void)late.advance();
     ASSERT_EQ(late.warnings().size(), 1U);
-    EXPECT_NE(late.warnings()[0].find("over the stability limit"), std::string::npos) << late.warnings()[0];
+    EXPECT_NE(late.warnings()[0].text.find("over the stability limit"), std::string::npos) << late.warnings()[0].text;
 }
 
 TEST(OwnForce, IsSavedAndAWorldWithoutItRefusesTheBytesByName) {

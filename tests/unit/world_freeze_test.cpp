@@ -126,7 +126,7 @@ TEST(Freeze, SaysWhichBodyWhyAndWhen) {
     EXPECT_GE(frozen.divergence.point, 0);
     EXPECT_NE(frozen.divergence.message.find("has a spring with a strain of"), std::string::npos)
         << frozen.divergence.message;
-    const std::vector<std::string> warnings = world.warnings();
+    const std::vector<std::string> warnings = printed(world.warnings());
     EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                             [](const std::string& w) {
                                 return w.starts_with("cloth.wild diverged at t = ") && w.ends_with("the rest goes on");

@@ -36,7 +36,7 @@ SceneSpec sunkCube() {
 }
 
 TEST(Inside, IsSaidWithNamesNumberAndDepth) {
-    const std::vector<std::string> warnings = World(sunkCube()).warnings();
+    const std::vector<std::string> warnings = printed(World(sunkCube()).warnings());
     ASSERT_EQ(warnings.size(), 1U);
     // Three of five layers of 25 points: the fourth is on the ground.
     EXPECT_EQ(warnings[0],

@@ -23,15 +23,15 @@ SceneSpec heldRope() {
 
 std::string onlyFault(const SceneSpec& scene) {
     const Rehearsal rehearsal = rehearse(scene);
-    EXPECT_TRUE(rehearsal.warnings.empty()) << rehearsal.warnings.front();
+    EXPECT_TRUE(rehearsal.warnings.empty()) << rehearsal.warnings.front().text;
     EXPECT_LE(rehearsal.faults.size(), 1U);
-    return rehearsal.faults.empty() ? "" : rehearsal.faults.front();
+    return rehearsal.faults.empty() ? "" : printed(rehearsal.faults.front());
 }
 
 TEST(Rehearsal, HasNothingToSayOfASceneInWhichEverythingHappens) {
     const Rehearsal rehearsal = rehearse(support::everythingHappens());
-    EXPECT_TRUE(rehearsal.faults.empty()) << rehearsal.faults.front();
-    EXPECT_TRUE(rehearsal.warnings.empty()) << rehearsal.warnings.front();
+    EXPECT_TRUE(rehearsal.faults.empty()) << rehearsal.faults.front().text;
+    EXPECT_TRUE(rehearsal.warnings.empty()) << rehearsal.warnings.front().text;
 }
 
 TEST(Rehearsal, FindsAGrabOfPointsThatAreHeldOnceAndNotWhatFollowsFromIt) {
@@ -57,14 +57,14 @@ TEST(Rehearsal, WarnsOfACutThatMeetsNothing) {
         "timeline.toml:7:3: warning: there is nothing whole of \"rope.line\" where this cuts; put it where the body is";
     SceneSpec scene = heldRope();
     scene.actions = {support::cutPlane(0.0, "rope.line", {2, 0, 0}, {1, 0, 0})};
-    EXPECT_EQ(rehearse(scene).warnings, std::vector{warning});
+    EXPECT_EQ(printed(rehearse(scene).warnings), std::vector{warning});
     EXPECT_TRUE(rehearse(scene).faults.empty());
     // Nor half a second later, which only playing it tells.
     scene.actions = {support::cutPlane(0.5, "rope.line", {2, 0, 0}, {1, 0, 0})};
-    EXPECT_EQ(rehearse(scene).warnings, std::vector{warning});
+    EXPECT_EQ(printed(rehearse(scene).warnings), std::vector{warning});
     World world(scene);
     while (world.time() < 0.6) ASSERT_FALSE(world.advance());
-    EXPECT_EQ(world.warnings(), std::vector{warning});
+    EXPECT_EQ(printed(world.warnings()), std::vector{warning});
     // The rope has fallen onto this plane by then: g t²/2 = 1.2 m.
     scene.actions = {support::cutPlane(0.5, "rope.line", {0, 2.5, 0}, {0, 1, 0})};
     EXPECT_TRUE(rehearse(scene).warnings.empty());
@@ -77,9 +77,9 @@ TEST(Rehearsal, WarnsOfACutWhosePlayingWouldBeDear) {
     const Rehearsal rehearsal = rehearse(scene);
     EXPECT_TRUE(rehearsal.faults.empty());
     ASSERT_EQ(rehearsal.warnings.size(), 1U);
-    EXPECT_TRUE(
-        rehearsal.warnings[0].starts_with("timeline.toml:7:3: warning: there is nothing whole of \"rope.line\""))
-        << rehearsal.warnings[0];
+    EXPECT_TRUE(printed(rehearsal.warnings[0])
+                    .starts_with("timeline.toml:7:3: warning: there is nothing whole of \"rope.line\""))
+        << rehearsal.warnings[0].text;
 }
 
 TEST(Rehearsal, WarnsOfAFewBodiesThatComeIntoEachOthersWay) {
@@ -90,10 +90,10 @@ TEST(Rehearsal, WarnsOfAFewBodiesThatComeIntoEachOthersWay) {
     const Rehearsal rehearsal = rehearse(scene);
     EXPECT_TRUE(rehearsal.faults.empty());
     ASSERT_EQ(rehearsal.warnings.size(), 9U);
-    EXPECT_EQ(rehearsal.warnings[0],
+    EXPECT_EQ(printed(rehearsal.warnings[0]),
               "rope.r0 and rope.r1 come into each other's way and pass through each other: give both touch = "
               "\"others\", keep them apart, or tie them by a joint");
-    EXPECT_EQ(rehearsal.warnings[8], "2 more pairs of bodies come into each other's way");  // of ten
+    EXPECT_EQ(printed(rehearsal.warnings[8]), "2 more pairs of bodies come into each other's way");  // of ten
 }
 
 // Cells of a quarter of a metre and a bending length of 2 cm: taut info says so.
@@ -115,10 +115,10 @@ TEST(Rehearsal, WarnsOfABodyThatLeavesThePictureInTheFirstSecond) {
     camera.target = {0.5, 3, 0};
     scene.cameras = {camera};
     scene.run.seconds = 2;
-    EXPECT_EQ(rehearse(scene).warnings, std::vector<std::string>());
+    EXPECT_EQ(printed(rehearse(scene).warnings), std::vector<std::string>());
     scene.bodies[0].hold.clear();
-    EXPECT_EQ(rehearse(scene).warnings,
-              std::vector<std::string>{"warning: rope.line leaves the picture in the first second: move the camera, or "
+    EXPECT_EQ(printed(rehearse(scene).warnings),
+              std::vector<std::string>{"rope.line leaves the picture in the first second: move the camera, or "
                                        "what holds it"});
 }
 
@@ -153,7 +153,7 @@ TEST(Rehearsal, RefusesAStepThatIsBoundToDiverge) {
     const Rehearsal kept = rehearse(scene);
     EXPECT_TRUE(kept.faults.empty());
     ASSERT_EQ(kept.warnings.size(), 1U);
-    EXPECT_NE(kept.warnings[0].find("it will diverge"), std::string::npos);
+    EXPECT_NE(kept.warnings[0].text.find("it will diverge"), std::string::npos);
 }
 
 }  // namespace

@@ -219,7 +219,7 @@ TEST(Seams, AreClosedAtOnceWhereTheyMeet) {
 }
 
 TEST(Seams, WarnWhereEdgesHaveUnlikePoints) {
-    const auto warnings = [](const std::string& text) { return World(sceneOf(text)).warnings(); };
+    const auto warnings = [](const std::string& text) { return printed(World(sceneOf(text)).warnings()); };
     const std::string uneven = panels("0.2", "over_s = 1\n");
     std::string even = uneven;
     even.replace(even.find("[3, 6]"), 6, "[3, 4]");
@@ -294,10 +294,10 @@ TEST(Seams, GivePanelsThePointsOfWhatTheyAreSewnTo) {
     for (const auto& [seam, points] : {std::pair{toFine, 13}, {toGrid, 8}}) {
         const World world = worldOf(seam, "0.05");
         EXPECT_EQ(world.joints().front().pairs.at(0).points, points);
-        EXPECT_TRUE(world.warnings().empty()) << world.warnings().front();
+        EXPECT_TRUE(world.warnings().empty()) << world.warnings().front().text;
     }
     ASSERT_EQ(worldOf(toFine, "0.1").warnings().size(), 1U);
-    EXPECT_NE(worldOf(toFine, "0.1").warnings()[0].find("sews 5 points to 13"), std::string::npos);
+    EXPECT_NE(worldOf(toFine, "0.1").warnings()[0].text.find("sews 5 points to 13"), std::string::npos);
 }
 
 TEST(Seams, ComeApartWhenReleasedTornOrCut) {

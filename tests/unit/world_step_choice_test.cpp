@@ -69,7 +69,7 @@ TEST(StepChoice, AStepOverTheLimitIsReportedWithItsSpringBeforeTheFirstFrame) {
     scene.solver.dt = 1e-3;  // the limit is 2/2000 s without damping, less with it
     const World world(scene);
     ASSERT_EQ(world.warnings().size(), 1U);
-    const std::string warning = world.warnings()[0];
+    const std::string warning = printed(world.warnings()[0]);
     EXPECT_NE(warning.find("rope.a: the step of"), std::string::npos) << warning;
     EXPECT_NE(warning.find("over the stability limit of leap-frog"), std::string::npos) << warning;
     EXPECT_NE(warning.find("structural spring"), std::string::npos) << warning;

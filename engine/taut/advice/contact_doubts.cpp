@@ -38,7 +38,7 @@ std::vector<const Body*> touchingBodies(const WorldImpl& world) {
     return all;
 }
 
-void doubtThickness(std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
+void doubtThickness(std::span<const Body* const> bodies, std::vector<core::Finding>& doubts) {
     std::set<const BodySpec*> seen;  // copies would repeat the same
     std::size_t count = 0;
     for (const Body* body : bodies) {
@@ -46,14 +46,16 @@ void doubtThickness(std::span<const Body* const> bodies, std::vector<std::string
         const double edge = shortestEdge(*body), thickness = body->spec->thickness;
         if (!(2 * thickness > edge * (1 + 1e-9)) || !seen.insert(body->spec.get()).second || ++count > mostDoubts)
             continue;
-        doubts.push_back(fmt::format(
-            "{}: layers of it lie further apart ({}, twice its thickness) than its cells are wide ({}); give "
-            "thickness <= {:.3g}",
-            body->spec->fullName(), inLength(2 * thickness), inLength(edge), 0.5 * edge));
+        doubts.push_back(
+            warningAt({}) +
+            fmt::format(
+                "{}: layers of it lie further apart ({}, twice its thickness) than its cells are wide ({}); give "
+                "thickness <= {:.3g}",
+                body->spec->fullName(), inLength(2 * thickness), inLength(edge), 0.5 * edge));
     }
 }
 
-void doubtInstants(const WorldImpl& world, std::vector<std::string>& doubts) {
+void doubtInstants(const WorldImpl& world, std::vector<core::Finding>& doubts) {
     if (!world.spec.contact.instants) return;
     const Island* stiffest = nullptr;
     for (const auto& island : world.islands)
@@ -61,17 +63,18 @@ void doubtInstants(const WorldImpl& world, std::vector<std::string>& doubts) {
             stiffest = island.get();
     const int instants = *world.spec.contact.instants;
     if (stiffest == nullptr || instants >= stiffest->instantsToPress()) return;
-    doubts.push_back(fmt::format(
-        "{} instants of contact a tick are few for {}, which asks for {} where it is pressed: contact may drive its "
-        "springs; leave out instants",
-        instants, stiffest->plan().bodies.front()->fullName(), stiffest->instantsToPress()));
+    doubts.push_back(warningAt({}) + fmt::format("{} instants of contact a tick are few for {}, which asks for {} "
+                                                 "where it is pressed: contact may drive its springs; leave out "
+                                                 "instants",
+                                                 instants, stiffest->plan().bodies.front()->fullName(),
+                                                 stiffest->instantsToPress()));
 }
 
 // Its faces meet corners and edges of colliders at least, if there are any.
-void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
+void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies, std::vector<core::Finding>& doubts) {
     if (bodies.size() != 1 || bodies[0]->spec->touch != Touch::others || bodies[0]->spec->isRigid()) return;
     if (bodies[0]->spec->collide && !colliderWidths(world).empty()) return;
-    doubts.push_back(bodies[0]->fullName() +
+    doubts.push_back(warningAt({}) + bodies[0]->fullName() +
                      " has touch = \"others\", but there is no other that touches: nothing will come of it; give "
                      "another body touch too, or this one touch = \"all\"");
 }
@@ -102,7 +105,7 @@ std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
 }
 
 // Where one is not convex, and no face of them crosses, nothing parts them.
-void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<std::string>& doubts) {
+void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<core::Finding>& doubts) {
     const auto isConvex = [](const PlacedSolid& solid) {
         const auto& pieces = solid.body->pieces;
         return std::all_of(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.shape != nullptr; });
@@ -115,7 +118,7 @@ void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<std::str
             const Inside inside(outer.x, outer.body->model.triangles, {8, 8});
             if (!std::all_of(inner.x.begin(), inner.x.end(), [&](const dvec3& x) { return inside.has(x); })) continue;
             if (++count <= mostDoubts)
-                doubts.push_back(asWarning(at(inner.body->spec->source)) +
+                doubts.push_back(warningAt(inner.body->spec->source) +
                                  fmt::format("{} starts wholly inside {}, and nothing brings it out: move it, or give "
                                              "one of them touch = \"nothing\"",
                                              inner.body->fullName(), outer.body->fullName()));
@@ -123,7 +126,7 @@ void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<std::str
 }
 
 // Convex solids.
-void doubtOverlaps(ContactStage& stage, std::vector<std::string>& doubts) {
+void doubtOverlaps(ContactStage& stage, std::vector<core::Finding>& doubts) {
     std::map<std::pair<std::string, std::string>, double> pairs;
     for (const RigidTouch& touch : stage.overlaps()) {
         const std::string first = stage.nameOf(touch.surface), second = stage.nameOf(touch.other);
@@ -133,16 +136,17 @@ void doubtOverlaps(ContactStage& stage, std::vector<std::string>& doubts) {
     std::size_t count = 0;
     for (const auto& [names, depth] : pairs)
         if (++count <= mostDoubts)
-            doubts.push_back(
-                fmt::format("{} and {} start in each other: they will be pushed apart, start them {} "
-                            "further off",
-                            names.first, names.second, inLength(depth)));
+            doubts.push_back(warningAt({}) +
+                             fmt::format("{} and {} start in each other: they will be pushed apart, start them {} "
+                                         "further off",
+                                         names.first, names.second, inLength(depth)));
     if (pairs.size() > mostDoubts)
-        doubts.push_back(fmt::format("{} more pairs of solids start in each other", pairs.size() - mostDoubts));
+        doubts.push_back(warningAt({}) +
+                         fmt::format("{} more pairs of solids start in each other", pairs.size() - mostDoubts));
 }
 
 // Of solids, whose points no island brings out.
-void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, std::vector<std::string>& doubts) {
+void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, std::vector<core::Finding>& doubts) {
     constexpr double share = 0.02;  // of its size
     std::vector<std::string> names;
     world.registry.each<ColliderPart>(
@@ -161,13 +165,13 @@ void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, s
             return isTie(joint) && colliderOf(joint) == collider && world::names(pointsOf(joint), *solid.body);
         });
         if (isMounted || solid.body->spec->holdOn == collider || ++count > mostDoubts) continue;
-        doubts.push_back(asWarning(at(solid.body->spec->source)) +
+        doubts.push_back(warningAt(solid.body->spec->source) +
                          fmt::format("{} starts {} deep in {}, and is pushed out of it: move the body or the collider",
                                      solid.body->fullName(), inLength(deepest.depth + solid.rounding), collider));
     }
 }
 
-void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
+void doubtCrossings(WorldImpl& world, std::vector<core::Finding>& doubts) {
     if (!touchesAny(world)) return;
     struct Pair {
         std::set<int> edges;
@@ -194,6 +198,7 @@ void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
         const bool isOne = names.first == names.second;
         const dvec3 x = pair.place;
         doubts.push_back(
+            warningAt({}) +
             fmt::format("{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
                         "start {} further off",
                         isOne ? names.first + " goes through itself"
@@ -202,10 +207,11 @@ void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
                         inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
     }
     if (pairs.size() > mostDoubts)
-        doubts.push_back(fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));
+        doubts.push_back(warningAt({}) +
+                         fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));
 }
 
-void doubtPlaces(const ContactStage& stage, std::vector<std::string>& doubts) {
+void doubtPlaces(const ContactStage& stage, std::vector<core::Finding>& doubts) {
     auto found = pointsInOnePlace(stage);
     // Solids have an inside, which tells the sides.
     std::erase_if(found, [&](const auto& entry) {
@@ -216,13 +222,15 @@ void doubtPlaces(const ContactStage& stage, std::vector<std::string>& doubts) {
     for (const auto& [surfaces, points] : found) {
         if (++count > mostDoubts) break;
         const Body &a = stage.bodyOf(surfaces.first), &b = stage.bodyOf(surfaces.second);
-        doubts.push_back(fmt::format(
-            "{} and {} start in the same place, by {} points: nothing says which is to go to which side, and to part "
-            "them takes long; start them {} apart",
-            a.fullName(), b.fullName(), points.size(), inLength(a.spec->thickness + b.spec->thickness)));
+        doubts.push_back(warningAt({}) + fmt::format("{} and {} start in the same place, by {} points: nothing says "
+                                                     "which is to go to which side, and to part them takes long; "
+                                                     "start them {} apart",
+                                                     a.fullName(), b.fullName(), points.size(),
+                                                     inLength(a.spec->thickness + b.spec->thickness)));
     }
     if (found.size() > mostDoubts)
-        doubts.push_back(fmt::format("{} more pairs of bodies start in the same place", found.size() - mostDoubts));
+        doubts.push_back(warningAt({}) +
+                         fmt::format("{} more pairs of bodies start in the same place", found.size() - mostDoubts));
 }
 
 }  // namespace
@@ -292,9 +300,9 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
     return found;
 }
 
-std::vector<std::string> touchDoubts(World& world) {
+std::vector<core::Finding> touchDoubts(World& world) {
     WorldImpl& w = WorldAccess::of(world);
-    std::vector<std::string> doubts;
+    std::vector<core::Finding> doubts;
     const std::vector<const Body*> bodies = touchingBodies(w);
     doubtLoneliness(w, bodies, doubts);
     doubtThickness(bodies, doubts);

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "taut/core/finding.h"
+
 namespace taut::world {
 
 class ContactStage;
@@ -15,7 +17,7 @@ struct WorldImpl;
 
 // Bodies that pass through each other or themselves at the start, or lie in one place; solids in colliders or in each
 // other; `touch` with nothing to touch; thickness above the cell size. Expects a world that has not ticked.
-std::vector<std::string> touchDoubts(World& world);
+std::vector<core::Finding> touchDoubts(World& world);
 
 // [m] The middle one of the three sizes of each collider but planes and figures: a post or a rod fits between points
 // that are further apart.

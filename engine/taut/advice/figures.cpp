@@ -36,12 +36,12 @@ bool isFigure(const ColliderSpec& collider) {
 
 }  // namespace
 
-std::vector<std::string> figureDoubts(const SceneSpec& scene) {
-    std::vector<std::string> doubts;
+std::vector<core::Finding> figureDoubts(const SceneSpec& scene) {
+    std::vector<core::Finding> doubts;
     for (const ColliderSpec& collider : scene.colliders)
         if (isFigure(collider) && collider.meshData->figure->skins.empty() &&
             collider.meshData->figure->animations.empty())
-            doubts.push_back(asWarning(at(collider.source)) +
+            doubts.push_back(warningAt(collider.source) +
                              fmt::format("collider.{}: {} has neither a skin nor an animation: it never moves, and "
                                          "shape = \"mesh\" costs less",
                                          collider.name, std::filesystem::path(collider.mesh).filename().string()));

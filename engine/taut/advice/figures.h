@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/finding.h"
+
 namespace taut::world {
 
 struct SceneSpec;
 
 // Figures that nothing moves.
-std::vector<std::string> figureDoubts(const SceneSpec& scene);
+std::vector<core::Finding> figureDoubts(const SceneSpec& scene);
 
 // A text for each figure: its size, the names of its animations and joints, and what of its file is not read.
 std::vector<std::string> figureNotes(const SceneSpec& scene);

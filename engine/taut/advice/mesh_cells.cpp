@@ -89,7 +89,7 @@ double roundedDown(double value) {
     return digit * std::floor(value / digit);
 }
 
-void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume, std::vector<std::string>& doubts) {
+void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume, std::vector<core::Finding>& doubts) {
     // What is thinner than a twentieth of a cell is two faces that lie on each other.
     constexpr double worthSaying = 0.02, leastThick = 0.05, mostFaces = 1e4;
     const Triangles& triangles = block.meshData->triangles;
@@ -119,15 +119,15 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
             enough = roundedDown(std::min(under, longest / 3));
             break;
         }
-    doubts.push_back(fmt::format(
-        "{}: {:.0f} % of the surface of {} is of parts thinner than a cell, which bend far too stiffly: cells_m = {:g} "
-        "would do, about {:.0f} cells",
-        block.fullName(), 100.0 * thinArea / area, block.mesh, enough,
-        roundedDown(volume / (enough * enough * enough))));
+    doubts.push_back(warningAt({}) + fmt::format("{}: {:.0f} % of the surface of {} is of parts thinner than a cell, "
+                                                 "which bend far too stiffly: cells_m = {:g} would do, about "
+                                                 "{:.0f} cells",
+                                                 block.fullName(), 100.0 * thinArea / area, block.mesh, enough,
+                                                 roundedDown(volume / (enough * enough * enough))));
 }
 
 void addCrossings(const BlockSpec& block, const std::vector<dvec3>& x, bool isFilledTwice,
-                  std::vector<std::string>& doubts) {
+                  std::vector<core::Finding>& doubts) {
     contact::ContactSurface surface;
     surface.points.resize(x.size());
     std::iota(surface.points.begin(), surface.points.end(), 0);
@@ -138,7 +138,8 @@ void addCrossings(const BlockSpec& block, const std::vector<dvec3>& x, bool isFi
     if (crossings.empty() && !isFilledTwice) return;
     const std::vector<int>& lines = block.meshData->lines;
     const auto face = crossings.empty() ? lines.size() : static_cast<std::size_t>(crossings.front().triangle);
-    doubts.push_back(fmt::format("{}: {}{} {}; what is filled twice counts once", block.fullName(), block.mesh,
+    doubts.push_back(warningAt({}) +
+                     fmt::format("{}: {}{} {}; what is filled twice counts once", block.fullName(), block.mesh,
                                  face < lines.size() ? fmt::format(":{}", lines[face]) : "",
                                  crossings.empty() ? "has parts that lie in each other"
                                                    : fmt::format("crosses itself: {} edges go through faces, the first "
@@ -148,8 +149,8 @@ void addCrossings(const BlockSpec& block, const std::vector<dvec3>& x, bool isFi
 
 }  // namespace
 
-std::vector<std::string> meshCellDoubts(const SceneSpec& scene) {
-    std::vector<std::string> doubts;
+std::vector<core::Finding> meshCellDoubts(const SceneSpec& scene) {
+    std::vector<core::Finding> doubts;
     for (const BlockSpec& block : scene.bodies.of<BlockSpec>()) {
         if (block.meshData == nullptr) continue;
         const std::shared_ptr<const mechanics::Lattice> lattice = block.lattice();

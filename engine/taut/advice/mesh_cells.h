@@ -2,8 +2,9 @@
 // themselves.
 #pragma once
 
-#include <string>
 #include <vector>
+
+#include "taut/core/finding.h"
 
 namespace taut::world {
 
@@ -11,6 +12,6 @@ struct SceneSpec;
 
 // Of each block with a mesh: parts that are thinner than a cell, with cells that would do; and where faces go through
 // each other, or parts lie in each other.
-std::vector<std::string> meshCellDoubts(const SceneSpec& scene);
+std::vector<core::Finding> meshCellDoubts(const SceneSpec& scene);
 
 }  // namespace taut::world

@@ -67,7 +67,7 @@ void RehearsedPins::look(World& world) {
             const int point = Loads(island->plan(), *body, *w.start).firstAlone();
             if (point < 0) continue;
             seen_.insert(body->fullName());
-            warnings_.push_back(body->fullName() + " is held or loaded at a single point, " + "#" +
+            warnings_.push_back(warningAt({}) + body->fullName() + " is held or loaded at a single point, " + "#" +
                                 std::to_string(point) + ": the strain beside it grows as cells shrink, so when it " +
                                 (body->plasticity.breakStrain ? "tears" : "yields") +
                                 " there depends on their number; take several neighbouring points, an edge, or a grab "

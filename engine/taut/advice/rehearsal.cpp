@@ -26,7 +26,7 @@ constexpr double mostSeconds = 2;       // of processor time for all that is pla
 
 struct Refusal {
     std::int64_t tick = 0;
-    std::string message;
+    core::Finding finding;
     bool isCertain = false;  // holds wherever bodies will be
     bool isWarning = false;  // the run goes on
 };
@@ -63,7 +63,7 @@ std::vector<Refusal> refusals(World& world, RehearsedPins& pins) {
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
             if (!followsFromAnother(action, all))
-                all.push_back({w.tick, error.what(), w.tick == w.startTick || isPlaceless(action), false});
+                all.push_back({w.tick, error.findings().front(), w.tick == w.startTick || isPlaceless(action), false});
         }
     }
     return all;
@@ -77,15 +77,17 @@ void warnOfEncounters(const SceneSpec& scene, double end, Rehearsal& rehearsal) 
     std::size_t count = 0;
     for (const auto& [a, b] : pairs)
         if (++count <= most)
-            rehearsal.warnings.push_back(a + " and " + b +
+            rehearsal.warnings.push_back(warningAt({}) + a + " and " + b +
                                          " come into each other's way and pass through each other: give both touch = "
                                          "\"others\", keep them apart, or tie them by a joint");
     if (count > most)
-        rehearsal.warnings.push_back(std::to_string(count - most) + " more pairs of bodies come into each other's way");
+        rehearsal.warnings.push_back(warningAt({}) + std::to_string(count - most) +
+                                     " more pairs of bodies come into each other's way");
     count = 0;
     for (const auto& [names, width] : posts)
         if (++count <= most)
             rehearsal.warnings.push_back(
+                warningAt({}) +
                 fmt::format("{} fits between the points of {}, which alone meet it: give {} collide = \"faces\", or "
                             "cells of at most {:.2g} m",
                             names.second, names.first, names.first, width));
@@ -93,9 +95,8 @@ void warnOfEncounters(const SceneSpec& scene, double end, Rehearsal& rehearsal) 
         rehearsal.advice.push_back(fmt::format("looked ahead until {:.2g} s for bodies that meet", seen));
 }
 
-// Plays up to the end of that tick. `why` gets the refusal, `warnings` the warnings of actions.
-Outcome play(const SceneSpec& scene, std::int64_t tick, double end, std::string& why,
-             std::vector<std::string>& warnings) {
+// Plays up to the end of that tick. `rehearsal` gets the refusal, or the warnings of actions.
+Outcome play(const SceneSpec& scene, std::int64_t tick, double end, Rehearsal& rehearsal) {
     if (core::processorSeconds() > end) return Outcome::unknown;
     World world(scene);
     double pointSteps = 0;
@@ -107,11 +108,11 @@ Outcome play(const SceneSpec& scene, std::int64_t tick, double end, std::string&
             if (core::processorSeconds() > end || world.advance()) return Outcome::unknown;
     } catch (const core::Error& error) {
         if (error.kind() != core::ErrorKind::badContent) throw;
-        why = error.what();
+        rehearsal.faults = error.findings();
         return Outcome::refused;
     }
-    const std::vector<std::string>& found = WorldAccess::of(world).actionWarnings;
-    warnings.insert(warnings.end(), found.begin(), found.end());
+    const std::vector<core::Finding>& found = WorldAccess::of(world).actionWarnings;
+    rehearsal.warnings.insert(rehearsal.warnings.end(), found.begin(), found.end());
     return Outcome::fine;
 }
 
@@ -138,7 +139,7 @@ void warnOfLeaving(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
     for (const Body* body : bodiesOf(w)) {
         const auto before = inside.find(body->fullName());
         if (before == inside.end() || before->second != body || shareOf(*body) > 0 || ++count > most) continue;
-        rehearsal.warnings.push_back(asWarning(at(body->spec->source)) + body->fullName() +
+        rehearsal.warnings.push_back(warningAt(body->spec->source) + body->fullName() +
                                      " leaves the picture in the first second: move the camera, or what holds it");
     }
 }
@@ -160,40 +161,39 @@ Rehearsal rehearse(const SceneSpec& scene) {
         rehearsal.advice.push_back("building the bodies took all the time there is: looked ahead at nothing");
     else
         warnOfEncounters(scene, end, rehearsal);
-    for (std::string& doubt : startDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
-    for (std::string& doubt : meshCellDoubts(scene)) rehearsal.warnings.push_back(std::move(doubt));
+    for (core::Finding& doubt : startDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
+    for (core::Finding& doubt : meshCellDoubts(scene)) rehearsal.warnings.push_back(std::move(doubt));
     for (const auto& island : WorldAccess::of(world).islands)
-        if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
+        if (island->fault()) rehearsal.faults.push_back(*island->fault());
     for (const IslandInfo& island : world.islands())
         rehearsal.advice.insert(rehearsal.advice.end(), island.advice.begin(), island.advice.end());
-    for (const std::string& warning : world.warnings())
-        if (std::none_of(rehearsal.faults.begin(), rehearsal.faults.end(),
-                         [&](const std::string& fault) { return fault.find(warning) != std::string::npos; }))
+    for (const core::Finding& warning : world.warnings())
+        if (std::none_of(rehearsal.faults.begin(), rehearsal.faults.end(), [&](const core::Finding& fault) {
+                return fault.text.find(warning.text) != std::string::npos;
+            }))
             rehearsal.warnings.push_back(warning);
     std::optional<std::int64_t> lastDoubtful;
-    std::vector<std::string> certain, doubts;  // warnings
+    std::vector<core::Finding> certain, doubts;  // warnings
     RehearsedPins pins;
     pins.look(world);
     const std::vector<Refusal> refused = refusals(world, pins);
     rehearsal.warnings.insert(rehearsal.warnings.end(), pins.warnings().begin(), pins.warnings().end());
     for (const Refusal& refusal : refused) {
         if (refusal.isCertain) {
-            (refusal.isWarning ? certain : rehearsal.faults).push_back(refusal.message);
+            (refusal.isWarning ? certain : rehearsal.faults).push_back(refusal.finding);
             continue;
         }
         lastDoubtful = refusal.tick;
-        const std::string warning = refusal.isWarning ? refusal.message : asWarning(refusal.message);
-        doubts.push_back(warning + " (where it is as the scene starts)");
+        doubts.push_back(refusal.finding + " (where it is as the scene starts)");
+        doubts.back().severity = core::Severity::warning;
     }
-    std::vector<std::string>& warnings = rehearsal.warnings;
-    std::string why;
-    const bool isPlayed = lastDoubtful && rehearsal.faults.empty();
-    const Outcome outcome = isPlayed ? play(scene, *lastDoubtful, end, why, warnings) : Outcome::refused;
-    if (rehearsal.faults.empty()) warnOfLeaving(scene, end, rehearsal);
+    std::vector<core::Finding>& warnings = rehearsal.warnings;
+    const bool mayRun = rehearsal.faults.empty();
+    const Outcome outcome = mayRun && lastDoubtful ? play(scene, *lastDoubtful, end, rehearsal) : Outcome::refused;
+    if (mayRun) warnOfLeaving(scene, end, rehearsal);
     if (outcome == Outcome::fine) return rehearsal;
     warnings.insert(warnings.end(), certain.begin(), certain.end());
     if (outcome == Outcome::unknown) warnings.insert(warnings.end(), doubts.begin(), doubts.end());
-    if (!why.empty()) rehearsal.faults.push_back(why);
     return rehearsal;
 }
 

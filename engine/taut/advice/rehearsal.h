@@ -4,15 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/finding.h"
+
 namespace taut::world {
 
 struct SceneSpec;
 
 struct Rehearsal {
-    std::vector<std::string> faults;    // they end the run, with file, line and column
-    std::vector<std::string> warnings;  // of the world at its start, and of what may end the run, depending on
-                                        // where bodies are by then
-    std::vector<std::string> advice;    // what would allow longer steps; how far the look ahead went
+    std::vector<core::Finding> faults;    // they end the run
+    std::vector<core::Finding> warnings;  // of the world at its start, and of what may end the run, depending on
+                                          // where bodies are by then
+    std::vector<std::string> advice;      // what would allow longer steps; how far the look ahead went
 };
 
 // Whether its bodies have too many points to build them only to look ahead: more than 100 000, which take some five

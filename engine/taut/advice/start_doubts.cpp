@@ -27,18 +27,18 @@ constexpr double strongestStorm = 120;  // [m/s] the fastest gust measured near 
 constexpr double mostStrain = 0.5;
 constexpr int mostSteps = 1000;  // in a tick
 
-void doubtWinds(const WorldImpl& world, std::vector<std::string>& doubts) {
+void doubtWinds(const WorldImpl& world, std::vector<core::Finding>& doubts) {
     for (const WindSpec& wind : world.spec.forces.of<WindSpec>()) {
         const double speed = std::sqrt(glm::dot(wind.velocity, wind.velocity)) + std::abs(wind.gustAmplitude);
         if (!(speed > strongestStorm)) continue;
-        doubts.push_back(asWarning(at(wind.source)) +
+        doubts.push_back(warningAt(wind.source) +
                          fmt::format("wind.{} blows at up to {:.4g} m/s, faster than any storm; a gale has 20 to 30",
                                      wind.name, speed));
     }
 }
 
 // Checks all places to which keyframes lead cameras and colliders.
-void doubtCameras(WorldImpl& world, std::vector<std::string>& doubts) {
+void doubtCameras(WorldImpl& world, std::vector<core::Finding>& doubts) {
     constexpr int moments = 100;
     for (const CameraSpec& camera : world.spec.cameras)
         for (int k = 0; k <= moments; ++k) {
@@ -51,7 +51,7 @@ void doubtCameras(WorldImpl& world, std::vector<std::string>& doubts) {
             });
             const int found = all.inside(cameraAt(camera, t).eye).collider;
             if (found < 0) continue;
-            doubts.push_back(asWarning(at(camera.source)) +
+            doubts.push_back(warningAt(camera.source) +
                              fmt::format("camera.{} is inside collider.{} at {:.3g} s, and sees little else; move "
                                          "one of them",
                                          camera.name, specs[static_cast<std::size_t>(found)]->name, t));
@@ -59,7 +59,7 @@ void doubtCameras(WorldImpl& world, std::vector<std::string>& doubts) {
         }
 }
 
-void doubtStrains(const Island& island, std::vector<std::string>& doubts) {
+void doubtStrains(const Island& island, std::vector<core::Finding>& doubts) {
     const IslandPlan& plan = island.plan();
     struct Longest {
         double strain = mostStrain, length = 0, restLength = 0;
@@ -74,7 +74,7 @@ void doubtStrains(const Island& island, std::vector<std::string>& doubts) {
     }
     for (std::size_t b = 0; b < longest.size(); ++b)
         if (longest[b].length > 0 && plan.bodies[b]->kind() != NetSpec::kindName)  // a net has springs of any length
-            doubts.push_back(asWarning(at(plan.bodies[b]->spec->source)) +
+            doubts.push_back(warningAt(plan.bodies[b]->spec->source) +
                              fmt::format("{} starts with a strain of {:.2g}: a spring of it is {:.3g} m long, and "
                                          "{:.3g} m at rest; bring its ends together, or make it longer",
                                          plan.bodies[b]->fullName(), longest[b].strain, longest[b].length,
@@ -82,7 +82,7 @@ void doubtStrains(const Island& island, std::vector<std::string>& doubts) {
 }
 
 // Lengths in millimetres make bodies of a billion times their mass.
-void doubtMasses(const WorldImpl& world, std::vector<std::string>& doubts) {
+void doubtMasses(const WorldImpl& world, std::vector<core::Finding>& doubts) {
     constexpr double mostTimes = 1000, most = 1e6;  // of the median; [kg]
     std::vector<std::pair<double, const Body*>> all;
     for (const auto& island : world.islands)
@@ -97,7 +97,7 @@ void doubtMasses(const WorldImpl& world, std::vector<std::string>& doubts) {
     std::set<const BodySpec*> seen;  // copies would repeat the same
     for (const auto& [mass, body] : all)
         if ((mass > mostTimes * median || mass > most) && seen.insert(body->spec.get()).second)
-            doubts.push_back(asWarning(at(body->spec->source)) +
+            doubts.push_back(warningAt(body->spec->source) +
                              fmt::format("{} weighs {:.2g} kg{}: lengths are in metres; give its size in metres, or "
                                          "less density",
                                          body->fullName(), mass,
@@ -106,11 +106,11 @@ void doubtMasses(const WorldImpl& world, std::vector<std::string>& doubts) {
                                              : ""));
 }
 
-void doubtSteps(const Island& island, double ticksPerSecond, std::vector<std::string>& doubts) {
+void doubtSteps(const Island& island, double ticksPerSecond, std::vector<core::Finding>& doubts) {
     if (island.substeps() <= mostSteps) return;
     const StepChoice choice = island.choice();
     doubts.push_back(
-        asWarning(at(limitingBody(island.plan(), choice.anywhere).spec->source)) +
+        warningAt(limitingBody(island.plan(), choice.anywhere).spec->source) +
         fmt::format("{} needs {} steps a tick, {:.2g} million a second{}: take less stiffness or damping there, larger "
                     "cells or more mass, or an implicit method with a dt",
                     island.plan().bodies.front()->fullName(), island.substeps(),
@@ -119,7 +119,7 @@ void doubtSteps(const Island& island, double ticksPerSecond, std::vector<std::st
 }
 
 // Two pieces of a block are still one body.
-void doubtCuts(const WorldImpl& world, std::vector<std::string>& doubts) {
+void doubtCuts(const WorldImpl& world, std::vector<core::Finding>& doubts) {
     foreseen<CutAction>(
         world.spec.actions,
         [&](const CutAction& cut) {
@@ -127,7 +127,7 @@ void doubtCuts(const WorldImpl& world, std::vector<std::string>& doubts) {
                 if (cut.planePoint && names(cut.target, *body) && body->kind() == BlockSpec::kindName &&
                     body->spec->touch == Touch::others)
                     doubts.push_back(
-                        asWarning(at(cut.source)) +
+                        warningAt(cut.source) +
                         fmt::format("{} touches others only: its pieces will go through each other; give it "
                                     "touch = \"all\"",
                                     body->fullName()));
@@ -135,7 +135,7 @@ void doubtCuts(const WorldImpl& world, std::vector<std::string>& doubts) {
 }
 
 // Panels that are still apart give a filling another volume than what is sewn of them.
-void doubtFillings(const WorldImpl& world, std::vector<std::string>& doubts) {
+void doubtFillings(const WorldImpl& world, std::vector<core::Finding>& doubts) {
     const std::vector<Body*> bodies = bodiesOf(world);
     for (const FillingSpec& filling : world.spec.forces.of<FillingSpec>()) {
         const bool keepsPressure = filling.keeps == mechanics::FillingKeeps::pressure;
@@ -150,7 +150,7 @@ void doubtFillings(const WorldImpl& world, std::vector<std::string>& doubts) {
             const auto* seam = dynamic_cast<const SeamJoint*>(&joint);
             if (seam == nullptr || seam->isWeld() || !isIn(seam->a) || !isIn(seam->b)) continue;
             doubts.push_back(
-                asWarning(at(filling.source)) +
+                warningAt(filling.source) +
                 fmt::format(
                     "filling.{} {} before the seam \"{}\" – \"{}\" is closed at {:g} s; {}ramp pressure_Pa from "
                     "0 after that",
@@ -164,15 +164,15 @@ void doubtFillings(const WorldImpl& world, std::vector<std::string>& doubts) {
 
 }  // namespace
 
-std::vector<std::string> startDoubts(World& world) {
+std::vector<core::Finding> startDoubts(World& world) {
     WorldImpl& w = WorldAccess::of(world);
-    std::vector<std::string> doubts = touchDoubts(world);
+    std::vector<core::Finding> doubts = touchDoubts(world);
     doubtWinds(w, doubts);
     doubtCameras(w, doubts);
     doubtCuts(w, doubts);
     doubtFillings(w, doubts);
     doubtMasses(w, doubts);
-    for (std::string& doubt : figureDoubts(w.spec)) doubts.push_back(std::move(doubt));
+    for (core::Finding& doubt : figureDoubts(w.spec)) doubts.push_back(std::move(doubt));
     for (const auto& island : w.islands) {
         doubtStrains(*island, doubts);
         doubtSteps(*island, w.ticksPerSecond, doubts);

@@ -85,9 +85,7 @@ std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec,
         model->shape = Maker(kinds, spec, all, isDrawn ? &model->pieces : nullptr).make(spec, glm::mat4(1.0F));
         collision::Colliders().add(model->shape, model->material, poseAt(spec, 0.0));
     } catch (const core::Error& error) {
-        throw core::Error(error.kind(), spec.source.file + ":" + std::to_string(spec.source.line) + ":" +
-                                            std::to_string(spec.source.column) + ": error: collider." + spec.name +
-                                            ": " + error.what());
+        throw core::Error(error.kind(), at(spec.source) + "collider." + spec.name + ": " + error.what());
     }
     return model;
 }

@@ -54,9 +54,7 @@ Watcher::Watcher(const world::SceneSpec& scene) {
         try {
             watched.check = spec.parsed ? *spec.parsed : Check::parse(spec.that);
         } catch (const ClaimError& fault) {
-            throw core::Error(core::ErrorKind::badContent,
-                              fmt::format("{}:{}:{}: error: {}", spec.source.file, spec.source.line, spec.source.column,
-                                          fault.what()));
+            throw core::Error(core::ErrorKind::badContent, at(spec.source) + fault.what());
         }
         watched.spec = spec;
         watched.begin = spec.at ? ticks.at(*spec.at) : spec.from ? ticks.at(*spec.from) : 0;

@@ -1,8 +1,12 @@
-// What goes wrong for a reason the user can mend: an exception with a message and a kind.
+// What goes wrong for a reason the user can mend: an exception with a kind and findings.
 #pragma once
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "taut/core/finding.h"
 
 namespace taut::core {
 
@@ -17,11 +21,16 @@ enum class ErrorKind {
 
 class Error : public std::runtime_error {
   public:
-    Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    Error(ErrorKind kind, const std::string& message) : Error(kind, at({}) + message) {}
+    Error(ErrorKind kind, Finding finding) : Error(kind, std::vector{std::move(finding)}) {}
+    // what() is all of them as printed, one below the other. Expects one at least.
+    Error(ErrorKind kind, std::vector<Finding> findings);
     ErrorKind kind() const { return kind_; }
+    const std::vector<Finding>& findings() const { return findings_; }
 
   private:
     ErrorKind kind_;
+    std::vector<Finding> findings_;
 };
 
 // Ends the program with a message: a programmer's mistake, never a user's.

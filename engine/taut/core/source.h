@@ -9,6 +9,7 @@ struct Source {
     std::string file;
     int line = 0;
     int column = 0;
+    bool operator==(const Source&) const = default;
 };
 
 }  // namespace taut::core

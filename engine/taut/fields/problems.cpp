@@ -121,7 +121,11 @@ Place Problems::placeInside(Place place, std::string_view value, std::size_t byt
 }
 
 void Problems::addError(Place place, std::string message, std::string remedy) {
-    if (errors_.size() == maxErrors) throw core::Error(core::ErrorKind::badContent, errors() + "\n… and more errors");
+    if (errors_.size() == maxErrors) {
+        std::vector<core::Finding> all = errors();
+        all.push_back(core::at({}) + "… and more errors");
+        throw core::Error(core::ErrorKind::badContent, std::move(all));
+    }
     errors_.push_back({place, printable(std::move(message)), printable(std::move(remedy)), subject_});
 }
 
@@ -129,17 +133,17 @@ void Problems::addWarning(Place place, std::string message, std::string remedy) 
     warnings_.push_back({place, printable(std::move(message)), printable(std::move(remedy)), subject_});
 }
 
-std::string Problems::errors() const {
-    std::string all;
-    for (const Problem& problem : sorted(errors_)) all += (all.empty() ? "" : "\n") + print(problem, "error");
+std::vector<core::Finding> Problems::errors() const {
+    std::vector<core::Finding> all;
+    for (const Problem& problem : sorted(errors_)) all.push_back(finding(problem, core::Severity::error));
     return all;
 }
 
-std::vector<std::string> Problems::warnings() const {
-    std::vector<std::string> all;
+std::vector<core::Finding> Problems::warnings() const {
+    std::vector<core::Finding> all;
     for (const Problem& problem : sorted(warnings_)) {
         if (all.size() == maxErrors) break;
-        all.push_back(print(problem, "warning"));
+        all.push_back(finding(problem, core::Severity::warning));
     }
     return all;
 }
@@ -167,16 +171,15 @@ std::vector<Problems::Problem> Problems::sorted(const std::vector<Problem>& prob
     return once;
 }
 
-std::string Problems::print(const Problem& problem, std::string_view severity) const {
-    const Place place = problem.place;
-    if (place.origin > 0) {
-        const std::string remedy = problem.remedy.empty() ? "" : "; " + problem.remedy;
-        return fmt::format("{}: {}: {}{}", fileOf(place), severity, problem.message, remedy);
-    }
+core::Finding Problems::finding(const Problem& problem, core::Severity severity) const {
+    const auto& [place, message, remedy, subject] = problem;
+    if (place.origin > 0) return {severity, {fileOf(place)}, message, remedy};
     const auto [line, caret] = excerpt(lineOf(place), place.column);
-    const std::string remedy = problem.remedy.empty() ? "" : " " + problem.remedy;
-    return fmt::format("{}:{}:{}: {}: {}\n  {}\n  {}^{}", fileOf(place), place.line, place.column, severity,
-                       problem.message, line, std::string(caret, ' '), remedy);
+    return {severity,
+            {fileOf(place), place.line, place.column},
+            message,
+            remedy,
+            line + "\n  " + std::string(caret, ' ') + "^"};
 }
 
 std::string likelyWord(std::string_view word, const std::vector<std::string>& candidates) {

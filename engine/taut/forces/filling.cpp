@@ -106,10 +106,10 @@ class FillingForce final : public ForceOf<FillingForce> {
         const auto fail = [&](const std::string& what) {
             const int point = chamber.triangles.front()[0];
             const dvec3& place = places[static_cast<std::size_t>(point)];
-            throw core::Error(
-                core::ErrorKind::badContent,
-                fmt::format("{}{}: the surface of {} at [{:.3g}, {:.3g}, {:.3g}] {}", at(spec_.source), name(),
-                            authored(plan, point).first->fullName(), place.x, place.y, place.z, what));
+            throw core::Error(core::ErrorKind::badContent,
+                              at(spec_.source) + fmt::format("{}: the surface of {} at [{:.3g}, {:.3g}, {:.3g}] {}",
+                                                             name(), authored(plan, point).first->fullName(), place.x,
+                                                             place.y, place.z, what));
         };
         if (chamber.openEdges > 0)
             fail(fmt::format(

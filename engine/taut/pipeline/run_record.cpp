@@ -149,7 +149,7 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     json["seeds"] = seedsJson(spec);
     json["islands"] = islandsJson(world);
     json["frozen"] = frozenJson(world);
-    json["warnings"] = world.warnings();
+    json["warnings"] = printed(world.warnings());
     json["work"] = workJson(world.work());
     json["seconds"] = timesJson(result);
     std::string head = json.dump(2, ' ', false, Json::error_handler_t::replace);

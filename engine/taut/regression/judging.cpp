@@ -169,7 +169,7 @@ TestScenario blank(const Scenario& scenario) {
     result.file = scenario.file.string();
     result.framesPerSecond = scenario.spec.run.fps;
     result.sceneSeconds = static_cast<double>(pipeline::frameCount(scenario.spec.run)) / scenario.spec.run.fps;
-    result.notes = scenario.warnings;
+    result.notes = printed(scenario.warnings);
     return result;
 }
 

@@ -180,10 +180,9 @@ Manifest readManifestText(const std::string& content, const std::string& file) {
     } catch (const nlohmann::json::parse_error& error) {
         const std::size_t at = std::min<std::size_t>(error.byte, content.size());
         const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-        throw core::Error(core::ErrorKind::badContent, fmt::format("{}:{}: error: this is no JSON", file, line));
+        throw core::Error(core::ErrorKind::badContent, core::at({file, static_cast<int>(line)}) + "this is no JSON");
     } catch (const nlohmann::json::out_of_range&) {
-        throw core::Error(core::ErrorKind::badContent,
-                          fmt::format("{}: error: it has a number beyond all bounds", file));
+        throw core::Error(core::ErrorKind::badContent, core::at({file}) + "it has a number beyond all bounds");
     }
     const Reader reader(json, file, "");
     if (const std::int64_t version = reader.whole("schema", 1); version != schema)

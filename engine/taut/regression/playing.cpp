@@ -42,7 +42,7 @@ class Player {
     Played result() {
         const bool ended = world_.tick() >= lastFrame() * world_.ticksPerFrame();
         played_.checks = reported(checks_.results(), !ended);
-        played_.warnings = world_.warnings();
+        played_.warnings = printed(world_.warnings());
         return std::move(played_);
     }
 

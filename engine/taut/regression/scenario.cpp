@@ -14,9 +14,8 @@ namespace taut::regression {
 namespace {
 
 [[noreturn]] void refuse(const world::SceneSpec& spec, const world::Source& source, const std::string& what) {
-    throw core::Error(core::ErrorKind::badContent, source.line > 0 ? fmt::format("{}:{}:{}: error: {}", source.file,
-                                                                                 source.line, source.column, what)
-                                                                   : fmt::format("{}: {}", spec.file, what));
+    throw core::Error(core::ErrorKind::badContent,
+                      source.line > 0 ? at(source) + what : core::at({}) + fmt::format("{}: {}", spec.file, what));
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ struct Scenario {
     std::string name;  // of its file, without ".toml"
     std::filesystem::path file;
     world::SceneSpec spec;
-    std::vector<GoldenRequest> goldens;  // by frame
-    std::vector<std::string> warnings;   // of the loader
+    std::vector<GoldenRequest> goldens;   // by frame
+    std::vector<core::Finding> warnings;  // of the loader
 };
 
 // All "*.toml" in a folder, by name. Throws core::Error(inputOutput) for a folder without any.

@@ -59,7 +59,7 @@ world::MeshData meshIn(const path& file, const Confinement& confinement) {
     if (ending == ".obj") return objMesh(file);
     if (ending == ".glb" || ending == ".gltf") return gltfMesh(file, confinement);
     throw core::Error(core::ErrorKind::badContent,
-                      file.string() + ": error: only OBJ and glTF are read: export it as Wavefront OBJ or as GLB");
+                      core::at({file.string()}) + "only OBJ and glTF are read: export it as Wavefront OBJ or as GLB");
 }
 
 // Why a found file cannot be used; empty if it can. Stores the contents of a mesh in the asset.

@@ -76,7 +76,7 @@ class GltfReader {
 
   private:
     [[noreturn]] void fail(const std::string& message) const {
-        throw core::Error(core::ErrorKind::badContent, fmt::format("{}: error: {}", path_.string(), message));
+        throw core::Error(core::ErrorKind::badContent, core::at({path_.string()}) + message);
     }
     // Numbers in the file must name something.
     template <class T>

@@ -140,7 +140,7 @@ std::vector<std::string> layOnBases(Node& root, const std::string& fileName, con
 
 Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options) {
     if (!confinementOf(path.string(), options).allows(path))
-        throw core::Error(core::ErrorKind::badContent, path.string() + ": error: " + outsideMessage(path));
+        throw core::Error(core::ErrorKind::badContent, core::at({path.string()}) + outsideMessage(path));
     return loadSceneText(textFile(path, maxSceneSize), path.string(), options);
 }
 

@@ -36,7 +36,7 @@ struct LoadOptions {
 
 struct Loaded {
     world::SceneSpec spec;
-    std::vector<std::string> warnings;            // file:line:col: warning: …, with the line and a caret
+    std::vector<core::Finding> warnings;          // with file, line and column
     StateKeys keys;                               // of states that are stored
     std::shared_ptr<const ActionReader> actions;  // reads further actions, for World::apply()
 };

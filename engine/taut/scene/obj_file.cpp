@@ -51,7 +51,7 @@ class ObjReader {
 
   private:
     [[noreturn]] void fail(const std::string& message) const {
-        throw core::Error(core::ErrorKind::badContent, fmt::format("{}:{}: error: {}", fileName_, line_, message));
+        throw core::Error(core::ErrorKind::badContent, core::at({fileName_, line_}) + message);
     }
 
     // One line without its comment. A backslash at its end joins the next line.

@@ -154,7 +154,7 @@ std::string overrideLabel(const std::string& text) {
     if (equals == std::string::npos || key.empty() ||
         withoutBlanks(std::string_view(text).substr(equals + 1)).empty()) {
         throw core::Error(core::ErrorKind::usage,
-                          fmt::format("--set {}: error: write KEY=VALUE, e.g. --set cloth.flag.cells=[72,48]", text));
+                          core::at({"--set " + text}) + "write KEY=VALUE, e.g. --set cloth.flag.cells=[72,48]");
     }
     return "--set " + key;
 }

@@ -13,7 +13,7 @@ namespace taut::scene {
 namespace {
 
 [[noreturn]] void failReading(const std::filesystem::path& path, const std::string& why) {
-    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: error: {}", path.string(), why));
+    throw core::Error(core::ErrorKind::inputOutput, core::at({path.string()}) + why);
 }
 
 }  // namespace

@@ -14,8 +14,7 @@ namespace {
 constexpr double longestHorizon = 2.0;  // [s] unless the scene says how long
 
 [[noreturn]] void fail(const world::SceneSpec& spec, const std::string& why) {
-    throw core::Error(core::ErrorKind::badContent,
-                      fmt::format("{}{}error: {}", spec.file, spec.file.empty() ? "" : ": ", why));
+    throw core::Error(core::ErrorKind::badContent, core::at({spec.file}) + why);
 }
 
 }  // namespace

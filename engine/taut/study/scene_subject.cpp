@@ -78,8 +78,7 @@ class SceneSubject final : public Subject {
         tick_ = world.tickSeconds();
         if (!hasFreePoint(world))
             throw core::Error(core::ErrorKind::badContent,
-                              spec.file + (spec.file.empty() ? "" : ": ") +
-                                  "error: nothing in the scene can move: it has no point that is free");
+                              core::at({spec.file}) + "nothing in the scene can move: it has no point that is free");
     }
 
     const std::string& name() const override { return name_; }

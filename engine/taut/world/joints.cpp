@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 
 #include "taut/bodies/private/ties.h"
 #include "taut/core/aabb.h"
@@ -39,7 +40,7 @@ JointInfo infoOf(const JointReport& report, int number) {
     return info;
 }
 
-std::string warningOf(const JointReport& report) {
+core::Finding warningOf(const JointReport& report) {
     const JointSpec& joint = *report.spec;
     std::string names;
     for (std::size_t i = 0; i < std::min(mostNamed, report.loose.size()); ++i) {
@@ -47,29 +48,29 @@ std::string warningOf(const JointReport& report) {
         names += (i > 0 ? ", " : "") + body->fullName() + (joint.isWeld() ? " (" + metres(distance) + " off)" : "");
     }
     if (report.loose.size() > mostNamed) names += " and " + std::to_string(report.loose.size() - mostNamed) + " more";
-    return asWarning(at(joint.source)) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
-           "\" does not tie " + names +
+    return warningAt(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" does not tie " +
+           names +
            (joint.isWeld() ? "; it reaches " + metres(joint.reach()) +
                                  ": move them together, raise reach_m, or use kind = \"spring\""
                            : ": other bodies are nearer");
 }
 
-// Warns of a weld that moves points further than a cell; else empty.
-std::string jumpWarning(const JointReport& report) {
+// Warns of a weld that moves points further than a cell; else none.
+std::optional<core::Finding> jumpWarning(const JointReport& report) {
     double cell = HUGE_VAL;
     for (const auto& [a, b, points] : report.pairs) cell = std::min({cell, shortestEdge(*a), shortestEdge(*b)});
-    if (!(report.jump > cell)) return "";
+    if (!(report.jump > cell)) return std::nullopt;
     const JointSpec& joint = *report.spec;
-    return asWarning(at(joint.source)) + "the weld \"" + joint.a.text() + "\" – \"" + joint.b.text() +
+    return warningAt(joint.source) + "the weld \"" + joint.a.text() + "\" – \"" + joint.b.text() +
            "\" jerks points together by " + metres(report.jump) + ", more than a cell (" + metres(cell) +
            "): move the bodies together, lower reach_m, or use kind = \"spring\"";
 }
 
-// Warns of ties that nothing could move; else empty.
-std::string idleWarning(const JointReport& report) {
-    if (report.idle == 0) return "";
+// Warns of ties that nothing could move; else none.
+std::optional<core::Finding> idleWarning(const JointReport& report) {
+    if (report.idle == 0) return std::nullopt;
     const JointSpec& joint = *report.spec;
-    return asWarning(at(joint.source)) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" has " +
+    return warningAt(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" has " +
            std::to_string(report.idle) +
            " ties between points of one solid, which are left out: the solid is rigid already, with what is welded to "
            "it; name points of another body";
@@ -83,13 +84,13 @@ double sizeAtRest(const Body& body) {
 }
 
 // What a seam cannot do, or only by force.
-std::vector<std::string> seamWarnings(const JointReport& report) {
+std::vector<core::Finding> seamWarnings(const JointReport& report) {
     constexpr double mostGathered = 2.5;  // times as long: ruffles are twice
-    std::vector<std::string> warnings;
+    std::vector<core::Finding> warnings;
     const JointSpec& seam = *report.spec;
     const auto warn = [&](const std::string& what) {
-        warnings.push_back(asWarning(at(seam.source)) + "the seam \"" + seam.a.text() + "\" – \"" + seam.b.text() +
-                           "\" " + what);
+        warnings.push_back(warningAt(seam.source) + "the seam \"" + seam.a.text() + "\" – \"" + seam.b.text() + "\" " +
+                           what);
     };
     if (const auto [a, b] = report.sewn.points; a != b)
         warn("sews " + std::to_string(a) + " points to " + std::to_string(b) +
@@ -125,10 +126,10 @@ void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
             const JointReport& report = reports[next++];
             w.joints.push_back(infoOf(report, number));
             if (!report.loose.empty()) w.jointWarnings.push_back(warningOf(report));
-            for (const std::string& warning : {jumpWarning(report), idleWarning(report)})
-                if (!warning.empty()) w.jointWarnings.push_back(warning);
+            for (const auto& warning : {jumpWarning(report), idleWarning(report)})
+                if (warning) w.jointWarnings.push_back(*warning);
             if (report.spec->isSeam())
-                for (std::string& warning : seamWarnings(report)) w.jointWarnings.push_back(std::move(warning));
+                for (core::Finding& warning : seamWarnings(report)) w.jointWarnings.push_back(std::move(warning));
         } else {
             JointInfo& info = tied.emplace_back(infoOf(joint, number));
             for (const Body* body : bodiesOf(w))

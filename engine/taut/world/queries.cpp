@@ -194,14 +194,15 @@ bool World::hasTouched() const {
                impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
 }
 
-std::vector<std::string> World::warnings() const {
-    std::vector<std::string> all = impl_->jointWarnings;
+std::vector<core::Finding> World::warnings() const {
+    std::vector<core::Finding> all = impl_->jointWarnings;
     all.insert(all.end(), impl_->actionWarnings.begin(), impl_->actionWarnings.end());
     for (const auto& island : impl_->islands)
-        for (const std::string& warning : warningsOf(*island)) all.push_back(warning);
-    for (const std::string& warning : impl_->contactReport.warnings()) all.push_back(warning);
+        for (const std::string& warning : warningsOf(*island)) all.push_back(warningAt({}) + warning);
+    for (const std::string& warning : impl_->contactReport.warnings()) all.push_back(warningAt({}) + warning);
     for (const std::string& name : callbacks())
-        all.push_back(name + " is a callback: from here on nobody promises that bits are the same on every machine");
+        all.push_back(warningAt({}) + name +
+                      " is a callback: from here on nobody promises that bits are the same on every machine");
     return all;
 }
 

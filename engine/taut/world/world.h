@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/finding.h"
 #include "taut/ecs/entity.h"
 #include "taut/island/report.h"
 #include "taut/world/contact_info.h"
@@ -112,9 +113,9 @@ class World {
     double asleepShare() const;             // of the points, that sleep
     // Share of the places [m] that lie within the edges of the picture, hidden or not.
     double shareInPicture(std::span<const glm::dvec3> places) const;
-    bool hasTouched() const;                    // a collider or a body, since it was made or restored
-    std::vector<FrozenIsland> frozen() const;   // in the order of islands()
-    std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, frozen, …
+    bool hasTouched() const;                      // a collider or a body, since it was made or restored
+    std::vector<FrozenIsland> frozen() const;     // in the order of islands()
+    std::vector<core::Finding> warnings() const;  // steps over the limit, working stretch left, frozen, …
 
     // Entities with their components (components.h), open to new kinds of both: a component added here together with
     // a system below needs no change in this class.

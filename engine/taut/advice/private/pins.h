@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/finding.h"
+
 namespace taut::world {
 
 class World;
@@ -15,11 +17,11 @@ class RehearsedPins {
     // Looks at the present world: points that are held, grabbed, tied, or weighed down by a mass of the scene.
     void look(World& world);
     // One for each body found, in the order of finding.
-    const std::vector<std::string>& warnings() const { return warnings_; }
+    const std::vector<core::Finding>& warnings() const { return warnings_; }
 
   private:
     std::set<std::string> seen_;  // bodies
-    std::vector<std::string> warnings_;
+    std::vector<core::Finding> warnings_;
 };
 
 }  // namespace taut::world

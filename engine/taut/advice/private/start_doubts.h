@@ -1,8 +1,9 @@
 // What a scene asks for and hardly means, found before the first tick.
 #pragma once
 
-#include <string>
 #include <vector>
+
+#include "taut/core/finding.h"
 
 namespace taut::world {
 
@@ -11,6 +12,6 @@ class World;
 // Warnings, each with a remedy: winds above any storm, cameras inside colliders, fillings with open seams, bodies that
 // start overstretched or weigh far more than the others, figures without animation, too many steps, cuts through bodies
 // that do not touch themselves; and those of touchDoubts(). Expects a world that has not ticked.
-std::vector<std::string> startDoubts(World& world);
+std::vector<core::Finding> startDoubts(World& world);
 
 }  // namespace taut::world

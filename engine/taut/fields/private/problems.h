@@ -1,4 +1,4 @@
-// Collects what is wrong with a text and prints it in the order of the file, each with its line and a caret.
+// Collects what is wrong with a text and gives it in the order of the file, each with its line and a caret.
 #pragma once
 
 #include <deque>
@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/core/finding.h"
 #include "taut/fields/node.h"
 
 namespace taut::fields {
@@ -37,8 +38,8 @@ class Problems {
     int errorCount() const { return static_cast<int>(errors_.size()); }
 
     // Sorted: the file from top to bottom, then those that it builds on, then the overrides in their order.
-    std::string errors() const;  // joined by newlines
-    std::vector<std::string> warnings() const;
+    std::vector<core::Finding> errors() const;
+    std::vector<core::Finding> warnings() const;
 
   private:
     struct Problem {
@@ -51,7 +52,7 @@ class Problems {
         std::vector<std::size_t> lines;  // where each begins
     };
     std::vector<Problem> sorted(const std::vector<Problem>& problems) const;
-    std::string print(const Problem& problem, std::string_view severity) const;
+    core::Finding finding(const Problem& problem, core::Severity severity) const;
 
     const File& writtenIn(Place place) const { return files_[static_cast<std::size_t>(-place.origin)]; }
     std::string_view lineOf(Place place) const;

@@ -203,7 +203,7 @@ class Island {
     // Work of the methods since the start.
     ode::Work work() const;
     // Why its step will end the run, with file, line and remedy; empty where it will not.
-    const std::string& fault() const { return choice_.fault; }
+    const std::optional<core::Finding>& fault() const { return choice_.fault; }
 
     // For island_report.h.
     const Dynamics& dynamics() const { return *dynamics_; }

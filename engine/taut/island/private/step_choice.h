@@ -59,8 +59,8 @@ struct StepChoice {
     mechanics::FrequencyBound anywhere, here;
     std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
     std::vector<std::string> warnings;
-    std::string fault;  // file, line and remedy if the step is so long that it will end the run; else empty
-    std::vector<std::string> advice;  // what would allow a longer step
+    std::optional<core::Finding> fault;  // if the step is so long that it will end the run
+    std::vector<std::string> advice;     // what would allow a longer step
 };
 
 // Without `now`: the step that holds for all that the envelope allows. With `now`, where dt is "auto" and the method's

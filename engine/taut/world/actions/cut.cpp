@@ -46,7 +46,7 @@ void CutAction::perform(World& world) const {
         std::all_of(bodies.begin(), bodies.end(), [](const Body* body) { return body->spec->isRigid(); });
     if (!any)
         w.actionWarnings.push_back(
-            asWarning(at(source)) +
+            warningAt(source) +
             (areRigid ? "\"" + target + "\" is rigid: a cut takes its joints alone"
                       : "there is nothing whole of \"" + target + "\" where this cuts; put it where the body is"));
     redrawDamage(w);

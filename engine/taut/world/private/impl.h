@@ -72,8 +72,8 @@ struct WorldImpl {
     std::vector<Hand> hands;        // in the order of grabbing
     std::vector<Ramp> ramps;        // one for each key, in the order in which they began
     std::vector<JointInfo> joints;  // of the scene, as they tied bodies at the start
-    std::vector<std::string> jointWarnings;
-    std::vector<std::string> actionWarnings;                  // of actions that found nothing to do
+    std::vector<core::Finding> jointWarnings;
+    std::vector<core::Finding> actionWarnings;                // of actions that found nothing to do
     std::vector<std::shared_ptr<const TieDrawing>> drawings;  // (joints of the scene) null: not drawn
 
     WorldImpl(const SceneSpec& scene, const Options& options);

@@ -178,7 +178,11 @@ Option Options::flag(const std::string& names, bool& target, const std::string& 
 
 template <class Target>
 Option Options::value(const std::string& names, Target& target, const std::string& help) {
-    return add(app_.add_option(names, target, help));
+    const Option option = add(app_.add_option(names, target, help));
+    return option.check([&app = app_](const std::string& text) {  // the library takes any next word
+        const std::vector<std::string> flags = flagNames(app);
+        return std::ranges::find(flags, text) == flags.end() ? "" : "its value is missing before " + text;
+    });
 }
 template Option Options::value(const std::string&, std::string&, const std::string&);
 template Option Options::value(const std::string&, std::vector<std::string>&, const std::string&);

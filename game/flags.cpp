@@ -55,16 +55,16 @@ Shard shard(const std::string& text) {
 }
 
 Size pictureSize(const std::string& text) {
-    constexpr int largest = 16384;
+    constexpr int least = 16, most = 16384;  // as the format of scenes has it
     const std::string_view view = text;
     const std::size_t cross = view.find('x');
     if (cross != std::string_view::npos) {
         const auto width = whole<int>(view.substr(0, cross));
         const auto height = whole<int>(view.substr(cross + 1));
-        if (width && height && *width >= 1 && *height >= 1 && *width <= largest && *height <= largest)
-            return {*width, *height};
+        const auto isFine = [&](const std::optional<int>& side) { return side && *side >= least && *side <= most; };
+        if (isFine(width) && isFine(height)) return {*width, *height};
     }
-    failUsage("--size {}: expected a size in pixels like 1280x720", text);
+    failUsage("--size {}: expected a size in pixels like 1280x720, each from {} to {}", text, least, most);
 }
 
 void addRunFlags(Options& options, double& fps, double& seconds) {

@@ -34,7 +34,7 @@ struct Size {
     int width = 0, height = 0;  // [px]
 };
 
-// "1280x720", each side 1 … 16384; throws core::Error(usage).
+// "1280x720", each side 16 … 16384; throws core::Error(usage).
 Size pictureSize(const std::string& text);
 
 // A check for a flag: empty if its text is a number in least … most, else what is wrong. Unlike Option::within it

@@ -155,7 +155,8 @@ void addRangeFlags(Options& options, RenderFlags& flags) {
 
 void addLookFlags(Options& options, RenderFlags& flags) {
     options.group("Look");
-    options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
+    options.value("--size", flags.size, "Size of the pictures in pixels; videos have even sides, the next larger ones")
+        .typeName("WxH");
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
     options
         .value("--samples", flags.samples,

@@ -37,7 +37,8 @@ TEST(Flags, BadFrameRangesAreUsageErrors) {
 TEST(Flags, SizeIsWidthAndHeight) {
     EXPECT_EQ(pictureSize("1280x720").width, 1280);
     EXPECT_EQ(pictureSize("1280x720").height, 720);
-    for (const char* text : {"", "x", "1280", "1280x", "x720", "0x720", "-1x5", "16385x1", "1280 x 720", "1e3x5"})
+    for (const char* text :
+         {"", "x", "1280", "1280x", "x720", "0x720", "-1x5", "15x16", "16x16385", "1280 x 720", "1e3x5"})
         EXPECT_THROW(pictureSize(text), core::Error) << text;
 }
 

@@ -69,7 +69,8 @@ TEST(OwnCommand, AnswersWrongUsageAsTheOthersDo) {
     for (const Case& c :
          {Case{{"greet"}, "NAME is required"}, Case{{"greet", "you", "me"}, "'me' is one word too many"},
           Case{{"greet", "you", "--tims", "2"}, "unknown flag --tims; did you mean --times?"},
-          Case{{"greet", "you", "--times", "10"}, "--times: Value 10 not in range 1 to 9"}}) {
+          Case{{"greet", "you", "--times", "10"}, "--times: Value 10 not in range 1 to 9"},
+          Case{{"greet", "you", "--times", "--fail"}, "--times: its value is missing before --fail"}}) {
         const Outcome outcome = runWithGreet(c.arguments);
         EXPECT_EQ(outcome.code, 2);
         EXPECT_EQ(outcome.err, "taut: " + c.message + "\nTry taut greet --help.\n");

@@ -162,14 +162,14 @@ Json jointJson(const world::JointInfo& joint) {
             {"loose", joint.loose}};
 }
 
-double meanInstants(const world::ContactInfo& contact) {
-    return contact.ticks > 0 ? static_cast<double>(contact.instants) / static_cast<double>(contact.ticks) : 0.0;
+double meanDetections(const world::ContactInfo& contact) {
+    return contact.ticks > 0 ? static_cast<double>(contact.detections) / static_cast<double>(contact.ticks) : 0.0;
 }
 
-// [s] of wall time, of a point and instant.
-double instantSeconds(const world::ContactInfo& contact) {
-    const double instants = static_cast<double>(contact.instants) * contact.points;
-    return instants > 0 ? contact.seconds / instants : 0.0;
+// [s] of wall time, of a point and detection.
+double detectionSeconds(const world::ContactInfo& contact) {
+    const double detections = static_cast<double>(contact.detections) * contact.points;
+    return detections > 0 ? contact.seconds / detections : 0.0;
 }
 
 Json contactJson(const world::ContactInfo& contact) {
@@ -181,10 +181,10 @@ Json contactJson(const world::ContactInfo& contact) {
                           {"shortest_edge_m", contact.surfaces[i].shortestEdge}});
     return {{"bodies", std::move(bodies)},
             {"points", contact.points},
-            {"most_instants", contact.mostInstants},
-            {"mean_instants", meanInstants(contact)},
+            {"most_detections", contact.mostDetections},
+            {"mean_detections", meanDetections(contact)},
             {"ticks", contact.ticks},
-            {"s_per_point_and_instant", instantSeconds(contact)},
+            {"s_per_point_and_detection", detectionSeconds(contact)},
             {"bytes", contact.bytes}};
 }
 
@@ -264,12 +264,12 @@ void printJoint(const world::JointInfo& joint) {
 void printContact(const world::ContactInfo& contact) {
     if (contact.bodies.empty()) return;
     printResult("\ncontact of {}\n", fmt::join(contact.bodies, ", "));
-    printResult("  instants    {} a tick at most{}\n", contact.mostInstants,
+    printResult("  detections  {} a tick at most{}\n", contact.mostDetections,
                 contact.ticks > 0
-                    ? fmt::format(", {:.3g} in the mean of the first {} ticks", meanInstants(contact), contact.ticks)
+                    ? fmt::format(", {:.3g} in the mean of the first {} ticks", meanDetections(contact), contact.ticks)
                     : "");
     if (contact.ticks > 0)
-        printResult("  cost        {:.3g} us a point and instant, {} points\n", 1e6 * instantSeconds(contact),
+        printResult("  cost        {:.3g} us a point and detection, {} points\n", 1e6 * detectionSeconds(contact),
                     contact.points);
     // Of the body whose layers lie furthest apart for its cells.
     std::size_t worst = 0;

@@ -55,21 +55,6 @@ void doubtThickness(std::span<const Body* const> bodies, std::vector<core::Findi
     }
 }
 
-void doubtInstants(const WorldImpl& world, std::vector<core::Finding>& doubts) {
-    if (!world.spec.contact.instants) return;
-    const Island* stiffest = nullptr;
-    for (const auto& island : world.islands)
-        if (touches(island->plan()) && (stiffest == nullptr || island->instantsToPress() > stiffest->instantsToPress()))
-            stiffest = island.get();
-    const int instants = *world.spec.contact.instants;
-    if (stiffest == nullptr || instants >= stiffest->instantsToPress()) return;
-    doubts.push_back(warningAt({}) + fmt::format("{} instants of contact a tick are few for {}, which asks for {} "
-                                                 "where it is pressed: contact may drive its springs; leave out "
-                                                 "instants",
-                                                 instants, stiffest->plan().bodies.front()->fullName(),
-                                                 stiffest->instantsToPress()));
-}
-
 // Its faces meet corners and edges of colliders at least, if there are any.
 void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies, std::vector<core::Finding>& doubts) {
     if (bodies.size() != 1 || bodies[0]->spec->touch != Touch::others || bodies[0]->spec->isRigid()) return;
@@ -306,7 +291,6 @@ std::vector<core::Finding> touchDoubts(World& world) {
     const std::vector<const Body*> bodies = touchingBodies(w);
     doubtLoneliness(w, bodies, doubts);
     doubtThickness(bodies, doubts);
-    doubtInstants(w, doubts);
     const std::vector<PlacedSolid> solids = placedSolids(w);
     doubtCrossings(w, doubts);
     doubtSwallowed(solids, doubts);

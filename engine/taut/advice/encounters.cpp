@@ -17,7 +17,7 @@ namespace {
 
 // [ns] Rough cost of the work in a tick. A limit of counted work gives the same verdict each time; the clock is a guard
 // for scenes that cost more than this says.
-constexpr double perEvaluation = 15, perIteration = 60, perPointInstant = 80;  // for each point
+constexpr double perEvaluation = 15, perIteration = 60, perPointDetection = 80;  // for each point
 constexpr double perPair = 250;
 
 class LookAhead {
@@ -115,7 +115,7 @@ class LookAhead {
     // [ns] Cost of all ticks so far.
     double workOf(const WorldImpl& world) {
         const ContactInfo contact = world.contactStage->info();
-        contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.lastTestedPairs);
+        contactWork_ += contact.lastDetections * (perPointDetection * contact.points + perPair * contact.lastTestedPairs);
         double work = contactWork_;
         for (const auto& island : world.islands) {
             const ode::Work own = island->work();

@@ -16,7 +16,7 @@ constexpr double referenceShare = 0.4;  // a leaf that has deformed further take
 constexpr double boxMarginShare = 0.5;  // margin of fat boxes
 constexpr double flatShare = 0.1;       // of the thickness: leaves that are flat with less to spare keep their list
 // Fat boxes reach ahead along the motion of their leaf.
-constexpr double searchAhead = 8;    // instants, at most
+constexpr double searchAhead = 8;    // blocks, at most
 constexpr double mostBoxMargin = 4;  // box margins, at most
 
 // [m] Lower bound of the distance between the contents of two boxes.
@@ -69,7 +69,7 @@ double BroadPhase::relativeMotionOf(const CandidateList& list) const {
     return (list.a == list.b ? 0.0 : length(a.way - b.way)) + a.deviation + b.deviation;
 }
 
-// What the motion of this instant adds to travelled and approached.
+// What the motion of this block adds to travelled and approached.
 void BroadPhase::measureMotion(CandidateList& list) const {
     const LeafMotion &a = bvh_.motion(list.a), &b = bvh_.motion(list.b);
     // Sums of deviations since the list was made.
@@ -130,7 +130,7 @@ bool BroadPhase::areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3>
 
 // Makes the fat boxes, and tracks the pairs whose boxes overlap. Pairs that were tracked before keep their lists.
 void BroadPhase::searchTree(double boxMargin) {
-    // Boxes reach ahead for this many instants like the present one. If points go too far even in one, they do not.
+    // Boxes reach ahead for this many blocks like the present one. If points go too far even in one, they do not.
     double most = 0;
     for (int p = 0; p < bvh_.count(); ++p) most = std::max(most, bvh_.travel(p));
     const double instants =
@@ -192,7 +192,7 @@ void BroadPhase::check(TrackedPair& tracked, std::span<const dvec3> x0, std::spa
     list.isSeparated = false;
     list.isExpired = list.approached > list.margin;
     if (!list.isExpired) return;
-    // No new list is needed if the boxes are too far apart, or an axis separates the leaves in this instant.
+    // No new list is needed if the boxes are too far apart, or an axis separates the leaves in this block.
     const double gap = gapOf(bvh_.motion(list.a).before, bvh_.motion(list.b).before);
     const double spare = gap - nearShare * list.thickness;
     if (spare > list.relativeMotion) {
@@ -319,12 +319,14 @@ void BroadPhase::finish(std::span<const int> moved, std::span<const dvec3> x0, s
     accumulateTravel();
 }
 
-// The instant ends. Checked pairs count their relative motion. The others count the travel of their leaves, which
+// The block ends. Checked pairs count their relative motion. The others count the travel of their leaves, which
 // check() adds later.
 void BroadPhase::accumulateTravel() {
-    // What is left of the budgets of checked pairs. Leaves that travel less than that do not use it up.
+    // What is left of the budgets of checked pairs, by how far they went in the end. Leaves that travel less than that
+    // do not use it up.
     for (TrackedPair* tracked : checked_) {
-        const CandidateList& list = *tracked->list;
+        CandidateList& list = *tracked->list;
+        measureMotion(list);
         tracked->budgetStart = travelOf(tracked->pair);
         tracked->motionBudget = std::min({list.margin - list.approached, list.leastTravelBudget - list.travelled,
                                           list.leastApproachBudget - list.approached});

@@ -1,4 +1,4 @@
-// Broad phase: which points may touch which triangles in an instant, and which edges which.
+// Broad phase: which points may touch which triangles in a block, and which edges which.
 //
 //     leaves of the tree                          (bvh.h: some fifteen triangles each)
 //       |   fat boxes overlap                     valid while all leaves stay in their fat boxes
@@ -9,21 +9,21 @@
 //     lists that are due  --->  narrow phase      a list that has expired is made anew first
 //
 // All of it rests on one bound. The points of a leaf move by the mean way of the leaf, but for a deviation. So between
-// two leaves no distance changes in an instant by more than
+// two leaves no distance changes in a block by more than
 //
 //     relative motion = |way A - way B| + deviation A + deviation B
 //
-// The sum of these over instants is `travelled`. `approached` bounds the same change as a net displacement: it does not
+// The sum of these over blocks is `travelled`. `approached` bounds the same change as a net displacement: it does not
 // grow when leaves swing to and fro. The smaller one counts. As with the skin of a Verlet list in molecular dynamics:
 // - A list is made with a margin. It names all pairs closer than near (nearShare of their thickness) plus the margin.
 //   While approached <= margin, any pair that is near is in the list. Then the list expires.
 // - Each pair in it has the distance that was measured last, less near, as a budget. It is not near before the leaves
 //   have used it up, and is not measured again until then.
-// - Two leaves whose boxes are apart, or which a separating axis holds apart for this instant, need no list. Neither do
+// - Two leaves whose boxes are apart, or which a separating axis holds apart for this block, need no list. Neither do
 //   leaves of a flat surface that is still nearly flat (bvh_flatness.cpp).
 //
 // So a list may name too much, never too little. What it names too much the narrow phase drops, by a test that knows
-// this instant alone. Pairs come in the order of their leaves and elements. That is why the result of an instant does
+// this block alone. Pairs come in the order of their leaves and elements. That is why the result of a block does
 // not depend on when lists were made: after a restored state, or drop(), the same bits come out.
 #pragma once
 
@@ -59,7 +59,7 @@ class BroadPhase {
     // x1 of these points is no longer what find() was told. Finds the lists that are due with the new x1, where points
     // were moved so far that it matters. Returns false if that is not enough: then all have to be found again.
     bool findAgain(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // Ends the instant. x1 of these points is no longer what the last call was told.
+    // Ends the block. x1 of these points is no longer what the last call was told.
     void finish(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
     // Points moved from x0 to x1, and pairs on the way are not wanted.
     void advance(std::span<const dvec3> x0, std::span<const dvec3> x1);
@@ -79,21 +79,21 @@ class BroadPhase {
         double margin = -1;              // [m] the list expires when approached exceeds it
         std::vector<int> between;        // leaves at rest between a and b: see Bvh::leavesBetween()
 
-        // Of this instant.
+        // Of this block.
         double relativeMotion = 0;  // [m] bound above
-        double travelled = 0;       // [m] since the list was made, this instant included: sum of relative motions
+        double travelled = 0;       // [m] since the list was made, this block included: sum of relative motions
         double approached = 0;      // [m] likewise, net
         bool isExpired = false;     // has to be made anew
-        bool isSeparated = false;   // expired, but a separating axis spares it in this instant
+        bool isSeparated = false;   // expired, but a separating axis spares it in this block
 
         // When the list was made, and since.
-        double travelledBefore = 0;                 // [m] travelled, without this instant
+        double travelledBefore = 0;                 // [m] travelled, without this block
         dvec3 offset{0.0};                          // [m] from centre to centre
         double deviationA = 0, deviationB = 0;      // [m] sums of the leaves' deviations until then
         double deformationA = 0, deformationB = 0;  // [m] of the leaves from their reference shapes
         int referenceA = -1, referenceB = -1;       // numbers of these reference shapes
     };
-    // Lists to be measured in this instant, in the order of the leaves.
+    // Lists to be measured in this block, in the order of the leaves.
     std::size_t dueCount() const { return due_.size(); }
     CandidateList& due(std::size_t i) { return *due_[i]; }
 
@@ -111,7 +111,7 @@ class BroadPhase {
         // [m] Contact may move the points of both leaves by this sum without need to look again: what find() left out
         // is further apart than it moves, by watchShare of the least thickness.
         double freeShift = 0;
-        bool isChecked = false;  // in this instant
+        bool isChecked = false;  // in this block
     };
 
     // Steps of find().
@@ -143,14 +143,14 @@ class BroadPhase {
     std::deque<CandidateList> lists_;            // in no order
     std::vector<CandidateList*> unused_;         // of lists_
     std::vector<TrackedPair> tracked_, merged_;  // ascending; scratch
-    std::vector<TrackedPair*> checked_;          // in this instant
+    std::vector<TrackedPair*> checked_;          // in this block
     std::vector<TrackedPair*> selected_;         // to be checked
     std::vector<CandidateList*> due_;
-    std::vector<FloatBox> pointBoxes_;     // (points) at x0; empty where none was needed in this instant
+    std::vector<FloatBox> pointBoxes_;     // (points) at x0; empty where none was needed in this block
     std::vector<LeafBoxes> boxes_;         // (leaves) at x0
-    std::vector<char> hasBoxes_;           // (leaves) in this instant
-    std::vector<double> deviation_;        // (leaves) [m] sum over all instants
-    std::vector<double> travel_;           // (leaves) [m] sum over all instants of the furthest way of a point
+    std::vector<char> hasBoxes_;           // (leaves) in this block
+    std::vector<double> deviation_;        // (leaves) [m] sum over all blocks
+    std::vector<double> travel_;           // (leaves) [m] sum over all blocks of the furthest way of a point
     std::vector<core::Aabb> fatBoxes_;     // (leaves) of the last search of the tree
     std::vector<double> travelAtSearch_;   // (leaves) [m]
     double freeTravel_ = 0;                // [m] a leaf that went less since the search is in its fat box

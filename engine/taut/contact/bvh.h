@@ -1,5 +1,5 @@
 // Bounding volume hierarchy over all surfaces: leaves of some fifteen triangles (or edges, where there are no
-// triangles), and a binary tree of boxes over them. It says which leaves come close in an instant, and how each leaf
+// triangles), and a binary tree of boxes over them. It says which leaves come close in a block, and how each leaf
 // moves.
 //
 // The tree is built once, from the surfaces at rest. It never depends on where points are, so a restored world has the
@@ -45,14 +45,14 @@ struct BvhLeaf {
     std::vector<int> corners;  // all points of these elements, shared ones too
 };
 
-// How a leaf moves in an instant.
+// How a leaf moves in a block.
 struct LeafMotion {
     core::Aabb before, box;  // of its points at x0; at x0 and x1
     dvec3 centre{0.0};       // [m] mean of its points at x0
     dvec3 way{0.0};          // [m] mean of their ways
     double deviation = 0.0;  // [m] largest difference of a point's way from that mean
     // [m] Largest difference of a point from the reference shape, both relative to the centre, at x0 and x1. The
-    // reference shape is the leaf at some instant before; it is taken anew when the leaf has deformed too much.
+    // reference shape is the leaf at some block before; it is taken anew when the leaf has deformed too much.
     double deformation = 0.0;
     int reference = 0;  // number of the reference shape
 };
@@ -89,10 +89,10 @@ class Bvh {
     // Surfaces that stand still may have moved in between: their leaves are followed once more.
     void forgetStill() { std::fill(isStillFollowed_.begin(), isStillFollowed_.end(), 0); }
 
-    // An instant from x0 to x1 (points) [m] begins. Finds travel() of all leaves, and nothing else.
+    // An block from x0 to x1 (points) [m] begins. Finds travel() of all leaves, and nothing else.
     void start(std::span<const dvec3> x0, std::span<const dvec3> x1);
     double travel(int leaf) const { return travel_[static_cast<std::size_t>(leaf)]; }  // [m] furthest way of a point
-    // Finds the motion of these leaves, unless it was found in this instant already. A leaf that has deformed more than
+    // Finds the motion of these leaves, unless it was found in this block already. A leaf that has deformed more than
     // mostDeformed [m] takes a new reference shape; 0: none does.
     void follow(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed);
     void followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed = 0.0);
@@ -101,14 +101,14 @@ class Bvh {
                    std::span<double> shifts) const;
     bool isFollowed(int leaf) const { return isFollowed_[static_cast<std::size_t>(leaf)] != 0; }
     const LeafMotion& motion(int leaf) const { return motions_[static_cast<std::size_t>(leaf)]; }  // if it is followed
-    // x1 of these points has changed in this instant. What is known of the leaves that have them is found anew.
+    // x1 of these points has changed in this block. What is known of the leaves that have them is found anew.
     void correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1);
 
     // Pairs a <= b of leaves that may touch, and whose boxes (leaves) are closer than near plus `more` [m]; ascending.
     void findNear(std::span<const core::Aabb> boxes, double more, std::vector<LeafPair>& pairs);
 
     // The flatness certificate of leaves of one surface: `least` above; negative where there is none. Expects that they
-    // were measured in this instant.
+    // were measured in this block.
     double flatness(std::span<const int> leaves) const;
     void measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1);
     // The least flatness at which parts of a surface are not in contact.
@@ -167,9 +167,9 @@ class Bvh {
     std::vector<int> toFollow_;         // leaves, scratch
     std::vector<Node> nodes_;           // children before parents
     int root_ = -1;
-    std::vector<double> ways_;                 // (points) [m²] of the instant, squared
+    std::vector<double> ways_;                 // (points) [m²] of the block, squared
     std::vector<double> travel_;               // (leaves) [m]
-    std::vector<char> isFollowed_;             // (leaves) in this instant
+    std::vector<char> isFollowed_;             // (leaves) in this block
     std::vector<LeafMotion> motions_;          // (leaves)
     std::vector<dvec3> referenceShape_;        // [m] corners of all leaves, from the centre
     std::vector<std::size_t> firstReference_;  // (leaves) in referenceShape_
@@ -187,7 +187,7 @@ class Bvh {
     // Of the triangles of leaves in planes, leaf by leaf in rows: see EdgeRows, and GradientRows at x0 and then at x1.
     std::vector<double> inverses_, gradients_;
     std::vector<std::size_t> firstInPlanes_;  // (leaves + 1) number of such triangles in leaves before
-    std::vector<char> isMeasured_;            // (leaves) in this instant
+    std::vector<char> isMeasured_;            // (leaves) in this block
     std::vector<int> toMeasure_;              // leaves, scratch
 };
 

@@ -14,9 +14,9 @@
 namespace taut::contact {
 namespace {
 
-constexpr double leastMargin = 0.4;    // of the thickness
-constexpr int boxedAtOnce = 16;        // leaves per task
-constexpr double instantsAhead = 4.0;  // a list should last for so many instants like this one
+constexpr double leastMargin = 0.4;  // of the thickness
+constexpr int boxedAtOnce = 16;      // leaves per task
+constexpr double blocksAhead = 4.0;  // a list should last for so many blocks like this one
 
 struct MeasuredPair {
     CandidatePair pair;
@@ -114,7 +114,7 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     // an element does not list its neighbours.
     const double cell = std::min(elements_.shortestEdge(a.surface), elements_.shortestEdge(b.surface));
     const double slow = isBond ? std::min(thickness, restShare * cell - thickness) : thickness;
-    const double fast = std::min(instantsAhead * list.relativeMotion, std::max(2 * thickness, list.relativeMotion));
+    const double fast = std::min(blocksAhead * list.relativeMotion, std::max(2 * thickness, list.relativeMotion));
     const double margin = std::max({leastMargin * thickness, slow, fast});
     restart(list, margin);
 

@@ -37,14 +37,14 @@ bool misses(const ContactConstraint& pair, std::span<const dvec3> x0, std::span<
 
 // Moves the lowest point of the first side and the highest of the second apart along the normal, to 0.2 of the distance
 // at x0, and stops their approach. Shares by inverse mass. At least 0.02 of the thickness is left: a fifth of a fifth
-// every instant would end in rounding. A point does not move into a collider it touches (kinematic: ascending by
+// every block would end in rounding. A point does not move into a collider it touches (kinematic: ascending by
 // point). Returns whether anything moved; appends the points that can.
 bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMass,
                 std::span<const KinematicContact> kinematic, std::span<dvec3> x1, std::span<dvec3> v,
                 std::vector<int>& moved);
 
 // Joins pairs that share points to zones. Each zone moves by the mean way of its mass; a zone with pinned or kinematic
-// points by their mean way. Appends the points. h [s]: length of the instant.
+// points by their mean way. Appends the points. h [s]: length of the block.
 void moveAsImpactZones(std::span<const ContactConstraint* const> pairs, std::span<const double> inverseMass, double h,
                        std::span<const dvec3> x0, std::span<dvec3> x1, std::span<dvec3> v, std::vector<int>& moved);
 

@@ -30,6 +30,7 @@ struct ContactConstraint {
     double restitution = 0.0;  // speed of parting over that of closing [-]
     // [m] Of two solids, where their impulse acts on each; none: between the closest places.
     std::optional<std::array<dvec3, 2>> places{};
+    double slack = 0.0;     // [m] by which the gap is wider where the sides are expected, as one turns past the other
     double softness = 0.0;  // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
     int firstSide() const { return isPoint ? 1 : 2; }        // points of the first side
     double gap() const { return distance - thickness; }      // [m]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "taut/contact/certificate.h"
@@ -16,20 +17,13 @@ constexpr int mostSlides = 8, mostZones = 12;
 constexpr double apartSpeed = 0.3;      // [m/s] at which crossings come apart
 constexpr int mostSqueezes = 3;         // rounds of letting through
 constexpr double oneSided = 0.5;        // share of impulses that does not cancel
-constexpr double squeezedShare = 3e-4;  // of the thickness, by which soft pairs of squeezed points yield in an instant
+constexpr double squeezedShare = 3e-4;  // of the thickness, by which soft pairs of squeezed points yield in a step
 
 // Sorts, and removes duplicates. Usually there is nothing to do.
 void makeAscending(std::vector<int>& points) {
     if (std::adjacent_find(points.begin(), points.end(), std::greater_equal<>()) == points.end()) return;
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
-}
-
-// Appends the surfaces of those points of the pair that contact can move.
-void addMovable(const Elements& elements, const ContactConstraint& pair, std::span<const double> inverseMass,
-                std::vector<int>& surfaces) {
-    for (int i : pair.points)
-        if (inverseMass[static_cast<std::size_t>(i)] > 0) surfaces.push_back(elements.surfaceOf(i));
 }
 
 }  // namespace
@@ -42,6 +36,8 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
     v_.resize(count);
     shift_.resize(count);
     marks_.assign(count, unmarked);
+    all_.resize(count);
+    std::iota(all_.begin(), all_.end(), 0);
 }
 
 void ContactGroup::setSolids(std::vector<Solid> solids) {
@@ -65,6 +61,7 @@ void ContactGroup::rewind(std::span<const dvec3> from, std::span<const dvec3> to
     broadPhase_.advance(from, to);
     solver_.forget();
     isCertified_ = crossings_.empty();
+    xCertified_.assign(to.begin(), to.end());
 }
 
 void ContactGroup::begin(std::span<const dvec3> x) {
@@ -76,6 +73,7 @@ void ContactGroup::begin(std::span<const dvec3> x) {
     else
         crossings_ = crossingsAt(x);
     isCertified_ = crossings_.empty();
+    xCertified_.assign(x.begin(), x.end());
     if (!options_.untangles) return;
     // The narrow phase leaves out pairs with points on the wrong side: see isTangled().
     for (const Crossing& crossing : crossings_)
@@ -89,79 +87,103 @@ std::vector<Crossing> ContactGroup::crossingsAt(std::span<const dvec3> x) {
     return findCrossings(elements_, broadPhase_.bvh(), x);
 }
 
-Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
-                                double seconds) {
-    ahead_.resize(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) ahead_[i] = x[i] + seconds * v[i];
-    detect(x, ahead_);
-    Forecast forecast;
-
-    // How fast the leaves of soft surfaces deform.
-    Bvh& leaves = broadPhase_.bvh();
-    leaves.followAll(x, ahead_);
-    int soft = 0;
-    for (int p = 0; p < leaves.count(); ++p) {
-        const ContactSurface& surface = elements_.surface(leaves[p].surface);
-        if (surface.isOfCollider()) continue;
-        forecast.deformationRate += 2 * leaves.motion(p).deviation / surface.thickness;
-        ++soft;
-    }
-    if (soft > 0) forecast.deformationRate /= soft * seconds;
-
-    // What comes into contact.
-    forecast.leastThickness = 1e300;
-    for (const ContactConstraint& pair : tested_) {
-        if (!pair.isActive) continue;
-        forecast.isInContact = true;
-        dvec3 velocity(0.0);
-        for (std::size_t k = 0; k < 4; ++k) velocity += pair.weights[k] * v[static_cast<std::size_t>(pair.points[k])];
-        forecast.closing = std::max(forecast.closing, -glm::dot(pair.normal, velocity));
-        forecast.leastThickness = std::min(forecast.leastThickness, pair.thickness);
-        addMovable(elements_, pair, inverseMass, forecast.surfaces);
-    }
-    makeAscending(forecast.surfaces);
-    forecast.isInContact = forecast.isInContact || !crossings_.empty();
-    return forecast;
-}
-
-const InstantResult& ContactGroup::resolve(const Instant& instant) {
+int ContactGroup::open(const Block& block) {
+    block_ = block;
     result_ = {};
     moved_.clear();
     pending_.clear();
+    squeezed_.clear();
+    // Something else has moved points since.
+    isCertified_ = isCertified_ && std::equal(block.x0.begin(), block.x0.end(), xCertified_.begin(), xCertified_.end());
+    detect(block.x0, block.ahead);
+    selectActive();
+    block_.steps = measureWays();
+    beginRows();
+    return block_.steps;
+}
 
-    // Detection: which pairs are in reach, and where they are.
-    detect(instant.x0, instant.x1);
-
-    // Response: impulses for the pairs that would close their gap, then the crossings.
-    selectActive(instant);
-    solver_.clear();
-    const bool meetsWhole =
-        std::any_of(instant.kinematic.begin(), instant.kinematic.end(), [](const auto& own) { return own.isWhole; });
-    if (!active_.empty() || !crossings_.empty() || !solids_.empty() || meetsWhole) {
-        solveActive(instant);
-        if (options_.untangles && !crossings_.empty()) changeAsBodies(instant, u_, v_, [&] { untangle(instant); });
-        handOver(instant, applyVelocities(instant));
+// Returns so many of the steps that no pair closes by more than it may -> wayOfStep_.
+int ContactGroup::measureWays() {
+    double closing = 0, square = 0;
+    for (const ContactConstraint& pair : active_) {
+        if (pair.places) continue;
+        dvec3 way(0.0);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto i = static_cast<std::size_t>(pair.points[k]);
+            way += pair.weights[k] * (block_.ahead[i] - block_.x0[i]);
+        }
+        way /= pair.thickness;
+        closing = std::max(closing, -glm::dot(pair.normal, way));
+        square = std::max(square, glm::dot(way, way));
     }
+    wayOfStep_ = std::sqrt(square) / block_.steps;
+    const auto within = [&](double way, double most, int least) {
+        return way > most ? std::max(least, static_cast<int>(block_.steps * most / way)) : block_.steps;
+    };
+    return std::min(within(closing, block_.mostClosing, 1),
+                    within(std::sqrt(square), block_.calmWay, std::min(block_.steps, block_.usualSteps)));
+}
 
-    // Certificate: rounds until every pair has one. The first use slide apart, the others impact zones.
+bool ContactGroup::hasRows() const {
+    return !active_.empty() || !crossings_.empty() || !solids_.empty() ||
+           std::any_of(
+               block_.kinematic.begin(), block_.kinematic.end(), [](const auto& own) { return own.isWhole; });
+}
+
+void ContactGroup::beginRows() {
+    solver_.clear();
+    SolverBlock own{active_, block_.kinematic, block_.inverseMass, block_.x0, block_.h, block_.steps, options_.solver};
+    own.options.restSpeed = std::max(own.options.restSpeed, block_.restSpeed);
+    solver_.begin(own);
+}
+
+void ContactGroup::step(const Step& step) {
+    moved_.clear();
+    if (!hasRows()) return;
+    solveActive(step);
+    result_.impulses = std::max(result_.impulses, countImpulses());
+    if (options_.untangles && !crossings_.empty()) changeAsBodies(step.x0, u_, v_, [&] { untangle(); });
+    handOver(step, applyVelocities(step));
+    makeAscending(moved_);
+    result_.moved = moved_;
+}
+
+bool ContactGroup::close(std::span<dvec3> x, std::span<dvec3> v) {
+    const Step whole{block_.x0, x, v};
+    moved_ = result_.moved;
+    if (!hasRows()) return certify(x, v);
+    const std::vector<int> corrected = correctPositions(whole);
+    handOver(whole, corrected);
+    return certify(x, v) || !corrected.empty();
+}
+
+// Points are not where they were expected. Rounds until every pair has a certificate: the first use slide apart, the
+// others impact zones.
+bool ContactGroup::certify(std::span<dvec3> x, std::span<dvec3> v) {
+    const Step whole{block_.x0, x, v};
+    bool movesAny = false;
+    pending_ = all_;
     for (int round = 0; options_.certifies; ++round) {
-        if (!pending_.empty()) detectAgain(instant);
-        const std::vector<const ContactConstraint*> bad = uncertified(instant);
+        if (!pending_.empty()) detectAgain(x);
+        const std::vector<const ContactConstraint*> bad = uncertified(x);
         result_.uncertified = static_cast<int>(bad.size());
         if (bad.empty() || round == mostSlides + mostZones) break;
-        const std::vector<int> moved = separate(instant, bad, round);
+        const std::vector<int> moved = separate(whole, bad, round);
         if (moved.empty()) break;
-        handOver(instant, moved);
+        movesAny = true;
+        handOver(whole, moved);
     }
-
-    // The lists live on: the motion of the points in this instant counts against their budgets.
     makeAscending(moved_);
-    broadPhase_.finish(pending_, instant.x0, instant.x1);
     result_.moved = moved_;
+    return movesAny;
+}
+
+// The motion of the points in this block counts against the budgets of the lists.
+void ContactGroup::finish(std::span<const dvec3> x) {
+    broadPhase_.finish(pending_, block_.x0, x);
     isCertified_ = isCertified_ && options_.certifies && result_.uncertified == 0 && squeezed_.empty() &&
                    std::all_of(tested_.begin(), tested_.end(), [](const auto& pair) { return pair.hasSides(); });
-    if (isCertified_) xCertified_.assign(instant.x1.begin(), instant.x1.end());
-    return result_;
+    if (isCertified_) xCertified_.assign(x.begin(), x.end());
 }
 
 void ContactGroup::detect(std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -170,83 +192,56 @@ void ContactGroup::detect(std::span<const dvec3> x0, std::span<const dvec3> x1) 
     runNarrowPhase(x0, x1, true);
 }
 
-// Selects the active pairs that contact can move. Records how deep they would go without contact.
-void ContactGroup::selectActive(const Instant& instant) {
+// Selects the active pairs that contact can move.
+void ContactGroup::selectActive() {
     active_.clear();
-    for (const ContactConstraint& pair : tested_) {
-        if (!pair.isActive || !mayYield(pair, instant.inverseMass)) continue;
-        active_.push_back(pair);
-        dvec3 way(0.0);
-        for (std::size_t k = 0; k < 4; ++k) {
-            const auto i = static_cast<std::size_t>(pair.points[k]);
-            way += pair.weights[k] * (instant.x1[i] - instant.x0[i]);
-        }
-        const double depth = -std::max(pair.gap(), 0.0) - glm::dot(pair.normal, way);
-        result_.deepest = std::max(result_.deepest, depth / pair.thickness);
-    }
-    result_.deepest = std::max(result_.deepest, instant.deepestTouch);
-    for (const ContactConstraint& pair : instant.rigid)
-        if (mayYield(pair, instant.inverseMass)) active_.push_back(pair);
+    for (const ContactConstraint& pair : tested_)
+        if (pair.isActive && mayYield(pair, block_.inverseMass)) active_.push_back(pair);
+    for (const ContactConstraint& pair : block_.rigid)
+        if (mayYield(pair, block_.inverseMass)) active_.push_back(pair);
 }
 
-void ContactGroup::solveActive(const Instant& instant) {
-    // Load the points of active pairs and crossings. No others are read.
+// Loads the points of rows and crossings. No others are read.
+void ContactGroup::load(const Step& step) {
     const auto load = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
-        u0_[k] = u_[k] = (instant.x1[k] - instant.x0[k]) / instant.h;
-        v_[k] = instant.v[k];
-        shift_[k] = dvec3(0.0);
+        u0_[k] = u_[k] = (step.x1[k] - step.x0[k]) / block_.h;
+        v_[k] = step.v[k];
     };
-    const auto loadWithMovers = [&](int point) {
-        load(point);
-        carried_.forEachMover(
-            point, [&](int i, double) { load(i); });
-    };
-    const auto loadAll = [&] {
-        for (const ContactConstraint& pair : active_)
-            for (int i : pair.points) loadWithMovers(i);
-        for (const KinematicContact& contact : instant.kinematic)
-            if (contact.isWhole) contact.forEachPoint([&](int point, double) { loadWithMovers(point); });
-        for (const Crossing& crossing : crossings_)
-            for (int i : crossing.points) loadWithMovers(i);
-        for (const Solid& solid : solids_)
-            for (int i : solid.points) load(i);
-    };
-    loadAll();
-    SolverOptions options = options_.solver;
-    options.restSpeed = std::max(options.restSpeed, instant.restSpeed);
-    const auto solve = [&] {
-        solver_.solve(active_, instant.kinematic, instant.inverseMass, instant.h, options, u_, v_, shift_, instant.x0);
-    };
+    for (const int i : solver_.points()) load(i);
+    if (crossings_.empty()) return;
+    for (const Crossing& crossing : crossings_)
+        for (int point : crossing.points) {
+            load(point);
+            carried_.forEachMover(point, [&](int i, double) { load(i); });
+        }
+    for (const Solid& solid : solids_)
+        for (int i : solid.points) load(i);
+}
 
-    solve();
-    squeezed_.clear();
-    for (int round = 0; round < mostSqueezes && findSqueezed(instant); ++round) {
+void ContactGroup::solveActive(const Step& step) {
+    load(step);
+    solver_.step(step.x0, u_, v_);
+    for (int round = 0; round < mostSqueezes && findSqueezed(); ++round) {
         std::erase_if(active_, [&](const ContactConstraint& pair) { return isLetThrough(pair); });
-        loadAll();
-        solve();
+        beginRows();
+        load(step);
+        solver_.step(step.x0, u_, v_);
     }
+}
 
-    for (std::size_t p = 0; p < active_.size(); ++p) {
-        if (!(solver_.impulses()[p] > 0)) continue;
-        ++result_.impulses;
-        addMovable(elements_, active_[p], instant.inverseMass, result_.surfaces);
-    }
-    for (std::size_t k = 0; k < instant.kinematic.size(); ++k) {
-        const KinematicContact& contact = instant.kinematic[k];
-        if (!contact.isWhole || !(solver_.impulses()[active_.size() + k] > 0)) continue;
-        ++result_.impulses;
-        result_.surfaces.push_back(elements_.surfaceOf(contact.point()));
-    }
-    makeAscending(result_.surfaces);
-    result_.sweeps = solver_.sweeps();
+int ContactGroup::countImpulses() const {
+    int count = 0;
+    forEachPressing([&](const ContactConstraint&, double, const dvec3&) { ++count; });
+    forEachOnCollider([&](std::size_t k, double, const dvec3&) { count += block_.kinematic[k].isWhole ? 1 : 0; });
+    return count;
 }
 
 // Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw
 // it out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others
 // may go through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster
 // than its softness explains. Returns whether any is, beyond those known.
-bool ContactGroup::findSqueezed(const Instant& instant) {
+bool ContactGroup::findSqueezed() {
     if (std::none_of(active_.begin(), active_.end(), [](const auto& pair) { return pair.softness > 0; })) return false;
     pressed_.resize(u_.size());
     std::vector<int> points;
@@ -258,9 +253,8 @@ bool ContactGroup::findSqueezed(const Instant& instant) {
         const int rank = isSoft ? rankOf(pair) : 0;
         double inverse = 0;
         for (std::size_t k = 0; k < 4; ++k)
-            inverse +=
-                pair.weights[k] * pair.weights[k] * instant.inverseMass[static_cast<std::size_t>(pair.points[k])];
-        const bool yields = pair.softness * inverse * impulse * instant.h > squeezedShare * pair.thickness;
+            inverse += pair.weights[k] * pair.weights[k] * block_.inverseMass[static_cast<std::size_t>(pair.points[k])];
+        const bool yields = pair.softness * inverse * impulse * block_.h > squeezedShare * pair.thickness;
         for (std::size_t k = 0; k < 4; ++k) {
             Pressed& own = pressed_[static_cast<std::size_t>(pair.points[k])];
             if (own.size == 0) points.push_back(pair.points[k]);
@@ -275,7 +269,7 @@ bool ContactGroup::findSqueezed(const Instant& instant) {
     bool isAny = false;
     for (int point : points) {
         const Pressed own = std::exchange(pressed_[static_cast<std::size_t>(point)], {});
-        if (!own.yields || !(instant.inverseMass[static_cast<std::size_t>(point)] > 0)) continue;
+        if (!own.yields || !(block_.inverseMass[static_cast<std::size_t>(point)] > 0)) continue;
         if (length(own.sum) >= oneSided * own.size) continue;
         const int kept = own.lowest < own.highest ? own.lowest : -1;
         const auto [known, isNew] = squeezed_.try_emplace(point, kept);
@@ -307,16 +301,20 @@ bool ContactGroup::isLetThrough(const ContactConstraint& pair) const {
     });
 }
 
-std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
+std::vector<int> ContactGroup::applyVelocities(const Step& step) const {
     std::vector<int> moved;
     const auto apply = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
-        if (!(instant.inverseMass[k] > 0)) return;
-        if (u_[k] == u0_[k] && v_[k] == instant.v[k] && shift_[k] == dvec3(0.0)) return;
-        instant.x1[k] += instant.h * (u_[k] - u0_[k]) + shift_[k];
-        instant.v[k] = v_[k];
+        if (!(block_.inverseMass[k] > 0)) return;
+        if (u_[k] == u0_[k] && v_[k] == step.v[k]) return;
+        step.x1[k] += block_.h * (u_[k] - u0_[k]);
+        step.v[k] = v_[k];
         moved.push_back(i);
     };
+    if (crossings_.empty()) {
+        for (int i : solver_.points()) apply(i);
+        return moved;
+    }
     std::vector<int> points(solver_.points().begin(), solver_.points().end());
     for (const Crossing& crossing : crossings_)
         for (int point : crossing.points) carried_.forEachMover(point, [&](int i, double) { points.push_back(i); });
@@ -326,12 +324,26 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
     return moved;
 }
 
+// Takes overlap back -> x1; the moved points.
+std::vector<int> ContactGroup::correctPositions(const Step& step) {
+    const auto clear = [&](int i) { shift_[static_cast<std::size_t>(i)] = dvec3(0.0); };
+    for (const int i : solver_.points()) clear(i);
+    solver_.end(step.x1, shift_);
+    std::vector<int> moved;
+    for (const int i : solver_.points()) {
+        const auto k = static_cast<std::size_t>(i);
+        if (!(block_.inverseMass[k] > 0) || shift_[k] == dvec3(0.0)) continue;
+        step.x1[k] += shift_[k];
+        moved.push_back(i);
+    }
+    return moved;
+}
+
 // What `change` does with single points of solids in two fields, impulses do with the solids: all points of one move as
 // such impulses at its points move it. Likewise impulses at the movers of carried points take the place of what it does
 // with these. Returns the points that this moved.
-std::vector<int> ContactGroup::changeAsBodies(const Instant& instant, std::span<dvec3> a, std::span<dvec3> b,
+std::vector<int> ContactGroup::changeAsBodies(std::span<const dvec3> x, std::span<dvec3> a, std::span<dvec3> b,
                                               const std::function<void()>& change) const {
-    const std::span<const dvec3> x = instant.x0;
     std::vector<dvec3> before;
     for (const Solid& solid : solids_)
         for (int i : solid.points)
@@ -405,8 +417,8 @@ std::vector<int> ContactGroup::changeAsBodies(const Instant& instant, std::span<
             changed.push_back(point);
             wanted = std::max(wanted, square);
             carried_.forEachMover(point, [&](int mover, double weight) {
-                const double gain = weight * instant.inverseMass[static_cast<std::size_t>(mover)];
-                if (gain != 0) moversChange[part][mover] += gain / instant.inverseMass[i] * own;
+                const double gain = weight * block_.inverseMass[static_cast<std::size_t>(mover)];
+                if (gain != 0) moversChange[part][mover] += gain / block_.inverseMass[i] * own;
             });
         }
         for (int point : changed) {
@@ -447,37 +459,37 @@ std::vector<int> ContactGroup::movedBy(std::span<const int> points) const {
 }
 
 // Hands these points (ascending) to their islands. The islands place them, and may change x1 and v once more.
-void ContactGroup::handOver(const Instant& instant, std::span<const int> points) {
+void ContactGroup::handOver(const Step& step, std::span<const int> points) {
     if (points.empty()) return;
     const auto take = [&](std::span<const int> own) {
         moved_.insert(moved_.end(), own.begin(), own.end());
         pending_.insert(pending_.end(), own.begin(), own.end());
     };
     take(points);
-    if (instant.place) instant.place(points);
+    if (block_.place) block_.place(points);
     if (carried_.isEmpty()) return;
     const std::vector<int> carried = movedBy(points);
     for (int i : carried) {
-        instant.x1[static_cast<std::size_t>(i)] = carried_.valueAt(i, instant.x1);
-        instant.v[static_cast<std::size_t>(i)] = carried_.valueAt(i, instant.v);
+        step.x1[static_cast<std::size_t>(i)] = carried_.valueAt(i, step.x1);
+        step.v[static_cast<std::size_t>(i)] = carried_.valueAt(i, step.v);
     }
     take(carried);
 }
 
 // Gives each edge that pierces a triangle an impulse along the way out (crossings.h), one edge after the other.
-void ContactGroup::untangle(const Instant& instant) {
+void ContactGroup::untangle() {
     for (const Crossing& crossing : crossings_) {
         // Effective inverse mass along the way out, the speeds u and v along it, and the largest gain of a point.
         double inverse = 0, speed = 0, speedV = 0, most = 0;
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
-            inverse += crossing.weights[k] * crossing.weights[k] * instant.inverseMass[i];
-            most = std::max(most, std::abs(crossing.weights[k]) * instant.inverseMass[i]);
+            inverse += crossing.weights[k] * crossing.weights[k] * block_.inverseMass[i];
+            most = std::max(most, std::abs(crossing.weights[k]) * block_.inverseMass[i]);
             speed += crossing.weights[k] * glm::dot(u_[i], crossing.separatingDirection);
             speedV += crossing.weights[k] * glm::dot(v_[i], crossing.separatingDirection);
         }
         if (!(inverse > 0) || crossing.separatingDirection == dvec3(0.0)) continue;
-        if (!mayYield(crossing, instant.inverseMass)) continue;
+        if (!mayYield(crossing, block_.inverseMass)) continue;
         // The impulse brings the speed up to apartSpeed. It has two limits. It is never more than a crossing at rest
         // needs, no matter what pushes against it. And no point gains more than apartSpeed, no matter how small its
         // weight. A pinch then stays until it opens.
@@ -487,41 +499,40 @@ void ContactGroup::untangle(const Instant& instant) {
         const double impulse = impulseAgainst(speed), impulseV = impulseAgainst(speedV);
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
-            const double share = crossing.weights[k] * instant.inverseMass[i];
+            const double share = crossing.weights[k] * block_.inverseMass[i];
             u_[i] += (share * impulse) * crossing.separatingDirection;
             v_[i] += (share * impulseV) * crossing.separatingDirection;
         }
     }
 }
 
-std::vector<const ContactConstraint*> ContactGroup::uncertified(const Instant& instant) const {
+std::vector<const ContactConstraint*> ContactGroup::uncertified(std::span<const dvec3> x) const {
     std::vector<const ContactConstraint*> bad;
     for (const ContactConstraint& pair : tested_)
-        if (pair.hasSides() && !isCertified(pair, instant.x0, instant.x1) && !isLetThrough(pair)) bad.push_back(&pair);
+        if (pair.hasSides() && !isCertified(pair, block_.x0, x) && !isLetThrough(pair)) bad.push_back(&pair);
     return bad;
 }
 
 // Points were moved after the detection, which may have brought new pairs into reach. These get a certificate; impulses
-// they may get in the next instant.
-void ContactGroup::detectAgain(const Instant& instant) {
-    if (!broadPhase_.findAgain(pending_, instant.x0, instant.x1)) broadPhase_.find(instant.x0, instant.x1);
-    runNarrowPhase(instant.x0, instant.x1, false);
+// they may get in the next block.
+void ContactGroup::detectAgain(std::span<const dvec3> x) {
+    if (!broadPhase_.findAgain(pending_, block_.x0, x)) broadPhase_.find(block_.x0, x);
+    runNarrowPhase(block_.x0, x, false);
     pending_.clear();
 }
 
 // Moves pairs that have no certificate. Returns the points that it moved, ascending.
-std::vector<int> ContactGroup::separate(const Instant& instant, std::span<const ContactConstraint* const> pairs,
-                                        int round) {
+std::vector<int> ContactGroup::separate(const Step& step, std::span<const ContactConstraint* const> pairs, int round) {
     std::vector<int> moved;
     const std::vector<int> ofBodies = changeAsBodies(
-        instant, instant.x1, instant.v,
+        step.x0, step.x1, step.v,
         [&] {
             if (round < mostSlides && options_.slides) {
                 for (const ContactConstraint* pair : pairs)
-                    slideApart(*pair, instant.inverseMass, instant.kinematic, instant.x1, instant.v, moved);
+                    slideApart(*pair, block_.inverseMass, block_.kinematic, step.x1, step.v, moved);
                 result_.slides += static_cast<int>(pairs.size());
             } else {
-                moveAsImpactZones(pairs, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);
+                moveAsImpactZones(pairs, block_.inverseMass, block_.steps * block_.h, step.x0, step.x1, step.v, moved);
                 ++result_.zones;
             }
         });

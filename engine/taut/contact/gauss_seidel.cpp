@@ -42,7 +42,7 @@ int findLevels(std::span<const Row> rows, std::size_t slotCount, std::span<const
     return count;
 }
 
-void putInto(Pack& pack, int lane, const Row& row, int number) {
+void putInto(Pack& pack, int lane, const Row& row, double gap, int number) {
     for (int k = 0; k < 4; ++k) {
         if (k < 3) pack.normal[k].of[lane] = row.normal.of[k];
         pack.impulse[k].of[lane] = row.impulse.of[k];
@@ -59,16 +59,16 @@ void putInto(Pack& pack, int lane, const Row& row, int number) {
     pack.friction.of[lane] = row.friction;
     pack.softness.of[lane] = row.softness;
     pack.largestGain.of[lane] = row.largestGain;
+    pack.gap.of[lane] = gap;
+    pack.base.of[lane] = row.closing;
     pack.rows[lane] = number;
 }
 
-}  // namespace
-
-int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
-                         const Levers& levers, Start start) {
-    thread_local Scratch scratch;
+// Rows in packs, level by level. gaps: none, or (rows) [m].
+void packInto(std::vector<Pack>& packs, std::span<const Row> rows, std::span<const double> gaps, std::size_t slotCount,
+              const Levers& levers, Scratch& scratch) {
     const int count = static_cast<int>(rows.size());
-    const int levels = findLevels(rows, velocities.size(), levers.shares, scratch);
+    const int levels = findLevels(rows, slotCount, levers.shares, scratch);
     // How many packs each level has, and where its packs begin.
     std::vector<int>& next = scratch.next;
     next.assign(static_cast<std::size_t>(levels) + 1, 0);
@@ -79,36 +79,65 @@ int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std:
         own = 4 * packCount;
         packCount += inLevel;
     }
-    scratch.packs.assign(static_cast<std::size_t>(packCount), Pack{});
+    packs.assign(static_cast<std::size_t>(packCount), Pack{});
     for (int r = 0; r < count; ++r) {
-        const Row& row = rows[static_cast<std::size_t>(r)];
-        const int place = next[static_cast<std::size_t>(scratch.levels[static_cast<std::size_t>(r)])]++;
-        Pack& pack = scratch.packs[static_cast<std::size_t>(place / 4)];
+        const auto number = static_cast<std::size_t>(r);
+        const Row& row = rows[number];
+        const int place = next[static_cast<std::size_t>(scratch.levels[number])]++;
+        Pack& pack = packs[static_cast<std::size_t>(place / 4)];
         if (place % 4 == 0)
             for (int lane = 1; lane < 4; ++lane) {
                 std::copy(std::begin(row.slots), std::end(row.slots), pack.slots[lane]);
                 pack.rows[lane] = count;
             }
-        putInto(pack, place % 4, row, r);
+        putInto(pack, place % 4, row, gaps.empty() ? 0.0 : gaps[number], r);
     }
-    scratch.perRow.assign(rows.size() + 1, 0.0);
-    const Sweeps batch{scratch.packs.data(),
-                       packCount,
-                       count,
-                       scratch.perRow.data(),
-                       velocities.data(),
-                       levers.turns.data(),
-                       levers.shares.data(),
-                       sweeps,
-                       tolerance,
-                       start};
-    const int taken = TAUT_IN_USE(sweep)(batch);
-    for (const Pack& pack : scratch.packs)
+}
+
+void readImpulses(std::span<const Pack> packs, std::span<Row> rows) {
+    const int count = static_cast<int>(rows.size());
+    for (const Pack& pack : packs)
         for (int lane = 0; lane < 4; ++lane)
             if (pack.rows[lane] < count)
                 for (int k = 0; k < 4; ++k)
                     rows[static_cast<std::size_t>(pack.rows[lane])].impulse.of[k] = pack.impulse[k].of[lane];
+}
+
+Sweeps batchOf(std::vector<Pack>& packs, int rowCount, std::vector<double>& perRow, int sweeps, double tolerance,
+               std::span<Four> velocities, const Levers& levers, Start start) {
+    perRow.assign(static_cast<std::size_t>(rowCount) + 1, 0.0);
+    return {packs.data(),        static_cast<int>(packs.size()), rowCount, perRow.data(), velocities.data(),
+            levers.turns.data(), levers.shares.data(),           sweeps,   tolerance,     start};
+}
+
+}  // namespace
+
+int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
+                         const Levers& levers, Start start) {
+    thread_local Scratch scratch;
+    packInto(scratch.packs, rows, {}, velocities.size(), levers, scratch);
+    const int taken = TAUT_IN_USE(sweep)(batchOf(scratch.packs, static_cast<int>(rows.size()), scratch.perRow, sweeps,
+                                                 tolerance, velocities, levers, start));
+    readImpulses(scratch.packs, rows);
     return taken;
+}
+
+RowPacks::RowPacks(std::span<const Row> rows, std::span<const double> gaps, std::size_t slotCount, const Levers& levers)
+    : rowCount_(static_cast<int>(rows.size())) {
+    thread_local Scratch scratch;
+    packInto(packs_, rows, gaps, slotCount, levers, scratch);
+}
+
+void RowPacks::sweep(int sweeps, double tolerance, double h, std::span<Four> velocities, std::span<const Four> gone,
+                     const Levers& levers) {
+    Sweeps batch = batchOf(packs_, rowCount_, perRow_, sweeps, tolerance, velocities, levers, Start::kept);
+    batch.gone = gone.data();
+    batch.perSecond = 1.0 / h;
+    TAUT_IN_USE(sweep)(batch);
+}
+
+void RowPacks::read(std::span<Row> rows) const {
+    readImpulses(packs_, rows);
 }
 
 }  // namespace taut::contact

@@ -5,8 +5,10 @@
 // impulses are extrapolated along the sum of the last changes, as in nonlinear conjugate gradients: Silcowitz-Abel,
 // Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems".
 //
-// The start. Impulses that the rows have already are a guess, for instance those of the instant before. They are scaled
-// by the factor for which the energy is least, 0 or more: so the start is no worse than without them.
+// The start. Impulses that the rows have already are a guess, for instance those of the step before. They are scaled by
+// the factor for which the energy is least, 0 or more: so the start is no worse than without them. Where there is but
+// one sweep a step, a fixed share of them is a good start, and the search for the factor would cost more than the
+// sweep.
 //
 // Softness. Two things that nothing moves may close on a third, and no impulses keep both. Where rows are soft, their
 // impulses end at what closes divided by the softness, instead of growing for ever.
@@ -21,6 +23,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace taut::contact {
 
@@ -63,7 +66,7 @@ struct Row {
     double gains[4]{};       // [1/kg] how much an impulse of 1 changes each velocity
     double mass = 0;         // [kg] effective, along the normal
     double grip = 0;         // [kg] effective, the least across the normal; 0: as along it
-    double closing = 0;      // [m/s] at which it may close in this instant; below 0: at which it has to part
+    double closing = 0;      // [m/s] at which it may close in this step; below 0: at which it has to part
     double friction = 0;     // Coulomb's μ [-]
     double softness = 0;     // [m/s] by which it may close further for each impulse of 1
     double largestGain = 0;  // [1/kg]
@@ -72,8 +75,10 @@ struct Row {
     int source = 0;          // for its owner
 };
 
-// What impulses that rows have already are at the start: a guess, or in the velocities.
-enum class Start { guessed, applied };
+// What impulses that rows have already are at the start: a guess, in the velocities, or those of the step before.
+enum class Start { guessed, applied, kept };
+inline constexpr double keptShare = 0.95;  // of the impulses of the step before  // of the impulses of the step before
+                                           // // of the impulses of the step before
 
 // Changes the velocities (slots) [m/s], last 0, by the impulses. It ends after `sweeps`, or when a sweep changes no
 // velocity by `tolerance` [m/s]. Returns the number of sweeps.
@@ -86,7 +91,8 @@ struct Pack {
     Four impulse[4]{}, change[4]{}, direction[4]{};  // [N s]
     Four weights[4]{}, gains[4]{};
     Four mass{}, grip{}, closing{}, friction{}, softness{}, largestGain{};
-    int slots[4][4]{};  // lane, velocity
+    Four gap{}, base{};  // [m], [m/s] closing without it: see Sweeps::gone
+    int slots[4][4]{};   // lane, velocity
     bool hasLevers = false;
     Range turns[4]{}, shares[4]{};  // lane
     int rows[4]{};                  // lane; the number of rows where there is none
@@ -102,6 +108,29 @@ struct Sweeps {
     int most;
     double tolerance;  // [m/s]
     Start start;
+    // (slots) [m] What the velocities have come to since gaps were measured, and 1 over the length of the step [1/s];
+    // null: gaps do not count.
+    const Four* gone = nullptr;
+    double perSecond = 0;
+};
+
+// Rows that are swept in many steps. They keep their order, and the gaps from which they started: a row may close by
+// what is left of its gap within a step.
+class RowPacks {
+  public:
+    // gaps (rows) [m]: besides its `closing`, a row may close by what is left of it.
+    RowPacks(std::span<const Row> rows, std::span<const double> gaps, std::size_t slotCount, const Levers& levers);
+    // One step of h [s]. As projectedGaussSeidel(), from the impulses of the step before. gone (slots) [m]: since the
+    // gaps were measured.
+    void sweep(int sweeps, double tolerance, double h, std::span<Four> velocities, std::span<const Four> gone,
+               const Levers& levers);
+    // Gives the rows their impulses.
+    void read(std::span<Row> rows) const;
+
+  private:
+    std::vector<Pack> packs_;
+    std::vector<double> perRow_;
+    int rowCount_;
 };
 
 }  // namespace taut::contact

@@ -45,11 +45,11 @@ inline Vectors velocitiesOf(const Pack& pack, int k, const Four* velocities) {
 }
 
 // Adds what the rows see of the velocities of their levers.
-inline void addLevers(const Pack& pack, const Sweeps& batch, Vectors& sum) {
+inline void addLevers(const Pack& pack, const Sweeps& batch, const Four* velocities, Vectors& sum) {
     for (int lane = 0; lane < 4; ++lane) {
         for (int k = pack.turns[lane].first; k < pack.turns[lane].last; ++k) {
             const Turn& turn = batch.turns[k];
-            const double* spin = batch.velocities[turn.slot].of;
+            const double* spin = velocities[turn.slot].of;
             sum.x[lane] += spin[1] * turn.arm[2] - spin[2] * turn.arm[1];
             sum.y[lane] += spin[2] * turn.arm[0] - spin[0] * turn.arm[2];
             sum.z[lane] += spin[0] * turn.arm[1] - spin[1] * turn.arm[0];
@@ -57,7 +57,7 @@ inline void addLevers(const Pack& pack, const Sweeps& batch, Vectors& sum) {
         if (pack.shares[lane].isEmpty()) continue;
         Lanes own{};
         for (int k = pack.shares[lane].first; k < pack.shares[lane].last; ++k)
-            own += batch.shares[k].weight * load(batch.velocities[batch.shares[k].slot]);
+            own += batch.shares[k].weight * load(velocities[batch.shares[k].slot]);
         sum.x[lane] += own[0];
         sum.y[lane] += own[1];
         sum.z[lane] += own[2];
@@ -79,8 +79,7 @@ inline void pushLevers(const Pack& pack, int lane, const Lanes& impulse, const S
     }
 }
 
-inline Vectors relativeVelocity(const Pack& pack, const Sweeps& batch) {
-    const Four* velocities = batch.velocities;
+inline Vectors relativeVelocity(const Pack& pack, const Sweeps& batch, const Four* velocities) {
     Vectors sum;
     for (int k = 0; k < 4; ++k) {
         const Vectors own = velocitiesOf(pack, k, velocities);
@@ -88,7 +87,7 @@ inline Vectors relativeVelocity(const Pack& pack, const Sweeps& batch) {
         sum = k == 0 ? Vectors{weight * own.x, weight * own.y, weight * own.z}
                      : Vectors{sum.x + weight * own.x, sum.y + weight * own.y, sum.z + weight * own.z};
     }
-    if (pack.hasLevers) addLevers(pack, batch, sum);
+    if (pack.hasLevers) addLevers(pack, batch, velocities, sum);
     return sum;
 }
 
@@ -118,7 +117,7 @@ inline void apply(const Pack& pack, const Lanes (&impulse)[4], const Sweeps& bat
 // Solves the rows for the current velocities: first the normal impulse, then friction.
 inline void visit(Pack& pack, const Sweeps& batch) {
     const Lanes none{}, mass = load(pack.mass), grip = load(pack.grip), friction = load(pack.friction);
-    const Vectors normal = load(pack.normal), velocity = relativeVelocity(pack, batch);
+    const Vectors normal = load(pack.normal), velocity = relativeVelocity(pack, batch, batch.velocities);
     const Lanes before[4] = {load(pack.impulse[0]), load(pack.impulse[1]), load(pack.impulse[2]),
                              load(pack.impulse[3])};
     const Lanes parting = dot(normal, velocity);
@@ -154,13 +153,29 @@ inline void storePerRow(const Sweeps& batch, const Pack& pack, const Lanes& valu
 inline double slope(const Sweeps& batch, double share) {
     for (int p = 0; p < batch.packCount; ++p) {
         const Pack& pack = batch.packs[p];
-        const Vectors velocity = relativeVelocity(pack, batch);
+        const Vectors velocity = relativeVelocity(pack, batch, batch.velocities);
         const Lanes yielding = load(pack.closing) + load(pack.softness) * (share * load(pack.impulse[3]));
         storePerRow(
             batch, pack,
             load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + yielding) + dot(load(pack.impulse), velocity));
     }
     return sumOf(batch);
+}
+
+// Begins a step: what is left of the gaps, and a share of the impulses of the step before.
+inline void startStep(const Sweeps& batch) {
+    const Lanes none{};
+    for (int p = 0; p < batch.packCount; ++p) {
+        Pack& pack = batch.packs[p];
+        const Lanes gap = load(pack.gap) + dot(load(pack.normal), relativeVelocity(pack, batch, batch.gone));
+        store(pack.closing, load(pack.base) + (gap > none ? batch.perSecond * gap : none));
+        Lanes impulse[4];
+        for (int k = 0; k < 4; ++k) {
+            impulse[k] = keptShare * load(pack.impulse[k]);
+            store(pack.impulse[k], impulse[k]);
+        }
+        apply(pack, impulse, batch);
+    }
 }
 
 // Applies the impulses that the rows have, times what makes the energy least.
@@ -191,6 +206,7 @@ inline void start(const Sweeps& batch) {
 
 int sweep(const Sweeps& batch) {
     if (batch.start == Start::guessed) start(batch);
+    if (batch.start == Start::kept) startStep(batch);
     double squareBefore = 0;
     for (int sweep = 1;; ++sweep) {
         // A sweep. It records the largest squared change of a velocity [(m/s)²], and the squared changes of impulses

@@ -1,7 +1,7 @@
 // Narrow phase: measures the distance of each candidate pair that is due, and decides which pairs become constraints.
 //
 // Each task has some lists. It gathers their pairs that are due, measures them all at once (closest_kernel.h), and
-// classifies each. A pair is active if its gap is closed, or would close along its normal in this instant. Its feature
+// classifies each. A pair is active if its gap is closed, or would close along its normal in this block. Its feature
 // must also be the closest: in a sheet one point is close to several triangles and edges, and only the closest feature
 // of all pushes.
 #include <algorithm>
@@ -20,7 +20,10 @@ namespace taut::contact {
 namespace {
 
 constexpr int listsAtOnce = 16;
-constexpr double activeShare = 0.05;     // of the thickness: a gap below it is a contact
+constexpr double activeShare = 0.05;  // of the thickness: a gap below it is a contact
+constexpr double leastTurn = 1e-3;    // of thickness and distance: what goes by less does not turn
+constexpr double leastAlike = 0.5;    // cosine of the normals before and after
+constexpr double openWay = 2.0;       // times the way that is expected of several steps: springs and impulses change it
 constexpr double drivenSoftness = 0.01;  // of pairs with a driven surface: see solver.h
 constexpr double rounding = 1e-9;        // relative error of the list's sums of motion
 
@@ -171,6 +174,19 @@ bool ContactGroup::meetInside(const ContactConstraint& pair, std::int64_t where)
     return soft.isLine && share > 0 && share < 1;
 }
 
+// [m] Along the normal at x0 the gap closes as if both sides were flat. Where one turns past the other, as a point that
+// goes under an edge, they are less near at x1 than that.
+double ContactGroup::slackOf(const ContactConstraint& pair, const dvec3& way, std::span<const dvec3> x1) {
+    const double along = glm::dot(pair.normal, way), across = glm::dot(way, way) - along * along;
+    if (!(across > leastTurn * pair.thickness * pair.distance)) return 0;
+    Corners then;
+    for (std::size_t k = 0; k < 4; ++k) then[k] = x1[static_cast<std::size_t>(pair.points[k])];
+    const dvec3 apart = closestPoints(then, pair.isPoint).separation;
+    const double distance = length(apart);
+    if (!(glm::dot(apart, pair.normal) > leastAlike * distance)) return 0;  // beyond, or about to be
+    return std::max(0.0, distance - std::max(pair.distance + along, 0.0));
+}
+
 // Appends the pair if it is active, or close enough to need a certificate. mayPress: it may become active.
 void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
                             const NarrowPhaseScratch& scratch, bool mayPress,
@@ -186,7 +202,7 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     double& travelBudget = list.travelBudget[measured.pair];
     travelBudget = std::max(travelBudget, distance + list.travelledBefore - nearShare * candidate.thickness);
     limitListTo(list, travelBudget, list.approachBudget[measured.pair]);
-    // The leaves do not move enough in this instant to close the gap.
+    // The leaves do not move enough in this block to close the gap.
     const double motion = (1 + rounding) * list.relativeMotion;
     if (gap > std::max(activeShare * candidate.thickness, motion)) return;
     if (!mayPress && distance > motion + watchShare * candidate.thickness) return;
@@ -201,7 +217,8 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
         way += pair.weights[k] * (x1[i] - x0[i]);
     }
     const bool isClosed = gap < activeShare * pair.thickness;
-    const bool mayPush = mayPress && meetInside(pair, where) && (isClosed || gap + glm::dot(pair.normal, way) < 0);
+    const double closing = (block_.steps > 1 ? openWay : 1.0) * -glm::dot(pair.normal, way);
+    const bool mayPush = mayPress && meetInside(pair, where) && (isClosed || gap < closing);
     if (mayPush) pair.recovery = convexity(pair, where, x0);
     pair.isActive = mayPush && pair.recovery >= 0 && (isClosed || !misses(pair, x0, x1, 1.0 - activeShare));
 
@@ -212,6 +229,7 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     pair.friction = (a.isOfCollider() || b.isOfCollider() ? 1.0 : options_.friction) * a.friction * b.friction;
     pair.restitution = options_.restitution * a.restitution * b.restitution;
     if (a.isDriven || b.isDriven) pair.softness = drivenSoftness;
+    if (pair.isActive && block_.steps > 1) pair.slack = slackOf(pair, way, x1);
     if (a.thickness + b.thickness > 0) pair.firstShare = a.thickness / (a.thickness + b.thickness);
     pairs.push_back(pair);
 }

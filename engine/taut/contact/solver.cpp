@@ -19,11 +19,12 @@ constexpr std::size_t parallelRows = 64;   // fewer rows are solved on one threa
 constexpr std::size_t colouredPairs = 64;  // clusters with fewer keep the order of their pairs
 constexpr int mostColours = 64;
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
-constexpr int sweepsForSolids = 3;       // times as many
+constexpr int sweepsOfSolids = 60;       // of a step
+constexpr int sweepsOfShift = 20;        // of a position correction
 constexpr double settledNearRest = 0.1;  // times the change that ends sweeps
 constexpr double nearRest = 4.0;         // times the speed below which nothing bounces
 
-// Of the same contact in every instant.
+// Of the same contact in every block.
 std::uint64_t keyOf(const ContactConstraint& pair) {
     const std::uint64_t kind = pair.places ? 3 : pair.isPoint ? 1 : 2;
     return kind << 62U | static_cast<std::uint64_t>(pair.a) << 31U | static_cast<std::uint64_t>(pair.b);
@@ -50,8 +51,8 @@ const Solid* ContactSolver::solidOf(int point) const {
 bool ContactSolver::isTouched(const Solid& solid) const {
     return solid.moves && parent_[static_cast<std::size_t>(solid.points.front())] >= 0;
 }
-bool ContactSolver::isFixed(int point, const Problem& problem) const {
-    return !(problem.inverseMass[static_cast<std::size_t>(point)] > 0) && solidOf(point) == nullptr;
+bool ContactSolver::isFixed(int point) const {
+    return !(block_.inverseMass[static_cast<std::size_t>(point)] > 0) && solidOf(point) == nullptr;
 }
 int ContactSolver::leaderOf(int point) const {
     const Solid* solid = solidOf(point);
@@ -69,8 +70,8 @@ int ContactSolver::root(int point) {
 
 // Union-find over the points of pairs -> parent_, touched_. The root of a cluster is its lowest point. A fixed point
 // does not join its pairs to one cluster.
-void ContactSolver::joinPoints(const Problem& problem) {
-    const std::size_t pointCount = problem.u.size();
+void ContactSolver::joinPoints() {
+    const std::size_t pointCount = block_.x.size();
     if (parent_.size() != pointCount)
         parent_.assign(pointCount, -1);
     else
@@ -80,7 +81,7 @@ void ContactSolver::joinPoints(const Problem& problem) {
         carried_->forEachMover(point, [&](int mover, double) {
             const int i = leaderOf(mover);
             if (parent_[static_cast<std::size_t>(i)] < 0) parent_[static_cast<std::size_t>(i)] = i;
-            if (isFixed(i, problem)) return;
+            if (isFixed(i)) return;
             const int own = root(i);
             if (first < 0) {
                 first = own;
@@ -91,11 +92,11 @@ void ContactSolver::joinPoints(const Problem& problem) {
             first = low;
         });
     };
-    for (const ContactConstraint& pair : problem.pairs) {
+    for (const ContactConstraint& pair : block_.pairs) {
         int first = -1;
         for (int point : pair.points) join(point, first);
     }
-    for (const KinematicContact& contact : problem.kinematic) {
+    for (const KinematicContact& contact : block_.kinematic) {
         int first = -1;
         if (contact.isWhole) contact.forEachPoint([&](int point, double) { join(point, first); });
     }
@@ -107,61 +108,61 @@ void ContactSolver::joinPoints(const Problem& problem) {
         if (parent_[i] >= 0) touched_.push_back(static_cast<int>(i));
 }
 
-// Sorts the sources by cluster, and makes their rows -> rows_, clusters_, slots_, u_, v_, shift_.
-void ContactSolver::findClusters(const Problem& problem) {
-    joinPoints(problem);
-    slots_.resize(problem.u.size());
+// Sorts the sources by cluster, and makes their rows -> rows_, clusters_, slots_.
+void ContactSolver::findClusters() {
+    joinPoints();
+    slots_.resize(block_.x.size());
     u_.clear();
-    v_.clear();
+    moving_.clear();
+    fixed_.clear();
+    driven_.clear();
     for (int i : touched_) {
-        if (isFixed(i, problem) || solidOf(i) != nullptr) continue;
-        const auto k = static_cast<std::size_t>(i);
-        slots_[k] = addSlot(problem.u[k], problem.v[k]);
+        if (isFixed(i) || solidOf(i) != nullptr) continue;
+        const int slot = slots_[static_cast<std::size_t>(i)] = addSlot();
+        moving_.emplace_back(slot, i);
     }
-    loadSolids(problem);
+    takeSolids();
 
-    const int pairCount = static_cast<int>(problem.pairs.size());
+    const int pairCount = static_cast<int>(block_.pairs.size());
     order_.clear();
     // By what moves one of the points; nothing may.
     const auto addSource = [&](std::span<const int> points, int source) {
         int mover = -1;
         for (int point : points)
             carried_->forEachMover(point, [&](int i, double) {
-                if (mover < 0 && parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i, problem)) mover = i;
+                if (mover < 0 && parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i)) mover = i;
             });
         if (mover >= 0) order_.emplace_back(root(mover), source);
     };
-    for (int p = 0; p < pairCount; ++p) addSource(problem.pairs[static_cast<std::size_t>(p)].points, p);
-    for (std::size_t k = 0; k < problem.kinematic.size(); ++k)
-        addSource(problem.kinematic[k].used(), pairCount + static_cast<int>(k));
+    for (int p = 0; p < pairCount; ++p) addSource(block_.pairs[static_cast<std::size_t>(p)].points, p);
+    for (std::size_t k = 0; k < block_.kinematic.size(); ++k)
+        addSource(block_.kinematic[k].used(), pairCount + static_cast<int>(k));
     std::sort(order_.begin(), order_.end());
 
     rows_.clear();
     turns_.clear();
     shares_.clear();
     keys_.clear();
+    gaps_.clear();
+    bases_.clear();
     clusters_.clear();
     std::vector<int> sources, roots;
     for (std::size_t k = 0; k < order_.size();) {
-        Cluster cluster{rows_.size(), 0, 1e300, 0, {}};
+        Cluster cluster{rows_.size(), 0, 1e300, {}, {}};
         sources.clear();
         std::size_t next = k;
         for (; next < order_.size() && order_[next].first == order_[k].first; ++next) {
             const int source = order_[next].second;
             sources.push_back(source);
             const double thickness = source < pairCount
-                                         ? problem.pairs[static_cast<std::size_t>(source)].thickness
-                                         : problem.kinematic[static_cast<std::size_t>(source - pairCount)].thickness;
+                                         ? block_.pairs[static_cast<std::size_t>(source)].thickness
+                                         : block_.kinematic[static_cast<std::size_t>(source - pairCount)].thickness;
             if (thickness > 0) cluster.tolerance = std::min(cluster.tolerance, thickness);
         }
-        cluster.tolerance *= problem.options.settled / problem.h;
-        colour(sources, problem);
-        for (int source : sources) addRow(source, problem);
+        cluster.tolerance *= block_.options.settled / block_.h;
+        colour(sources);
+        for (int source : sources) addRow(source);
         cluster.last = rows_.size();
-        cluster.sweeps = problem.options.sweeps;
-        if (std::any_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first), rows_.end(),
-                        [](const Row& row) { return !row.turns.isEmpty(); }))
-            cluster.sweeps *= sweepsForSolids;
         clusters_.push_back(std::move(cluster));
         roots.push_back(order_[k].first);
         k = next;
@@ -169,27 +170,27 @@ void ContactSolver::findClusters(const Problem& problem) {
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         if (!isTouched(solids_[s])) continue;
         const auto at = std::lower_bound(roots.begin(), roots.end(), root(solids_[s].points.front()));
-        const core::RigidMotion& own = bodies_[s].u;
+        const core::RigidMotion& own = bodies_[s].start;
         clusters_[static_cast<std::size_t>(at - roots.begin())].solids.push_back(
             {bodies_[s].slot, own.mass, glm::inverse(own.inverseInertia)});
     }
-    // Sweeps are good enough for what moves, and for one alone. What sweeps leave of a pile at rest, it creeps by.
     for (Cluster& cluster : clusters_)
-        if (cluster.solids.size() < 2 || !isNearRest(cluster, problem))
-            cluster.solids.clear();
-        else
-            cluster.tolerance *= settledNearRest;
-    shift_.assign(u_.size(), Four{});
+        if (cluster.solids.empty())
+            cluster.packs.emplace(rowsOf(cluster),
+                                  std::span(gaps_).subspan(cluster.first, cluster.last - cluster.first), u_.size(),
+                                  levers());
+    v_.resize(u_.size());
+    gone_.assign(u_.size(), Four{});
 }
 
 // Whether its row may close its gap, and pushes out what overlaps; other contacts with colliders only hold.
-bool ContactSolver::isLikePair(const Row& row, const Problem& problem) {
-    const auto source = static_cast<std::size_t>(row.source), pairCount = problem.pairs.size();
-    return source < pairCount || problem.kinematic[source - pairCount].isWhole;
+bool ContactSolver::isLikePair(const Row& row) const {
+    const auto source = static_cast<std::size_t>(row.source), pairCount = block_.pairs.size();
+    return source < pairCount || block_.kinematic[source - pairCount].isWhole;
 }
 
-bool ContactSolver::isNearRest(const Cluster& cluster, const Problem& problem) const {
-    const double most = nearRest * problem.options.restSpeed;
+bool ContactSolver::isNearRest(const Cluster& cluster) const {
+    const double most = nearRest * block_.options.restSpeed;
     return std::none_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first),
                         rows_.begin() + static_cast<std::ptrdiff_t>(cluster.last), [&](const Row& row) {
                             const dvec3 velocity = relativeVelocity(row, u_, levers());
@@ -198,18 +199,18 @@ bool ContactSolver::isNearRest(const Cluster& cluster, const Problem& problem) c
 }
 
 // Sorts the pairs of a large cluster by colour. A pair gets the first colour that none of its points has yet.
-void ContactSolver::colour(std::span<int> sources, const Problem& problem) {
+void ContactSolver::colour(std::span<int> sources) {
     const auto pairs = static_cast<std::size_t>(
-        std::lower_bound(sources.begin(), sources.end(), static_cast<int>(problem.pairs.size())) - sources.begin());
+        std::lower_bound(sources.begin(), sources.end(), static_cast<int>(block_.pairs.size())) - sources.begin());
     if (pairs < colouredPairs) return;
-    taken_.assign(problem.u.size(), 0);
+    taken_.assign(block_.x.size(), 0);
     std::array<std::vector<int>, mostColours> colours;
     for (int source : sources.first(pairs)) {
         std::uint64_t used = 0;
-        const std::array<int, 4>& points = problem.pairs[static_cast<std::size_t>(source)].points;
+        const std::array<int, 4>& points = block_.pairs[static_cast<std::size_t>(source)].points;
         for (int point : points)
             carried_->forEachMover(point, [&](int i, double) {
-                if (!isFixed(i, problem)) used |= taken_[static_cast<std::size_t>(leaderOf(i))];
+                if (!isFixed(i)) used |= taken_[static_cast<std::size_t>(leaderOf(i))];
             });
         const int free = std::min(std::countr_one(used), mostColours - 1);  // the last one may share points
         colours[static_cast<std::size_t>(free)].push_back(source);
@@ -222,63 +223,103 @@ void ContactSolver::colour(std::span<int> sources, const Problem& problem) {
     for (const std::vector<int>& own : colours) to = std::copy(own.begin(), own.end(), to);
 }
 
-int ContactSolver::addSlot(const dvec3& u, const dvec3& v) {
-    u_.push_back(four(u));
-    v_.push_back(four(v));
+int ContactSolver::addSlot() {
+    u_.emplace_back();
     return static_cast<int>(u_.size()) - 1;
 }
 
-int ContactSolver::slotOf(int point, const Problem& problem) {
-    const auto k = static_cast<std::size_t>(point);
-    return isFixed(point, problem) ? addSlot(problem.u[k], problem.v[k]) : slots_[k];
+int ContactSolver::slotOf(int point) {
+    if (!isFixed(point)) return slots_[static_cast<std::size_t>(point)];
+    fixed_.emplace_back(addSlot(), point);
+    return fixed_.back().first;
 }
 
-// The motions of the solids that are touched -> bodies_, slots of their points.
-void ContactSolver::loadSolids(const Problem& problem) {
+// The solids that are touched -> bodies_, slots of their points.
+void ContactSolver::takeSolids() {
     bodies_.resize(solids_.size());
-    thread_local std::vector<dvec3> x, u, v;
+    thread_local std::vector<dvec3> x;
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const Solid& solid = solids_[s];
         if (!isTouched(solid)) continue;
         x.clear();
-        u.clear();
-        v.clear();
-        for (int i : solid.points) {
-            const auto k = static_cast<std::size_t>(i);
-            x.push_back(problem.x[k]);
-            u.push_back(problem.u[k]);
-            v.push_back(problem.v[k]);
-        }
+        for (int i : solid.points) x.push_back(block_.x[static_cast<std::size_t>(i)]);
         Body& body = bodies_[s];
-        body.u = core::rigidMotionOf(solid.masses, x, u);
-        body.v = core::rigidMotionOf(solid.masses, x, v);
-        body.slot = addSlot(body.u.velocity, body.v.velocity);
-        addSlot(body.u.spin, body.v.spin);
+        body.start = core::rigidMotionOf(solid.masses, x, x);
+        body.slot = addSlot();
+        addSlot();
         for (int i : solid.points) slots_[static_cast<std::size_t>(i)] = body.slot;
     }
 }
 
-// Their points get what the solids got.
-void ContactSolver::storeSolids(const Problem& problem) {
+// The motion of a step, before impulses -> u_, v_, gone_, bodies_.
+void ContactSolver::load(std::span<const dvec3> x, std::span<const dvec3> u, std::span<const dvec3> v) {
+    const auto set = [&](int slot, const dvec3& ofU, const dvec3& ofV, const dvec3& gone) {
+        const auto k = static_cast<std::size_t>(slot);
+        u_[k] = four(ofU);
+        v_[k] = four(ofV);
+        gone_[k] = four(gone);
+    };
+    for (const auto* points : {&moving_, &fixed_})
+        for (const auto& [slot, point] : *points) {
+            const auto i = static_cast<std::size_t>(point);
+            set(slot, u[i], v[i], x[i] - block_.x[i]);
+        }
+    for (const auto& [slot, velocity] : driven_)
+        set(slot, velocity, velocity, vectorOf(gone_[static_cast<std::size_t>(slot)]));
+    thread_local std::vector<dvec3> places, ofU, ofV;
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const Solid& solid = solids_[s];
         if (!isTouched(solid)) continue;
-        const Body& body = bodies_[s];
-        const auto at = [&](const std::vector<Four>& field, int more) {
-            return vectorOf(field[static_cast<std::size_t>(body.slot + more)]);
-        };
+        places.clear();
+        ofU.clear();
+        ofV.clear();
         for (int i : solid.points) {
             const auto k = static_cast<std::size_t>(i);
-            const dvec3 arm = problem.x[k] - body.u.centre;
-            problem.u[k] += (at(u_, 0) - body.u.velocity) + glm::cross(at(u_, 1) - body.u.spin, arm);
-            problem.v[k] += (at(v_, 0) - body.v.velocity) + glm::cross(at(v_, 1) - body.v.spin, arm);
-            problem.shift[k] = at(shift_, 0) + glm::cross(at(shift_, 1), arm);
+            places.push_back(x[k]);
+            ofU.push_back(u[k]);
+            ofV.push_back(v[k]);
         }
+        Body& body = bodies_[s];
+        body.u = core::rigidMotionOf(solid.masses, places, ofU);
+        body.v = core::rigidMotionOf(solid.masses, places, ofV);
+        set(body.slot, body.u.velocity, body.v.velocity, body.u.centre - body.start.centre);
+        set(body.slot + 1, body.u.spin, body.v.spin, vectorOf(gone_[static_cast<std::size_t>(body.slot) + 1]));
+    }
+}
+
+// Gives points, and those of solids, what sweeps and bounces have changed.
+void ContactSolver::store(std::span<const dvec3> x, std::span<dvec3> u, std::span<dvec3> v) {
+    const auto at = [](const std::vector<Four>& field, int slot) {
+        return vectorOf(field[static_cast<std::size_t>(slot)]);
+    };
+    const auto storedAt = [&](int slot) { return at(v_, slot) + (at(u_, slot) - at(before_, slot)); };
+    for (const auto& [slot, point] : moving_) {
+        const auto i = static_cast<std::size_t>(point);
+        u[i] = at(u_, slot);
+        v[i] = storedAt(slot);
+    }
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        if (!isTouched(solids_[s])) continue;
+        const auto& [start, ofU, ofV, slot] = bodies_[s];
+        const dvec3 u0 = at(u_, slot) - ofU.velocity, u1 = at(u_, slot + 1) - ofU.spin;
+        const dvec3 v0 = storedAt(slot) - ofV.velocity, v1 = storedAt(slot + 1) - ofV.spin;
+        for (int i : solids_[s].points) {
+            const auto k = static_cast<std::size_t>(i);
+            const dvec3 arm = x[k] - ofU.centre;
+            u[k] += u0 + glm::cross(u1, arm);
+            v[k] += v0 + glm::cross(v1, arm);
+        }
+        Four& turned = gone_[static_cast<std::size_t>(slot) + 1];
+        turned = four(vectorOf(turned) + block_.h * at(u_, slot + 1));
+    }
+    for (const auto& [slot, velocity] : driven_) {
+        Four& gone = gone_[static_cast<std::size_t>(slot)];
+        gone = four(vectorOf(gone) + block_.h * velocity);
     }
 }
 
 // What a row has of a point, at the place where its impulse acts [m] -> terms_, solidTerms_.
-void ContactSolver::addTerm(int point, double weight, const dvec3& place, const Problem& problem) {
+void ContactSolver::addTerm(int point, double weight, const dvec3& place) {
     carried_->forEachMover(
         point,
         [&](int i, double share) {
@@ -290,18 +331,18 @@ void ContactSolver::addTerm(int point, double weight, const dvec3& place, const 
                     [&](const SolidTerm& other) { return other.body == &body; });
                 if (at == solidTerms_.end()) at = solidTerms_.insert(at, SolidTerm{&body});
                 at->weight += own;
-                at->arm += own * (place - body.u.centre);
-                terms_.push_back({slotOf(i, problem), own, 1.0 / body.u.mass, &body});
+                at->arm += own * (place - body.start.centre);
+                terms_.push_back({slotOf(i), own, 1.0 / body.start.mass, &body});
                 return;
             }
-            const int slot = slotOf(i, problem);
+            const int slot = slotOf(i);
             if (i != point)  // several points of a row may go with the same
                 for (Term& other : terms_)
                     if (other.slot == slot) {
                         other.weight += own;
                         return;
                     }
-            terms_.push_back({slot, own, problem.inverseMass[static_cast<std::size_t>(i)]});
+            terms_.push_back({slot, own, block_.inverseMass[static_cast<std::size_t>(i)]});
         });
 }
 
@@ -328,7 +369,7 @@ void ContactSolver::putTerms(Row& row) {
         turn.slot = term.body->slot + 1;
         for (int i = 0; i < 3; ++i) {
             turn.arm[i] = term.arm[i];
-            for (int j = 0; j < 3; ++j) turn.gain[3 * i + j] = term.body->u.inverseInertia[j][i];
+            for (int j = 0; j < 3; ++j) turn.gain[3 * i + j] = term.body->start.inverseInertia[j][i];
         }
     }
     row.turns.last = static_cast<int>(turns_.size());
@@ -342,8 +383,8 @@ void ContactSolver::weigh(Row& row) const {
     for (const SolidTerm& term : solidTerms_) {
         const dvec3& arm = term.arm;
         const dmat3 across(0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0);  // arm × p
-        inverse += dmat3(term.weight * term.weight / term.body->u.mass);
-        inverse -= across * term.body->u.inverseInertia * across;
+        inverse += dmat3(term.weight * term.weight / term.body->start.mass);
+        inverse -= across * term.body->start.inverseInertia * across;
     }
     const dvec3 normal = vectorOf(row.normal), t = acrossOf(normal), b = glm::cross(normal, t);
     const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
@@ -353,26 +394,18 @@ void ContactSolver::weigh(Row& row) const {
     row.largestGain = std::max(1.0 / row.mass, 1.0 / row.grip);
 }
 
-// Appends the row of a pair, or of a contact with a collider. It starts with what it had in the last instant.
-void ContactSolver::addRow(int source, const Problem& problem) {
+// Appends the row of a pair, or of a contact with a collider. It starts with what it had in the last block.
+void ContactSolver::addRow(int source) {
     Row& row = rows_.emplace_back();
     row.source = source;
     terms_.clear();
     solidTerms_.clear();
-    const auto placeOf = [&](int point) {  // needed where there are solids
-        return problem.x.empty() ? dvec3(0.0) : problem.x[static_cast<std::size_t>(point)];
-    };
-    const std::size_t pairCount = problem.pairs.size();
+    const auto placeOf = [&](int point) { return block_.x[static_cast<std::size_t>(point)]; };
+    const std::size_t pairCount = block_.pairs.size();
     std::uint64_t key;
-    double softness = 0;
-    // [m/s] Gaps that a solid would fall through from rest count as closed, so that a pile rests on the same places in
-    // every instant.
-    const auto closingOf = [&](double gap) {
-        const double slop = solidTerms_.empty() ? 0.0 : 0.5 * problem.options.restSpeed * problem.h;
-        return std::max(gap - slop, 0.0) / problem.h;
-    };
+    double softness = 0, gap = 0;
     if (const auto own = static_cast<std::size_t>(source); own < pairCount) {
-        const ContactConstraint& pair = problem.pairs[own];
+        const ContactConstraint& pair = block_.pairs[own];
         key = keyOf(pair);
         row.normal = four(pair.normal);
         row.friction = pair.friction;
@@ -384,24 +417,25 @@ void ContactSolver::addRow(int source, const Problem& problem) {
             const double way = (isFirst ? -pair.firstShare : 1.0 - pair.firstShare) * pair.distance;
             const dvec3 place =
                 pair.places ? (*pair.places)[isFirst ? 0 : 1] : placeOf(pair.points[i]) + way * pair.normal;
-            addTerm(pair.points[i], pair.weights[i], place, problem);
+            addTerm(pair.points[i], pair.weights[i], place);
         }
-        row.closing = closingOf(pair.gap());
+        gap = pair.gap() + pair.slack;
     } else {
         const std::size_t k = own - pairCount;
-        const KinematicContact& contact = problem.kinematic[k];
+        const KinematicContact& contact = block_.kinematic[k];
         int number = 0;
         while (static_cast<std::size_t>(number) < k &&
-               problem.kinematic[k - static_cast<std::size_t>(number) - 1].point() == contact.point())
+               block_.kinematic[k - static_cast<std::size_t>(number) - 1].point() == contact.point())
             ++number;
         key = keyOf(contact, number);
         row.normal = four(contact.normal);
         row.friction = contact.friction;
         const dvec3 place = placeOf(contact.point()) + contact.arm;
-        contact.forEachPoint([&](int point, double weight) { addTerm(point, weight, place, problem); });
+        contact.forEachPoint([&](int point, double weight) { addTerm(point, weight, place); });
         row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
-        if (contact.isWhole) row.closing += closingOf(contact.gap);
-        terms_.push_back({addSlot(contact.carried, contact.carried), -1.0, 0.0});
+        if (contact.isWhole) gap = contact.gap;
+        driven_.emplace_back(addSlot(), contact.carried);
+        terms_.push_back({driven_.back().first, -1.0, 0.0});
     }
     putTerms(row);
     double inverse = 0;
@@ -411,6 +445,8 @@ void ContactSolver::addRow(int source, const Problem& problem) {
     if (!solidTerms_.empty()) weigh(row);
 
     keys_.push_back(key);
+    gaps_.push_back(gap);
+    bases_.push_back(row.closing);
     const auto last = std::lower_bound(last_.begin(), last_.end(), key,
                                        [](const LastImpulse& l, std::uint64_t wanted) { return l.key < wanted; });
     if (last == last_.end() || last->key != key) return;
@@ -421,29 +457,37 @@ void ContactSolver::addRow(int source, const Problem& problem) {
     row.impulse = {{friction.x, friction.y, friction.z, last->impulse.of[3]}};
 }
 
-// Sweeps; what they do not settle soon of solids near rest, all at once, and sweeps for what that leaves. Returns the
-// number of sweeps.
-int ContactSolver::solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance,
-                             std::span<Four> velocities) const {
-    if (cluster.solids.empty()) return projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, levers());
-    constexpr int fewSweeps = 16;
-    const int first = projectedGaussSeidel(rows, fewSweeps, tolerance, velocities, levers());
-    if (first < fewSweeps) return first;
-    stepRigidly(rows, cluster.solids, levers(), tolerance, velocities);
-    return first + projectedGaussSeidel(rows, cluster.sweeps, tolerance, velocities, levers(), Start::applied);
+// [m] The gap of a row before this step.
+double ContactSolver::gapNow(std::size_t row) const {
+    const Row& own = rows_[row];
+    return gaps_[row] + glm::dot(vectorOf(own.normal), relativeVelocity(own, gone_, levers()));
 }
 
-// Solves v by the same rule, for the rows that got an impulse.
-void ContactSolver::solveStored(std::span<const Row> all, const Cluster& cluster, const Problem& problem) {
-    thread_local std::vector<Row> rows;
-    rows.clear();
-    for (const Row& row : all) {
-        const bool isResolved = isLikePair(row, problem);
-        if (isResolved && !(row.impulse.of[3] > 0)) continue;
-        Row& own = rows.emplace_back(row);
-        if (isResolved) own.closing = std::max(own.closing, 0.0);
+void ContactSolver::sweep(Cluster& cluster) {
+    if (!cluster.packs) return sweepSolids(cluster);
+    const int most = step_ == 0 ? block_.options.sweeps : block_.options.moreSweeps;
+    cluster.packs->sweep(most, cluster.tolerance, block_.h, u_, gone_, levers());
+    cluster.packs->read(rowsOf(cluster));
+}
+
+// Sweeps; what they do not settle soon of solids near rest, all at once, and sweeps for what that leaves.
+void ContactSolver::sweepSolids(const Cluster& cluster) {
+    constexpr int fewSweeps = 16;
+    const std::span<Row> rows = rowsOf(cluster);
+    // Gaps that a solid would fall through from rest count as closed.
+    const double slop = 0.5 * block_.options.restSpeed * block_.seconds();
+    for (std::size_t r = cluster.first; r < cluster.last; ++r) {
+        Row& row = rows_[r];
+        row.closing = bases_[r];
+        if (isLikePair(row)) row.closing += std::max(gapNow(r) - (row.turns.isEmpty() ? 0.0 : slop), 0.0) / block_.h;
     }
-    solveRows(rows, cluster, cluster.tolerance, v_);
+    // Sweeps are good enough for what moves, and for one alone. What sweeps leave of a pile at rest, it creeps by.
+    const bool isPile = cluster.solids.size() > 1 && isNearRest(cluster);
+    const double tolerance = (isPile ? settledNearRest : 1.0) * cluster.tolerance;
+    const int first = projectedGaussSeidel(rows, isPile ? fewSweeps : sweepsOfSolids, tolerance, u_, levers());
+    if (!isPile || first < fewSweeps) return;
+    stepRigidly(rows, cluster.solids, levers(), tolerance, u_);
+    projectedGaussSeidel(rows, sweepsOfSolids, tolerance, u_, levers(), Start::applied);
 }
 
 // Whether two rows are between the same bodies that turn, so that they bounce as one impact.
@@ -464,33 +508,35 @@ bool ContactSolver::areOfOneImpact(const Row& a, const Row& b) const {
 // would be answered with energy of its own, where the impact turns a body. The impulses are added to those that the
 // rows get.
 //
-//       the gap closes      now         Sides that close by c meet s before the end of the instant. Until then they use
+//       the gap closes      now         Sides that close by c meet s before the end of the step. Until then they use
 //     |-------- h - s ------|--- s ---| up the gap, then they part by e c. Forces, which change u to v by d along the
-//     instant before                    normal, act on until v: for h/2 + s under leap-frog, and before that on c.
-void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, std::span<double> sizes) {
+//     step before                       normal, act on until v: for h/2 + s under leap-frog, and before that on c.
+void ContactSolver::bounce(const Cluster& cluster) {
+    const std::span<const Row> rows = rowsOf(cluster);
+    const std::span<double> sizes = std::span(bounces_).subspan(cluster.first, rows.size());
     thread_local std::vector<Bouncing> all;
     all.clear();
-    const std::size_t pairCount = problem.pairs.size();
+    const std::size_t pairCount = block_.pairs.size();
     for (const Row& row : rows) {
         const auto source = static_cast<std::size_t>(row.source);
         const bool isPair = source < pairCount;
-        const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - pairCount];
-        const double restitution = isPair ? problem.pairs[source].restitution : contact->restitution;
-        if (!(restitution > 0) || !isLikePair(row, problem)) continue;
-        const double gap = std::max(isPair ? problem.pairs[source].gap() : contact->gap, 0.0);
+        const KinematicContact* contact = isPair ? nullptr : &block_.kinematic[source - pairCount];
+        const double restitution = isPair ? block_.pairs[source].restitution : contact->restitution;
+        if (!(restitution > 0) || !isLikePair(row)) continue;
+        const double gap = std::max(gapNow(static_cast<std::size_t>(&row - rows_.data())), 0.0);
         const auto closingIn = [&](std::span<const Four> velocities) {
             return -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, levers()));
         };
         all.push_back({&row, restitution, gap, closingIn(v_) - closingIn(u_), 0.0});
     }
-    const double h = problem.h;
+    const double h = block_.h;
     // Until the sides meet [s]; they part by e c then.
     const auto untilMet = [h](const Bouncing& own, double closing) { return std::min(own.gap / closing, h); };
-    bounceIn(u_, all, rows, problem, {}, [&](const Bouncing& own) {
+    bounceIn(u_, all, rows, {}, [&](const Bouncing& own) {
         const double before = untilMet(own, own.closing);
         return (before - own.restitution * (h - before)) * own.closing / h;
     });
-    bounceIn(v_, all, rows, problem, sizes, [&](const Bouncing& own) {
+    bounceIn(v_, all, rows, sizes, [&](const Bouncing& own) {
         const double then = own.closing - own.drift;  // of u
         const double before = then > 0 ? untilMet(own, then) : h;
         const double change = own.drift * (1.5 - before / h);
@@ -500,8 +546,7 @@ void ContactSolver::bounce(std::span<const Row> rows, const Problem& problem, st
 
 // target(row): how fast it may close afterwards [m/s].
 void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& all, std::span<const Row> rows,
-                             const Problem& problem, std::span<double> sizes,
-                             const std::function<double(const Bouncing&)>& target) const {
+                             std::span<double> sizes, const std::function<double(const Bouncing&)>& target) const {
     constexpr std::size_t mostEach = 50;  // impacts of a row, on average
     constexpr int mostSweeps = 200;
     constexpr double exactly = 1e-9;  // of the speed
@@ -514,8 +559,9 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
         for (int slot : row.slots) each(static_cast<std::size_t>(slot));
         for (const Share& share : row.shares.of(levers().shares)) each(static_cast<std::size_t>(share.slot));
     };
+    constexpr double rounding = 1e-9;  // what meets at the end of a step, meets in it with all its corners
     const auto closes = [&](const Bouncing& own) {
-        return own.closing > problem.options.restSpeed && own.gap < own.closing * problem.h;
+        return own.closing > block_.options.restSpeed && own.gap < (1 + rounding) * own.closing * block_.h;
     };
     std::vector<Row> impact;
     std::vector<const Row*> own;
@@ -556,19 +602,17 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
 
 // Solves 0 <= multiplier  ⊥  n·shift - target >= 0, for the pairs that overlap or have an impulse. Pairs that do not
 // overlap have the target 0, so that a correction does not press them together, nor into colliders.
-void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cluster, const Problem& problem) {
+void ContactSolver::correctPositions(const Cluster& cluster) {
     thread_local std::vector<Row> rows;
     rows.clear();
     bool overlaps = false;
-    for (const Row& row : all) {
+    for (std::size_t r = cluster.first; r < cluster.last; ++r) {
+        const Row& row = rows_[r];
         double target = 0;
-        const auto source = static_cast<std::size_t>(row.source);
-        const bool isPair = source < problem.pairs.size();
-        if (isLikePair(row, problem)) {
-            const KinematicContact* contact = isPair ? nullptr : &problem.kinematic[source - problem.pairs.size()];
-            const double gap = isPair ? problem.pairs[source].gap() : contact->gap;
-            const double recovery = problem.options.recovery * (isPair ? problem.pairs[source].recovery : 1.0);
-            if (gap < 0) target = std::min(-recovery * gap, fastestOut * problem.h);
+        if (isLikePair(row)) {
+            const auto source = static_cast<std::size_t>(row.source);
+            const double gap = gapNow(r), share = source < block_.pairs.size() ? block_.pairs[source].recovery : 1.0;
+            if (gap < 0) target = std::min(-block_.options.recovery * share * gap, fastestOut * block_.seconds());
             if (!(target > 0) && !(row.impulse.of[3] > 0)) continue;
         }
         overlaps = overlaps || target > 0;
@@ -577,79 +621,70 @@ void ContactSolver::correctPositions(std::span<const Row> all, const Cluster& cl
         own.friction = 0;
         own.closing = -target;
     }
-    if (overlaps) projectedGaussSeidel(rows, cluster.sweeps, cluster.tolerance * problem.h, shift_, levers());
+    if (overlaps)
+        projectedGaussSeidel(rows, cluster.packs ? sweepsOfShift : sweepsOfSolids, cluster.tolerance * block_.h, v_,
+                             levers());
 }
 
-// Solves u, then v and the position correction. Both need the impulses of u, but not each other. Returns the number of
-// sweeps for u.
-int ContactSolver::solveCluster(const Cluster& cluster, const Problem& problem) {
-    const std::span<Row> rows(rows_.data() + cluster.first, cluster.last - cluster.first);
-    if (!bounces_.empty()) bounce(rows, problem, std::span(bounces_).subspan(cluster.first, rows.size()));
-    const int sweeps = solveRows(rows, cluster, cluster.tolerance, u_);
-    if (rows.size() < parallelRows) {
-        correctPositions(rows, cluster, problem);
-        solveStored(rows, cluster, problem);
-    } else {
-        core::parallelFor(
-            2,
-            [&](int which) {
-                which == 0 ? correctPositions(rows, cluster, problem) : solveStored(rows, cluster, problem);
-            });
-    }
-    return sweeps;
-}
-
-// Keeps the impulses for the next instant -> last_, impulses_.
-void ContactSolver::remember(std::size_t sourceCount) {
+// Keeps the impulses for the next block -> last_.
+void ContactSolver::remember() {
     last_.clear();
-    impulses_.assign(sourceCount, 0.0);
-    frictions_.assign(sourceCount, dvec3(0.0));
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-        const Row& row = rows_[r];
-        const auto source = static_cast<std::size_t>(row.source);
-        if (!bounces_.empty()) impulses_[source] += bounces_[r];
-        if (!(row.impulse.of[3] > 0)) continue;
-        last_.push_back({keys_[r], row.impulse});
-        impulses_[source] += row.impulse.of[3];
-        frictions_[source] = vectorOf(row.impulse);
-    }
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (rows_[r].impulse.of[3] > 0) last_.push_back({keys_[r], rows_[r].impulse});
     std::sort(last_.begin(), last_.end(), [](const LastImpulse& a, const LastImpulse& b) { return a.key < b.key; });
 }
 
-void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
-                          std::span<const double> inverseMass, double h, const SolverOptions& options,
-                          std::span<dvec3> u, std::span<dvec3> v, std::span<dvec3> shift, std::span<const dvec3> x) {
-    const Problem problem{pairs, kinematic, inverseMass, h, options, x, u, v, shift};
-    findClusters(problem);
-
-    const bool anyBounces =
-        std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.restitution > 0; }) ||
-        std::any_of(kinematic.begin(), kinematic.end(), [](const auto& contact) { return contact.restitution > 0; });
-    bounces_.assign(anyBounces ? rows_.size() : 0, 0.0);
-
-    // No two clusters share a slot, so they can be solved in parallel.
-    const int count = clusters();
-    std::vector<int> sweeps(static_cast<std::size_t>(count), 0);
-    const auto solveOne = [&](int c) {
-        const auto k = static_cast<std::size_t>(c);
-        sweeps[k] = solveCluster(clusters_[k], problem);
-    };
-    if (rows_.size() < parallelRows)
-        for (int c = 0; c < count; ++c) solveOne(c);
-    else
-        core::parallelFor(count, solveOne);
-
-    mostSweeps_ = 0;
-    for (int own : sweeps) mostSweeps_ = std::max(mostSweeps_, own);
-    storeSolids(problem);
-    for (int i : touched_) {
-        if (isFixed(i, problem) || solidOf(i) != nullptr) continue;
-        const auto k = static_cast<std::size_t>(i), slot = static_cast<std::size_t>(slots_[k]);
-        u[k] = vectorOf(u_[slot]);
-        v[k] = vectorOf(v_[slot]);
-        shift[k] = vectorOf(shift_[slot]);
+void ContactSolver::tellImpulses() {
+    impulses_.assign(block_.pairs.size() + block_.kinematic.size(), 0.0);
+    frictions_.assign(impulses_.size(), dvec3(0.0));
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        const Row& row = rows_[r];
+        const auto source = static_cast<std::size_t>(row.source);
+        impulses_[source] += bounces_[r];
+        if (!(row.impulse.of[3] > 0)) continue;
+        impulses_[source] += row.impulse.of[3];
+        frictions_[source] = vectorOf(row.impulse);
     }
-    remember(pairs.size() + kinematic.size());
+}
+
+void ContactSolver::begin(const SolverBlock& block) {
+    block_ = block;
+    step_ = 0;
+    findClusters();
+    const auto bounces = [](const auto& contact) { return contact.restitution > 0; };
+    anyBounces_ = std::any_of(block.pairs.begin(), block.pairs.end(), bounces) ||
+                  std::any_of(block.kinematic.begin(), block.kinematic.end(), bounces);
+}
+
+// Calls each(cluster). No two share a slot, so they can go in parallel.
+template <class Each>
+void ContactSolver::forEachCluster(const Each& each) {
+    const int count = clusters();
+    const auto one = [&](int c) { each(clusters_[static_cast<std::size_t>(c)]); };
+    if (rows_.size() < parallelRows)
+        for (int c = 0; c < count; ++c) one(c);
+    else
+        core::parallelFor(count, one);
+}
+
+void ContactSolver::step(std::span<const dvec3> x, std::span<dvec3> u, std::span<dvec3> v) {
+    load(x, u, v);
+    bounces_.assign(rows_.size(), 0.0);
+    if (anyBounces_) forEachCluster([&](Cluster& cluster) { bounce(cluster); });
+    before_ = u_;
+    forEachCluster([&](Cluster& cluster) { sweep(cluster); });
+    store(x, u, v);
+    tellImpulses();
+    ++step_;
+}
+
+void ContactSolver::end(std::span<const dvec3> x, std::span<dvec3> shift) {
+    load(x, shift, shift);
+    v_.assign(v_.size(), Four{});
+    forEachCluster([&](const Cluster& cluster) { correctPositions(cluster); });
+    before_ = u_;
+    store(x, shift, shift);
+    remember();
 }
 
 }  // namespace taut::contact

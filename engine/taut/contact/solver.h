@@ -1,34 +1,34 @@
-// Contact solver: impulses λ [N s] that keep the active pairs apart, with Coulomb friction, cluster by cluster.
+// Contact solver: impulses λ [N s] that keep the active pairs apart, with Coulomb friction, cluster by cluster. Rows
+// are made once for a block of steps, and swept in each of them, between forces and drift:
 //
-//     0 <= λ  ⊥  n·Σ w u + max(g, 0) / h >= 0        u  mean velocity of a point in the instant, (x1 - x0) / h
-//                                                    g  gap at x0: distance - thickness; h length of the instant
+//     0 <= λ  ⊥  n·Σ w u + max(g, 0) / h >= 0        u  mean velocity of a point in the step, (x1 - x0) / h
+//                                                    g  gap before the step, carried on along the normal of the row
 //
 // Complementarity: either the pair may still approach and has no impulse, or it pushes and uses up exactly its gap.
 // That is the optimality condition of
 //
 //     E(λ) = ½ λᵀ A λ + λᵀ (W u0 + g⁺/h),  λ >= 0,       A = W M⁻¹ Wᵀ,  u = u0 + M⁻¹ Wᵀ λ
 //
-// Energy. Projected Gauss-Seidel visits one λ after the other and minimises E over it, so E only descends from 0.
-// The kinetic energy is ½ u0ᵀMu0 + E(λ) - λᵀ g⁺/h, and the last term only lowers it. So contact without restitution
-// adds none, converged or not. Between sweeps gauss_seidel.h extrapolates, which may raise E; but a sweep is always
-// last.
+// Energy. Projected Gauss-Seidel visits one λ after the other and minimises E over it, so E only descends. The kinetic
+// energy is ½ u0ᵀMu0 + E(λ) - λᵀ g⁺/h, and the last term only lowers it. Under leap-frog u is what the integrator
+// stores, and the impulses are one more force of the step's kick: nothing is pumped into springs, however stiff. For
+// other methods the stored velocity is changed as u is.
 //
-// Two velocity fields. u decides where points are, v is what the integrator stores: leap-frog has it half a step later,
-// and the mean velocity of an accelerated point is not the one at its end. Impulses that are right for u would make v
-// bounce, and the other way round. So u is solved first, for all pairs; then v by the same rule, for the pairs that
-// got an impulse.
+// Few sweeps a step are enough for what has springs, as each step starts from 0.95 of the impulses of the one before:
+// all of them would make the impulses swing about what presses (a pile then trembles by 50 um; it is 15 um). Solids
+// have no springs that take up what is left: they get sweeps until those change nothing, and several near rest are
+// solved all at once (rigid_step.h).
 //
-// Position correction. A pair that overlaps at x0 (g < 0) is moved apart by a share of the overlap, as a shift of
-// places. The shift is no velocity, so it adds no energy of motion (split impulses, as in Bullet).
+// Position correction, once a block. A pair that overlaps (g < 0) is moved apart by a share of the overlap, as a shift
+// of places. The shift is no velocity, so it adds no energy of motion (split impulses, as in Bullet).
 //
 // Clusters are sets of pairs that share movable points. They are solved in parallel, each in the order of its pairs:
 // the bits do not depend on threads. Large clusters are coloured: rows of one colour share no velocity
 // (gauss_seidel.h).
 //
 // Solids. Points of a rigid body have its two velocities, of the centre and the spin. An impulse acts where the sides
-// meet, a thickness off the points, so that balls roll. Its points get what the body got. Several near rest that some
-// sweeps do not settle are solved all at once (rigid_step.h). Gaps through which one would fall from rest in an instant
-// count as closed, so that a pile rests on the same places in every instant, with the same impulses.
+// meet, a thickness off the points, so that balls roll. Its points get what the body got. Gaps through which one would
+// fall from rest in a block count as closed, so that a pile rests on the same places in every block.
 //
 // Carried points have no velocity of their own: rows know those of their movers, of which one may be in several places.
 //
@@ -38,14 +38,15 @@
 // Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft:
 // they yield by a hundredth of the velocity that they take, which the position correction makes up for.
 //
-// The impulses of the last instant are where the next one starts, as most contacts last longer than an instant. They
-// are forgotten as a tick begins, so that what outlives a tick is the state of the islands alone.
+// The impulses of the last block are where the next one starts, as most contacts last longer than a block. They are
+// forgotten as a tick begins, so that what outlives a tick is the state of the islands alone.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -59,9 +60,10 @@
 namespace taut::contact {
 
 struct SolverOptions {
-    int sweeps = 20;         // at most
-    double settled = 1e-5;   // sweeps end when they change less than this share of the thickness per instant [-]
-    double recovery = 0.2;   // share of an overlap that is corrected in an instant [-]
+    int sweeps = 20;         // of the first step of a block, at most; of what has no solids
+    int moreSweeps = 4;      // of each of the other steps
+    double settled = 1e-5;   // sweeps end when they change less than this share of the thickness per step [-]
+    double recovery = 0.2;   // share of an overlap that is corrected in a block [-]
     double restSpeed = 0.0;  // [m/s] what closes slower does not bounce
 };
 
@@ -96,18 +98,31 @@ struct KinematicContact {
     }
 };
 
+// What a block of steps is, as it begins. Its spans have to last until it ends.
+struct SolverBlock {
+    std::span<const ContactConstraint> pairs;
+    std::span<const KinematicContact> kinematic;  // ascending by point
+    std::span<const double> inverseMass;          // (points) [1/kg]
+    std::span<const dvec3> x;                     // (points) [m]
+    double h = 0;                                 // [s] of a step
+    int steps = 1;
+    SolverOptions options{};
+    double seconds() const { return steps * h; }
+};
+
 class ContactSolver {
   public:
-    // Changes u and v (points) [m/s] by the impulses. shift (points) [m] gets the position correction; expects 0. h
-    // [s]: length of the instant. kinematic: ascending by point. x (points) [m]: at x0, needed where there are solids.
-    void solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
-               std::span<const double> inverseMass, double h, const SolverOptions& options, std::span<dvec3> u,
-               std::span<dvec3> v, std::span<dvec3> shift, std::span<const dvec3> x = {});
+    // Makes the rows of a block.
+    void begin(const SolverBlock& block);
+    // Changes u and v (points) [m/s] of a step that starts at x (points) [m] by the impulses.
+    void step(std::span<const dvec3> x, std::span<dvec3> u, std::span<dvec3> v);
+    // Ends the block, where points are at x. shift (points) [m] gets the position correction; expects 0.
+    void end(std::span<const dvec3> x, std::span<dvec3> shift);
     // Which points keep their distances. Keeps the span.
     void setSolids(std::span<const Solid> solids, std::size_t pointCount);
     // Which go with others. u, v and shift of these stay: their movers' change. Keeps a reference.
     void setCarried(const CarriedPoints& carried) { carried_ = &carried; }
-    // The next instant does not follow on the last.
+    // The next block does not follow on the last.
     void forget() { last_.clear(); }
     // Nothing presses.
     void clear() {
@@ -115,34 +130,25 @@ class ContactSolver {
         frictions_.clear();
     }
 
-    // After solve().
+    // After begin().
     std::span<const int> points() const { return touched_; }  // that pairs move, and of their solids, ascending
+    int clusters() const { return static_cast<int>(clusters_.size()); }
+    // After step().
     // (pairs, then contacts with colliders) [N s] along the normal, and tangential, on the first side or the point.
     std::span<const double> impulses() const { return impulses_; }
     std::span<const dvec3> frictions() const { return frictions_; }
-    int sweeps() const { return mostSweeps_; }  // of the cluster that took most
-    int clusters() const { return static_cast<int>(clusters_.size()); }
 
   private:
-    struct Problem {
-        std::span<const ContactConstraint> pairs;
-        std::span<const KinematicContact> kinematic;
-        std::span<const double> inverseMass;
-        double h;
-        const SolverOptions& options;
-        std::span<const dvec3> x;
-        std::span<dvec3> u, v, shift;
-    };
-    // A solid in this instant.
+    // A solid in this block.
     struct Body {
-        core::RigidMotion u, v;
-        int slot;  // of its velocity; then comes that of its spin
+        core::RigidMotion start, u, v;  // as the block began; in this step
+        int slot;                       // of its velocity; then comes that of its spin
     };
     struct Cluster {
         std::size_t first, last;         // of rows_
         double tolerance;                // [m/s] smaller changes end the sweeps
-        int sweeps;                      // at most
-        std::vector<RigidSlots> solids;  // that are solved at once: several, near rest
+        std::vector<RigidSlots> solids;  // ascending by slot
+        std::optional<RowPacks> packs;   // of one without solids
     };
     struct LastImpulse {
         std::uint64_t key;
@@ -150,22 +156,23 @@ class ContactSolver {
     };
     const Solid* solidOf(int point) const;  // that moves; null: none
     bool isTouched(const Solid& solid) const;
-    bool isFixed(int point, const Problem& problem) const;
+    bool isFixed(int point) const;
     int leaderOf(int point) const;  // the lowest point of its solid, or itself
-    void loadSolids(const Problem& problem);
-    void storeSolids(const Problem& problem);
-    void addTerm(int point, double weight, const dvec3& place, const Problem& problem);
+    void takeSolids();
+    void load(std::span<const dvec3> x, std::span<const dvec3> u, std::span<const dvec3> v);
+    void store(std::span<const dvec3> x, std::span<dvec3> u, std::span<dvec3> v);
+    void addTerm(int point, double weight, const dvec3& place);
     void putTerms(Row& row);
     void weigh(Row& row) const;
-    void joinPoints(const Problem& problem);
-    void findClusters(const Problem& problem);
-    static bool isLikePair(const Row& row, const Problem& problem);
-    bool isNearRest(const Cluster& cluster, const Problem& problem) const;
-    void colour(std::span<int> sources, const Problem& problem);
-    void addRow(int source, const Problem& problem);
-    int slotOf(int point, const Problem& problem);
-    int addSlot(const dvec3& u, const dvec3& v);
-    int solveCluster(const Cluster& cluster, const Problem& problem);
+    void joinPoints();
+    void findClusters();
+    bool isLikePair(const Row& row) const;
+    bool isNearRest(const Cluster& cluster) const;
+    void colour(std::span<int> sources);
+    void addRow(int source);
+    int slotOf(int point);
+    int addSlot();
+    double gapNow(std::size_t row) const;
     bool areOfOneImpact(const Row& a, const Row& b) const;
     struct Bouncing {
         const Row* row;
@@ -173,25 +180,36 @@ class ContactSolver {
         double drift;             // [m/s] by which v closes faster than u
         double closing;           // [m/s] now
     };
-    void bounce(std::span<const Row> rows, const Problem& problem, std::span<double> sizes);
+    void bounce(const Cluster& cluster);
     void bounceIn(std::span<Four> velocities, std::vector<Bouncing>& all, std::span<const Row> rows,
-                  const Problem& problem, std::span<double> sizes,
-                  const std::function<double(const Bouncing&)>& target) const;
-    int solveRows(std::span<Row> rows, const Cluster& cluster, double tolerance, std::span<Four> velocities) const;
-    void solveStored(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
-    void correctPositions(std::span<const Row> rows, const Cluster& cluster, const Problem& problem);
-    void remember(std::size_t sourceCount);
+                  std::span<double> sizes, const std::function<double(const Bouncing&)>& target) const;
+    void sweep(Cluster& cluster);
+    void sweepSolids(const Cluster& cluster);
+    void correctPositions(const Cluster& cluster);
+    template <class Each>
+    void forEachCluster(const Each& each);
+    void tellImpulses();
+    void remember();
     int root(int point);
+    std::span<Row> rowsOf(const Cluster& cluster) {
+        return {rows_.data() + cluster.first, cluster.last - cluster.first};
+    }
     Levers levers() const { return {turns_, shares_}; }
 
+    SolverBlock block_;
     // A source is a pair, or after all pairs a contact with a collider.
-    std::vector<Row> rows_;            // cluster by cluster, contacts with colliders after the pairs
-    std::vector<std::uint64_t> keys_;  // (rows) the same for the same contact in every instant
+    std::vector<Row> rows_;             // cluster by cluster, contacts with colliders after the pairs
+    std::vector<std::uint64_t> keys_;   // (rows) the same for the same contact in every block
+    std::vector<double> gaps_, bases_;  // (rows) [m] as the block began; [m/s] closing without them
     std::vector<Cluster> clusters_;
-    std::vector<int> parent_;          // (points) union-find; -1: in no pair
-    std::vector<int> touched_;         // points that move those of pairs, ascending
-    std::vector<int> slots_;           // (points) of those touched that move
-    std::vector<Four> u_, v_, shift_;  // (slots)
+    std::vector<int> parent_;   // (points) union-find; -1: in no pair
+    std::vector<int> touched_;  // points that move those of pairs, ascending
+    std::vector<int> slots_;    // (points) of those touched that move
+    std::vector<std::pair<int, int>> moving_,
+        fixed_;                                  // slot and point, of what moves and is of no solid; that does not
+    std::vector<std::pair<int, dvec3>> driven_;  // slot and velocity of colliders
+    std::vector<Four> u_, v_, shift_;            // (slots)
+    std::vector<Four> before_, gone_;            // (slots) u_ before sweeps; [m] since the block began
     std::span<const Solid> solids_;
     std::vector<int> solidAt_;  // (points) empty where there are none; -1: of none
     std::vector<Body> bodies_;  // (solids) of those that are touched
@@ -215,10 +233,11 @@ class ContactSolver {
     std::vector<std::pair<int, int>> order_;  // cluster, source
     std::vector<std::uint64_t> taken_;        // (slots) scratch: colours
     std::vector<LastImpulse> last_;           // ascending by key
-    std::vector<double> bounces_;             // (rows) [N s]; empty: nothing bounces
-    std::vector<double> impulses_;            // (pairs, contacts with colliders)
-    std::vector<dvec3> frictions_;            // likewise
-    int mostSweeps_ = 0;
+    bool anyBounces_ = false;
+    std::vector<double> bounces_;   // (rows) [N s]
+    std::vector<double> impulses_;  // (pairs, contacts with colliders)
+    std::vector<dvec3> frictions_;  // likewise
+    int step_ = 0;                  // of the block
 };
 
 }  // namespace taut::contact

@@ -12,7 +12,7 @@
 namespace taut::world {
 namespace {
 
-constexpr int mostToPress = 1024;  // instants of a tick; an island with more steps is warned of
+constexpr int mostToPress = 1024;  // steps of contact in a tick
 constexpr int leastParts = 4;      // of a tick of bodies that touch others, whatever step their method could take
 
 std::string insideWarning(const Body& body, const std::string& collider, int points, double depth) {
@@ -129,7 +129,6 @@ void Island::beginTry() {
     before_ = now_;
     dynamics_->forgetImpulses();
     tieLoad_.begin(plan_);
-    now_.contacts.clear();
     dynamics_->takeContactWork();  // drops the work of a try that other islands gave up
 }
 
@@ -217,7 +216,7 @@ int Island::inParts(int substeps) const {
     return parts;
 }
 
-int Island::instantsToPress() const {
+int Island::stepsToPress() const {
     const int substeps = quietSubsteps();
     if (!std::isfinite(choice_.limit)) return substeps;
     const double turn = choice_.mode.omega * tickSeconds_ / substeps;

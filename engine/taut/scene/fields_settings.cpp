@@ -142,15 +142,10 @@ SceneSection contactSection() {
                          .number("restitution", &ContactSpec::restitution, "", Range{0.0, 1.0},
                                  "Speed of two bodies after they bounce off each other over speed before, times the "
                                  "factors of both.")
-                         .whole("instants", &ContactSpec::instants, "", Range{1, 1024},
-                                "Moments of a tick at which bodies are kept apart, a power of two; as many as their "
-                                "speeds ask for if not given.")
+                         .whole("detections", &ContactSpec::detections, "", Range{1, 1024},
+                                "Times in a tick that it is found what may meet, at least; as many as speeds ask for "
+                                "if not given.")
                          .take();
-    section.check = [](const CheckInput& input, void* target) {
-        const auto& contact = *static_cast<const ContactSpec*>(target);
-        if (contact.instants && (*contact.instants & (*contact.instants - 1)) != 0)
-            input.problems.addError(input.at("instants"), "instants must be a power of two", "1, 2, 4, 8, 16, …");
-    };
     return section;
 }
 

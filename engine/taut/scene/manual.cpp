@@ -91,7 +91,7 @@ std::string manual(const world::Kinds& kinds) {
         "  touch = \"others\" of two bodies keeps their surfaces apart, touch = \"all\" a body's own parts as well: "
         "by\n"
         "  the sum of their thicknesses, so thickness should be no more than half of the shortest cell. [contact] has\n"
-        "  their friction, and at how many instants of a tick they are looked at. Bodies that cross as they start\n"
+        "  their friction, and how often in a tick it is found what may meet. Bodies that cross as they start\n"
         "  are drawn apart, and said: taut check names them. metrics.csv has body_contacts, the places that press on\n"
         "  each other as a frame ends, and crossings, edges that go through triangles; `contacts` are of points with\n"
         "  colliders alone. --debug shows the former in blue, with a line from surface to surface, crossings in "

@@ -37,9 +37,9 @@ struct WorldSpec {
 
 // For bodies that touch each other or themselves.
 struct ContactSpec {
-    double friction = 0.3;        // Coulomb's μ between two bodies, times the factors of both [-]
-    double restitution = 0.0;     // 0 … 1: speed after two bodies bounce / before, times the factors of both [-]
-    std::optional<int> instants;  // in a tick, at which contact is resolved; none: as many as the speeds need
+    double friction = 0.3;          // Coulomb's μ between two bodies, times the factors of both [-]
+    double restitution = 0.0;       // 0 … 1: speed after two bodies bounce / before, times the factors of both [-]
+    std::optional<int> detections;  // in a tick, of what may meet; none: as many as the speeds need
 };
 
 // What hands may do during a run. Steps allow for the timeline's own grabs without it.

@@ -226,7 +226,7 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
             "those are wide; a smaller thickness would allow more.",
             context.resolution.most));
     if (world::bodiesTouch(context.spec))
-        add("Contact between bodies is never left out; the cost has it, by its instants and the pairs it looked at.");
+        add("Contact between bodies is never left out; the cost has it, by its detections and the pairs they looked at.");
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
     if (plan.isCutShort) add("The effort was used up before all was tried: a larger --effort may find a cheaper way.");
     if (reference.error > plan.need.target / leastShareOfReference)

@@ -28,9 +28,9 @@ constexpr int partsOfRope = 24, partsOfCloth = 12, partsOfBlock = 5;
 // What a call of the forces takes besides, in springs (measured on nets of a few springs: 100 ns against 1 to 2).
 constexpr double costOfCall = 60;
 
-// What an instant of contact between bodies takes of each point, and of each pair that it looks at, in springs
+// What a detection of contact between bodies takes of each point, and of each pair that it looks at, in springs
 // (measured on a hanging cloth, one that folds and a pile of four: 120 ns, and 0.6 to 1.3 us, against 2 ns).
-constexpr double costOfInstant = 60, costOfPair = 400;
+constexpr double costOfDetection = 60, costOfPair = 400;
 
 // What a run takes before its first tick, its step found and its world built, in springs (measured: 0.5 ms and 1 to 2
 // us for each spring).
@@ -132,7 +132,7 @@ class Watcher {
 // Of contact between bodies so far.
 double contactCost(const world::World& world) {
     const world::ContactInfo contact = world.contact();
-    return costOfInstant * static_cast<double>(contact.instants) * contact.points +
+    return costOfDetection * static_cast<double>(contact.detections) * contact.points +
            costOfPair * static_cast<double>(contact.testedPairs);
 }
 

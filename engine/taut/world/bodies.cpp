@@ -41,7 +41,7 @@ void addIsland(WorldImpl& w, IslandPlan plan, const ForceList& current, const En
     for (const auto& constraint : plan.constraints) constraint->check();
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
-    const int parts = touches(plan) ? fewestInstants(1.0 / w.ticksPerSecond) : 1;
+    const int parts = touches(plan) ? fewestSteps(1.0 / w.ticksPerSecond) : 1;
     w.islands.push_back(std::make_unique<Island>(std::move(plan), current, envelope, w.ticksPerSecond, w.seconds(),
                                                  w.keepsSteps, parts));
     w.contactStage.reset();

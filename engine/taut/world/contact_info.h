@@ -17,13 +17,13 @@ struct ContactInfo {
     };
     std::vector<SurfaceSizes> surfaces;  // (bodies)
     int points = 0;                      // of their islands
-    int mostInstants = 0;                // largest number in a tick
-    int lastInstants = 0;                // of the last tick
-    std::int64_t ticks = 0, instants = 0;
-    std::int64_t testedPairs = 0;        // checked by the narrow phase in all instants
-    double seconds = 0;                  // [s] wall time in all instants
-    int lastTestedPairs = 0;             // of the last instant
-    int lastImpulses = 0;                // pairs with an impulse in the last instant
+    int mostDetections = 0;              // largest number in a tick
+    int lastDetections = 0;              // of the last tick
+    std::int64_t ticks = 0, detections = 0;
+    std::int64_t testedPairs = 0;        // checked by the narrow phase in all detections
+    double seconds = 0;                  // [s] wall time of detections and certificates
+    int lastTestedPairs = 0;             // of the last detection
+    int lastImpulses = 0;                // pairs with an impulse in the last step
     std::int64_t candidateLists = 0;     // candidate lists made
     std::int64_t slides = 0, zones = 0;  // pairs that were slid apart; rounds in which impact zones moved
     std::int64_t uncertified = 0;        // pairs that may have passed through each other

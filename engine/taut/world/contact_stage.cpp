@@ -16,14 +16,14 @@
 namespace taut::world {
 namespace {
 
-constexpr double longestInstant = 1.1e-3;  // [s] of a tick with contact
-constexpr int mostInstantsForSpeed = 64;   // in a tick, for fast motion
-constexpr int fewerForSolids = 4;          // times
-// In one instant, as shares of the thickness:
-constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tick without contact
-constexpr double mostClosing = 0.35;     // closing of a pair
-constexpr double mostClosingOfSolids = 4.0;
-constexpr double mostFurther = 0.1;    // into a collider, off another
+constexpr double longestStep = 1.1e-3;  // [s] of contact of what has springs
+constexpr int stepsOfBlock = 2;         // of the longest ones, in a block of the usual length
+constexpr int mostStepsForSpeed = 64;   // in a tick
+// In one block, times the thickness:
+constexpr double mostClosing = 3.0;    // of a pair
+constexpr double calmWay = 1.0;        // of the sides of a pair, in a block that is longer than the usual one
+constexpr int mostGrowth = 2;          // of such a block
+constexpr double mostSliding = 0.2;    // of an edge or a face along a shape, whose normal is another where it comes to
 constexpr int ofElement = 1 << 28;     // in the name of a pair
 constexpr double stickingShare = 0.9;  // of Coulomb's limit: up to there friction may hold what sleeps
 
@@ -59,10 +59,10 @@ void sortInSpace(std::span<int> points, std::span<const dvec3> places) {
 
 }  // namespace
 
-int fewestInstants(double tickSeconds) {
-    int instants = 1;
-    while (instants < mostInstantsForSpeed && tickSeconds / instants > longestInstant) instants *= 2;
-    return instants;
+int fewestSteps(double tickSeconds) {
+    int steps = 1;
+    while (tickSeconds / steps > longestStep) steps *= 2;
+    return steps;
 }
 
 bool touches(const IslandPlan& plan) {
@@ -117,7 +117,7 @@ void carry(const CarriedSurface& own, const std::function<int(int)>& numberOf, c
 ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec,
                            const TickTime& now, StepFollowing& pace,
                            const std::function<std::vector<TouchedCollider>()>& colliders)
-    : spec_(spec), tickSeconds_(1.0 / now.ticksPerSecond), fewest_(fewestInstants(tickSeconds_)), pace_(pace) {
+    : spec_(spec), tickSeconds_(1.0 / now.ticksPerSecond), fewest_(fewestSteps(tickSeconds_)), pace_(pace) {
     std::vector<contact::ContactSurface> surfaces;
     std::vector<dvec3> rest;
     std::vector<int> offsets;  // (bodies) of their island's points
@@ -344,70 +344,59 @@ int ContactStage::commonSubsteps() const {
     return std::max(common, 1);
 }
 
-// How many instants bodies with these surfaces need while they press. The rest of the group does not matter.
-int ContactStage::instantsFor(std::span<const int> surfaces) const {
-    int needed = 1;
-    for (int s : surfaces)
-        if (isOfBody(s) && !bodyOf(s).island->isStill()) needed = std::max(needed, bodyOf(s).island->instantsToPress());
-    return needed;
-}
-
-// Solids that meet only their like have no springs for which an instant could be too long, and rows close their gaps.
-// Where nothing is said to meet, anything may.
-bool ContactStage::areSolid(std::span<const int> surfaces) const {
-    const auto isSolid = [](const Body* body) { return body->spec->isRigid(); };
-    if (!crossingsBefore().empty()) return false;
-    if (surfaces.empty()) return std::all_of(bodies_.begin(), bodies_.end(), isSolid);
-    return std::all_of(surfaces.begin(), surfaces.end(),
-                       [&](int surface) { return !isOfBody(surface) || isSolid(&bodyOf(surface)); });
-}
-int ContactStage::fewestFor(std::span<const int> surfaces) const {
-    return areSolid(surfaces) ? std::max(fewest_ / fewerForSolids, 1) : fewest_;
-}
-double ContactStage::mostClosingOf(std::span<const int> surfaces) const {
-    return areSolid(surfaces) ? mostClosingOfSolids : mostClosing;
-}
-
-// How many instants any body may need, whatever touches.
-int ContactStage::mostInstants() const {
-    int most = spec_.instants.value_or(fewest_);
-    if (!spec_.instants)
-        for (const Island* island : islands_)
-            if (!island->isStill()) most = std::max(most, island->instantsToPress());
+// How many steps any body may need, whatever touches.
+int ContactStage::mostSteps() const {
+    int most = fewest_;
+    for (const Island* island : islands_)
+        if (!island->isStill()) most = std::max(most, island->stepsToPress());
     return most;
 }
 
-// Makes the islands' substeps a multiple of the pace, which has room for all instants that these surfaces may need. So
-// steps do not change while they press. Returns the number of instants: `needed`, or a few more so that it divides all
-// substeps.
-int ContactStage::takeInstants(const TickTime& time, int needed, std::span<const int> pressed) {
-    room_ = spec_.instants ? needed : std::max(needed, instantsFor(pressed));
+// Makes the islands' substeps a multiple of the pace, which has room for `steps` -> steps_, these or a few more.
+void ContactStage::takeSteps(const TickTime& time, int steps) {
+    room_ = steps;
     if (pace_.isExceededBy(room_)) pace_.shorten(room_);
     for (Island* island : islands_) island->takeParts(time, pace_.substeps());
     const int common = commonSubsteps();
-    int instants = std::min(needed, common);
-    while (common % instants != 0) ++instants;
-    return instants;
+    steps_ = std::min(steps, common);
+    while (common % steps_ != 0) ++steps_;
 }
 
-// The number of instants of the tick. Negative: for a trial, in which nothing should touch.
-int ContactStage::chooseInstants(const TickTime& time, std::span<const ColliderMotion> moving) {
-    if (spec_.instants) return takeInstants(time, *spec_.instants);
-    for (Island* island : islands_) island->moveColliders(moving, 0);  // they stand where the last try has left them
-    contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
-    foreseeWholes(forecast);
-    // Doubles instants until a motion of that speed goes at most `way` in one.
-    const auto enough = [&](int instants, double speed, double way) {
-        while (instants < mostInstantsForSpeed && tickSeconds_ * speed > instants * way) instants *= 2;
-        return instants;
-    };
-    // No contact: the cheapest number for the broad phase.
-    if (!forecast.isInContact) {
-        const int common = commonSubsteps();
-        return -takeInstants(time, std::min(common, enough(1, forecast.deformationRate, mostDeformation)));
+// Whether a surface may meet anything in this tick, by boxes (surfaces) of ways.
+bool ContactStage::isNearAny(int surface, std::span<const core::Aabb> boxes) const {
+    if (elements().surface(surface).meetsItself || elements().surface(surface).meetsShapes ||
+        bodyOf(surface).spec->meetsCollidersAsWhole())
+        return true;
+    for (std::size_t other = 0; other < boxes.size(); ++other)
+        if (static_cast<int>(other) != surface && elements().mayTouch(surface, static_cast<int>(other)) &&
+            boxes[other].overlaps(boxes[static_cast<std::size_t>(surface)], 0.0))
+            return true;
+    return false;
+}
+
+// The number of steps of the tick: as many as the stiffest body needs that may meet another -> steps_.
+void ContactStage::chooseSteps(const TickTime& time) {
+    const std::vector<contact::ContactSurface>& surfaces = elements().surfaces();
+    std::vector<core::Aabb> boxes(surfaces.size());
+    std::vector<double> speeds(surfaces.size(), 0.0);
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        for (const int i : surfaces[s].points) {
+            const auto k = static_cast<std::size_t>(i);
+            boxes[s].add(x1_[k]);
+            boxes[s].add(x1_[k] + tickSeconds_ * v_[k]);
+            speeds[s] = std::max(speeds[s], glm::dot(v_[k], v_[k]));
+        }
+        boxes[s].grow(2 * surfaces[s].thickness);
     }
-    const double way = mostClosingOf(forecast.surfaces) * forecast.leastThickness;
-    return takeInstants(time, enough(fewestFor(forecast.surfaces), forecast.closing, way), forecast.surfaces);
+    int steps = 1;
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+        const Island& island = *bodies_[s]->island;
+        if (island.isStill() || !isNearAny(static_cast<int>(s), boxes)) continue;
+        steps = std::max(steps, island.stepsToPress());
+        const double way = mostClosing * surfaces[s].thickness, speed = std::sqrt(speeds[s]);
+        while (steps < mostStepsForSpeed && tickSeconds_ * speed > steps * way) steps *= 2;
+    }
+    takeSteps(time, steps);
 }
 
 // What is still has no inverse mass. Surfaces that sleep, or have slept until now, are told apart.
@@ -477,10 +466,11 @@ void ContactStage::forEachNearCollider(double past, double ahead, const Each& ea
     }
 }
 
-// The contacts of whole bodies with colliders at the end of an instant h [s] long -> kinematic_.
-void ContactStage::addWholeContacts(double h) {
+// The contacts of whole bodies with colliders in a block, `ahead` [s] long beyond its first step of h [s] ->
+// kinematic_.
+void ContactStage::addWholeContacts(double h, double ahead) {
     forEachNearCollider(
-        h, 0.0,
+        h, ahead,
         [&](int i, const BodySpec& spec, double thickness, const collision::Colliders::Surface& surface) {
             const auto k = static_cast<std::size_t>(i);
             contact::KinematicContact& contact = kinematic_.emplace_back();
@@ -493,7 +483,7 @@ void ContactStage::addWholeContacts(double h) {
             contact.thickness = thickness;
             contact.restitution = surface.material.restitution * spec.restitution;
             contact.arm = -thickness * surface.away;
-            // Where it came from, so that what it goes in this instant is no overlap.
+            // Where it came from, so that what it goes in this block is no overlap.
             contact.gap = surface.distance - thickness + glm::dot(surface.away, x0_[k] - x1_[k]) + h * contact.speed;
         });
 }
@@ -543,14 +533,10 @@ std::vector<RigidTouch> ContactStage::overlaps() {
     return all;
 }
 
-// -> kinematic_, rigidPairs_, deepestTouch_.
+// -> kinematic_, rigidPairs_.
 void ContactStage::addTouches() {
     rigidPairs_.clear();
-    deepestTouch_ = 0;
     const auto pointOf = [&](int surface) { return elements().surface(surface).points.front(); };
-    const auto deepen = [&](double way, double gap, double thickness) {
-        deepestTouch_ = std::max(deepestTouch_, (way - std::max(gap, 0.0)) / thickness);
-    };
     // Of a collider, with a body that has this point.
     const auto add = [&](int collider, int point, const dvec3& normal, const dvec3& place, const dvec3& velocity,
                          double gap) -> contact::KinematicContact& {
@@ -566,7 +552,7 @@ void ContactStage::addTouches() {
         contact.isWhole = true;
         contact.gap = gap;
         contact.thickness = elements().surface(surface).thickness;
-        contact.arm = place - x0_[static_cast<std::size_t>(point)];
+        contact.arm = place - xStart_[static_cast<std::size_t>(point)];
         contact.restitution = material.restitution * spec.restitution;
         return contact;
     };
@@ -582,7 +568,6 @@ void ContactStage::addTouches() {
         return pair;
     };
     for (const RigidTouch& touch : rigidTouches_) {
-        deepen(touch.way, touch.gap, touch.thickness);
         const int a = pointOf(touch.surface);
         if (touch.other < 0) {
             add(touch.collider, a, touch.normal, touch.onFirst, touch.velocity, touch.gap);
@@ -599,7 +584,6 @@ void ContactStage::addTouches() {
     }
     for (const ElementTouch& touch : elementTouches_) {
         const contact::ContactSurface& surface = elements().surface(touch.surface);
-        deepen(touch.way, touch.gap, touch.thickness);
         if (touch.solid >= 0) {
             // Both are pressed where the element is.
             contact::ContactConstraint& pair = addPair(touch.solid, touch.surface, touch.gap, touch.thickness);
@@ -623,71 +607,6 @@ void ContactStage::addTouches() {
         if (!contact::mayYield(contact.used(), std::span(contact.weights).first(contact.used().size()), inverseMass_))
             kinematic_.pop_back();
     }
-}
-
-// How much deeper whole bodies that met a collider in this instant have come into another, or another side of it, over
-// the thickness: what they bounced or slid off may have sent them there.
-double ContactStage::furtherIntoColliders(double h) const {
-    constexpr double alike = 0.5;
-    std::map<const Island*, std::vector<dvec3>> met;  // normals
-    group_->forEachOnCollider([&](std::size_t k, double, const dvec3&) {
-        const contact::KinematicContact& contact = kinematic_[k];
-        if (contact.isWhole) met[bodyOf(elements().surfaceOf(contact.point())).island].push_back(contact.normal);
-    });
-    if (met.empty() || spec_.instants || instants_ >= mostInstantsForSpeed) return 0;
-    double most = 0;
-    forEachNearCollider(
-        h, 0.0,
-        [&](int i, const BodySpec&, double thickness, const collision::Colliders::Surface& surface) {
-            const auto k = static_cast<std::size_t>(i);
-            const double gap = surface.distance - thickness;
-            const double before = gap + glm::dot(surface.away, x0_[k] - x1_[k] + h * surface.velocity);
-            const double further = (std::min(before, 0.0) - gap) / thickness;
-            const auto isKnown = [&](const dvec3& normal) { return glm::dot(normal, surface.away) > alike; };
-            const std::vector<dvec3>& own = met.at(bodyOf(elements().surfaceOf(i)).island);
-            if (further > most && std::none_of(own.begin(), own.end(), isKnown)) most = further;
-        },
-        [&](int whole) { return met.contains(bodyOf(whole).island); });
-    return most;
-}
-
-// Whole bodies meet colliders, and solids turn and roll, in no fewer instants than bodies that press each other.
-void ContactStage::foreseeTouches(contact::Forecast& forecast) {
-    if (rigid_.isEmpty() && convex_.isEmpty()) return;
-    std::vector<dvec3> ahead(x1_);
-    for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += tickSeconds_ * v_[i];
-    findTouches(x1_, ahead, 0.0, 1.0);
-    const auto foresee = [&](int surface, double gap, double way, double thickness) {
-        if (gap > way) return false;
-        forecast.isInContact = true;
-        forecast.surfaces.push_back(surface);
-        forecast.closing = std::max(forecast.closing, way / tickSeconds_);
-        forecast.leastThickness = std::min(forecast.leastThickness, thickness);
-        return true;
-    };
-    for (const RigidTouch& touch : rigidTouches_)
-        if (foresee(touch.surface, touch.gap, touch.way, touch.thickness) && touch.other >= 0)
-            forecast.surfaces.push_back(touch.other);
-    for (const ElementTouch& touch : elementTouches_)
-        if (touch.gap <= touch.way / fewest_ && foresee(touch.surface, touch.gap, touch.way, touch.thickness) &&
-            touch.solid >= 0)
-            forecast.surfaces.push_back(touch.solid);
-}
-
-void ContactStage::foreseeWholes(contact::Forecast& forecast) {
-    for (const auto& [whole, thickness, points] : wholes_)
-        if (bodyOf(whole).spec->isRigid() && !bodyOf(whole).island->isStill()) forecast.isInContact = true;
-    forEachNearCollider(0.0, tickSeconds_,
-                        [&](int i, const BodySpec&, double thickness, const collision::Colliders::Surface& surface) {
-                            forecast.isInContact = true;
-                            forecast.surfaces.push_back(elements().surfaceOf(i));
-                            const dvec3 velocity = v_[static_cast<std::size_t>(i)] - surface.velocity;
-                            forecast.closing = std::max(forecast.closing, -glm::dot(surface.away, velocity));
-                            forecast.leastThickness = std::min(forecast.leastThickness, thickness);
-                        });
-    foreseeTouches(forecast);
-    std::sort(forecast.surfaces.begin(), forecast.surfaces.end());
-    forecast.surfaces.erase(std::unique(forecast.surfaces.begin(), forecast.surfaces.end()), forecast.surfaces.end());
 }
 
 // Updates damage, masses, colliders and places.
@@ -721,13 +640,14 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
     }
     beginTick(time, moving);
 
-    // Crossings, and the number of instants. An island that keeps its step needs the largest number from the first
-    // tick.
+    // Crossings, and the number of steps. An island that keeps its step needs the largest number from the first tick.
     const auto start = Clock::now();
     group_->begin(x1_);
     if (anySleeps()) wakeCrossed(time);
-    if (islands_.front()->keepsStep()) takeInstants(time, mostInstants());
-    int instants = chooseInstants(time, moving);
+    if (islands_.front()->keepsStep())
+        takeSteps(time, mostSteps());
+    else
+        chooseSteps(time);
     total_.seconds += secondsSince(start);
 
     // Tries until one stands.
@@ -736,19 +656,17 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         for (Island* island : islands_) island->beginTry();
         readAll();
         colliders_.place(0.0, x1_);
-        const bool isTrial = instants < 0;
-        instants_ = std::abs(instants);
         presses_.assign(watchesFriction ? x1_.size() : 0, {});
         pressing_.clear();
         footholds_.clear();
         reached_.clear();
-        const bool isCoarse = tryTick(time, moving, instants_, faults, isTrial);
+        takeBlocks(time, moving, faults);
         std::vector<TickVerdict> verdicts(islands_.size(), TickVerdict::stands);
 
         // Judges the try. Each island has a say. If one diverged it may be frozen, and the others go on beside it.
-        bool isAgain = isCoarse;
+        bool isAgain = !reached_.empty();
         for (std::size_t k = 0; k < islands_.size(); ++k) {
-            if (isCoarse) continue;
+            if (!reached_.empty()) continue;
             verdicts[k] = islands_[k]->judge(time, faults[k]);
             if (verdicts[k] == TickVerdict::fails) {
                 if (islands_[k]->plan().solver.onDivergence != OnDivergence::freeze)
@@ -763,28 +681,21 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         }
         if (!isAgain) break;
 
-        // Goes back to the start of the tick and chooses a new number of instants.
+        // Goes back to the start of the tick.
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
-        std::swap(x0_, x1_);
         readAll();
         colliders_.place(0.0, x1_);
-        group_->rewind(x0_, x1_);
-        if (!reached_.empty()) {
-            wake(time, reached_);
-            instants = chooseInstants(time, moving);
-            continue;
-        }
-        instants = isCoarse
-                       ? takeInstants(time, std::max({fewestFor(result_.surfaces), 2 * instants_, instantsToFollow()}),
-                                      result_.surfaces)
-                       : chooseInstants(time, moving);
+        group_->rewind(xStart_, x1_);
+        if (!reached_.empty()) wake(time, reached_);
+        if (!islands_.front()->keepsStep()) chooseSteps(time);
     }
 
     // Ends the tick.
     for (Island* island : islands_) island->endTick(time);
     reportAccelerations();
-    pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : room_);
-    total_.instants += instants_;
+    pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostSteps() : room_);
+    total_.detections += blocks_;
+    mostBlocks_ = std::max(mostBlocks_, blocks_);
     ++total_.ticks;
     return std::nullopt;
 }
@@ -831,7 +742,7 @@ bool ContactStage::findReached() {
     return !reached_.empty();
 }
 
-// Adds up what pairs press points with in this instant, and colliders those of whole bodies.
+// Adds up what pairs press points with in this step, and colliders those of whole bodies.
 void ContactStage::addPresses() {
     const auto add = [&](int point, double share, double limit, const dvec3& push, const dvec3& friction) {
         group_->carried().forEachMover(
@@ -917,89 +828,74 @@ bool ContactStage::movesAny() const {
         islands_.begin(), islands_.end(), [](const Island* island) { return !island->isStill(); });
 }
 
-// What presses a block presses corners of its cells, which are light: they swing back until the next instant and hardly
-// slow the body in the meantime, so that what presses them out again would be energy from nothing.
-double ContactStage::longestTurnOf(std::span<const int> surfaces) const {
-    constexpr double longestOfBlocks = 1.0;
-    const auto isBlock = [&](int s) { return isOfBody(s) && !bodyOf(s).model.cells.empty(); };
-    return std::any_of(surfaces.begin(), surfaces.end(), isBlock) ? longestOfBlocks : longestTurn;
-}
-
-// How many instants would follow what contact moved in the last one, see turnOf().
-int ContactStage::instantsToFollow() const {
-    const double wanted = std::ceil(instants_ * turn_ / longestTurnOf(result_.surfaces));
-    const int most = instantsFor(result_.surfaces);
-    return wanted < most ? static_cast<int>(wanted) : most;
-}
-
-// Whether an instant was too long for its result: in a trial any impulse, else a shift that works against stiff
-// springs, or a pair that went too deep or had to be slid apart. If no island moves, shorter instants would find the
-// same.
-bool ContactStage::isTooCoarse(bool isTrial) const {
-    if (spec_.instants || !movesAny()) return false;
-    if (result_.impulses > 0 && (isTrial || instants_ < fewestFor(result_.surfaces))) return true;
-    if (instants_ < instantsToFollow()) return true;
-    return instants_ < mostInstantsForSpeed &&
-           (result_.deepest > mostClosingOf(result_.surfaces) || result_.slides > 0 || further_ > mostFurther);
-}
-
-// One try of the tick. Returns true, early, if it needs more instants. Also ends early on a fault.
-bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
-                           std::vector<std::optional<Fault>>& faults, bool isTrial) {
-    const double h = tickSeconds_ / instants;
-    for (int c = 0; c < instants; ++c) {
-        // The islands move without contact.
-        std::swap(x0_, x1_);
-        core::parallelFor(
-            static_cast<int>(islands_.size()),
-            [&](int k) { return islands_[static_cast<std::size_t>(k)]->callsBack(); },
-            [&](int k) {
-                const auto own = static_cast<std::size_t>(k);
-                faults[own] = islands_[own]->advance(time, moving, c, instants);
-            });
-        if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); }))
-            return false;
-
-        // Contact at the end of the instant.
-        readAll();
-        shareBefore_ = static_cast<double>(c) / instants;
-        share_ = static_cast<double>(c + 1) / instants;
-        colliders_.place(share_, x1_);
-        resolveInstant(h);
-        settle();
-        further_ = wholes_.empty() ? 0.0 : furtherIntoColliders(h);
-        if (findFaults(time.at(c + 1, instants), faults)) return false;
-        if (!presses_.empty()) addPresses();
-        if (!presses_.empty() && !wholes_.empty()) addFootholds();
-        if (anySleeps() && findReached()) return true;
-        if (isTooCoarse(isTrial)) return true;
+// One try of the tick, block by block. Ends early on a fault, and where something that sleeps is reached.
+void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMotion> moving,
+                              std::vector<std::optional<Fault>>& faults) {
+    blocks_ = 0;
+    const int wanted = spec_.detections.value_or(std::max(1, fewest_ / stepsOfBlock)),
+              usual = (steps_ + wanted - 1) / wanted;
+    for (int first = 0, last = 0, longest = usual; first < steps_; first = last, ++blocks_) {
+        xStart_ = x1_;
+        last = std::min(first + longest, steps_);
+        for (int step = first; step < last; ++step) {
+            std::swap(x0_, x1_);
+            if (!advance(time, moving, step, faults)) return;
+            if (step == first) last = first + openBlock(step, last - first, usual);
+            // What touches nothing needs no impulses until the block ends.
+            if (!group_->hasRows()) {
+                pressed_.clear();
+                for (int left = step + 1; left < last; ++left)
+                    if (!advance(time, moving, left, faults)) return;
+                break;
+            }
+            vBefore_ = v_;
+            group_->step({x0_, x1_, v_});
+            if (!presses_.empty()) addPresses();
+            if (!presses_.empty() && !wholes_.empty()) addFootholds();
+            if (anySleeps() && findReached()) return;
+            takeAccelerations();
+            settle();
+            if (findFaults(time.at(step + 1, steps_), faults)) return;
+        }
+        closeBlock();
+        xStart_ = x1_;
+        if (findFaults(time.at(last, steps_), faults)) return;
+        longest = spec_.detections ? usual : stepsAfter(usual);
     }
-    return false;
 }
 
-// ω H of the shift by which contact moved the points of an island in the last instant [rad]: ω² is its Rayleigh
-// quotient. The springs gain ½ shift·K shift by it, where contact took ½ m (shift/h)² from the motion.
-double ContactStage::turnOf(const Part& part, double h) const {
-    if (part.island->isStill()) return 0;
-    const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.last) - first;
-    std::vector<dvec3> shift(count, dvec3(0.0)), force(count, dvec3(0.0));
-    double inertia = 0;
-    for (int i : result_.moved) {
-        if (i < part.first || i >= part.last) continue;
-        const auto k = static_cast<std::size_t>(i);
-        const dvec3 way = x1_[k] - xBefore_[k];
-        shift[k - first] = way;
-        inertia += glm::dot(way, way) / inverseMass_[k];
-    }
-    if (!(inertia > 0)) return 0;
-    part.island->stiffnessAt(std::span(x1_).subspan(first, count))(shift, force);
-    double stiffness = 0;
-    for (std::size_t k = 0; k < count; ++k) stiffness += glm::dot(shift[k], force[k]);
-    return h * std::sqrt(std::max(stiffness, 0.0) / inertia);
+// Of the block after one: what hardly moves, and does not roll, keeps its normals for longer than the usual one.
+int ContactStage::stepsAfter(int usual) const {
+    const bool mayRoll = !rigidPairs_.empty() || std::any_of(kinematic_.begin(), kinematic_.end(),
+                                                             [](const auto& contact) { return contact.isWhole; });
+    if (mayRoll) return usual;
+    const int most = mostGrowth * usual;
+    const double way = group_->wayOfStep();
+    return way * most > calmWay ? std::max(usual, static_cast<int>(calmWay / way)) : most;
 }
 
-// Resolves one instant of contact, h [s] after the last.
-void ContactStage::resolveInstant(double h) {
+// The islands take a step without contact. Returns false on a fault.
+bool ContactStage::advance(const TickTime& time, std::span<const ColliderMotion> moving, int step,
+                           std::vector<std::optional<Fault>>& faults) {
+    core::parallelFor(
+        static_cast<int>(islands_.size()), [&](int k) { return islands_[static_cast<std::size_t>(k)]->callsBack(); },
+        [&](int k) {
+            const auto own = static_cast<std::size_t>(k);
+            faults[own] = islands_[own]->advance(time, moving, step, steps_);
+        });
+    if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); })) return false;
+    readAll();
+    colliders_.place(static_cast<double>(step + 1) / steps_, x1_);
+    return true;
+}
+
+// Begins a block of so many steps, after the first of them, which tells where all of them lead. Returns how many it
+// has: fewer where something is fast.
+int ContactStage::openBlock(int step, int steps, int usual) {
+    const auto start = Clock::now();
+    const double h = tickSeconds_ / steps_, ahead = steps;
+    ahead_.resize(x1_.size());
+    for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = x0_[i] + ahead * (x1_[i] - x0_[i]);
     kinematic_.clear();
     for (const Part& part : parts_)
         for (const collision::Contact& c :
@@ -1009,65 +905,75 @@ void ContactStage::resolveInstant(double h) {
                                   .speed = glm::dot(c.normal, c.carried),
                                   .carried = c.carried,
                                   .friction = c.friction});
-    if (!wholes_.empty()) addWholeContacts(h);
-    findTouches(x0_, x1_, shareBefore_, share_);
+    if (!wholes_.empty()) addWholeContacts(h, (ahead - 1) * h);
+    const double from = static_cast<double>(step) / steps_;
+    findTouches(x0_, ahead_, from, std::min(1.0, from + ahead / steps_));
     addTouches();
+    for (const ElementTouch& touch : elementTouches_)
+        if (const double most = mostSliding * touch.thickness; touch.slide * steps > ahead * most)
+            steps = std::max(1, static_cast<int>(ahead * most / touch.slide));
     std::stable_sort(kinematic_.begin(), kinematic_.end(),
                      [](const auto& a, const auto& b) { return a.point() < b.point(); });
-    contact::Instant instant;
-    instant.h = h;
-    instant.x0 = x0_;
-    instant.x1 = x1_;
-    instant.v = v_;
-    instant.inverseMass = inverseMass_;
-    instant.kinematic = kinematic_;
-    instant.rigid = rigidPairs_;
-    instant.deepestTouch = deepestTouch_;
-    instant.restSpeed = 2.0 * weight_ * h;  // as with colliders
-    // Islands place the points that contact moved and return where these came to be.
-    instant.place = [&](std::span<const int> points) {
-        std::vector<int> own;
-        std::vector<dvec3> x, v;
-        for (const Part& part : parts_) {
-            const auto first = std::lower_bound(points.begin(), points.end(), part.first);
-            const auto last = std::lower_bound(first, points.end(), part.last);
-            if (first == last) continue;
-            own.clear();
-            x.clear();
-            v.clear();
-            for (auto i = first; i != last; ++i) {
-                own.push_back(*i - part.first);
-                x.push_back(x1_[static_cast<std::size_t>(*i)]);
-                v.push_back(v_[static_cast<std::size_t>(*i)]);
-            }
-            part.island->place(own, x, v);
-            for (std::size_t k = 0; k < own.size(); ++k) {
-                x1_[static_cast<std::size_t>(own[k] + part.first)] = x[k];
-                v_[static_cast<std::size_t>(own[k] + part.first)] = v[k];
-            }
-        }
-    };
-
-    xBefore_ = x1_;
-    vBefore_ = v_;
-    const auto start = Clock::now();
-    result_ = group_->resolve(instant);
-    accelerations_.clear();
-    for (const int i : result_.moved)
-        accelerations_.push_back((v_[static_cast<std::size_t>(i)] - vBefore_[static_cast<std::size_t>(i)]) / h);
-    total_.seconds += secondsSince(start);
+    contact::Block block;
+    block.h = h;
+    block.steps = steps;
+    block.x0 = xStart_;
+    block.ahead = ahead_;
+    block.inverseMass = inverseMass_;
+    block.kinematic = kinematic_;
+    block.rigid = rigidPairs_;
+    block.restSpeed = 2.0 * weight_ * steps * h;  // as with colliders
+    block.place = [this](std::span<const int> points) { place(points); };
+    block.mostClosing = mostClosing;
+    block.calmWay = calmWay;
+    block.usualSteps = usual;
+    const int taken = group_->open(block);
     total_.testedPairs += static_cast<std::int64_t>(group_->testedCount());
-    hadImpulse_ = hadImpulse_ || result_.impulses > 0;
-    turn_ = 0;
-    if (result_.impulses > 0 && !spec_.instants && instants_ < instantsFor(result_.surfaces))
-        for (const Part& part : parts_) turn_ = std::max(turn_, turnOf(part, h));
-    total_.slides += result_.slides;
-    total_.zones += result_.zones;
-    total_.uncertified += result_.uncertified;
+    total_.seconds += secondsSince(start);
+    return taken;
+}
+
+void ContactStage::closeBlock() {
+    const auto start = Clock::now();
+    constexpr int mostRounds = 4;
+    bool moves = group_->close(x1_, v_);
+    // The certificate has the last word; the next step brings together what it has pulled off a constraint.
+    for (int round = 0; round < mostRounds && moves && settle(); ++round) moves = group_->certify(x1_, v_);
+    group_->finish(x1_);
+    const contact::BlockResult& result = group_->result();
+    hadImpulse_ = hadImpulse_ || result.impulses > 0;
+    total_.slides += result.slides;
+    total_.zones += result.zones;
+    total_.uncertified += result.uncertified;
+    total_.seconds += secondsSince(start);
+}
+
+// Islands place the points that contact moved and return where these came to be.
+void ContactStage::place(std::span<const int> points) {
+    std::vector<int> own;
+    std::vector<dvec3> x, v;
+    for (const Part& part : parts_) {
+        const auto first = std::lower_bound(points.begin(), points.end(), part.first);
+        const auto last = std::lower_bound(first, points.end(), part.last);
+        if (first == last) continue;
+        own.clear();
+        x.clear();
+        v.clear();
+        for (auto i = first; i != last; ++i) {
+            own.push_back(*i - part.first);
+            x.push_back(x1_[static_cast<std::size_t>(*i)]);
+            v.push_back(v_[static_cast<std::size_t>(*i)]);
+        }
+        part.island->place(own, x, v);
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            x1_[static_cast<std::size_t>(own[k] + part.first)] = x[k];
+            v_[static_cast<std::size_t>(own[k] + part.first)] = v[k];
+        }
+    }
 }
 
 // Constraints inside islands share the changes by contact, which moves further points.
-void ContactStage::settle() {
+bool ContactStage::settle() {
     bool hasMoved = false;
     for (const Part& part : parts_) {
         if (!part.island->settle()) continue;
@@ -1075,14 +981,14 @@ void ContactStage::settle() {
         const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.last) - first;
         part.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
     }
-    if (!hasMoved) return;
-    group_->carried().follow(x1_, v_);
+    if (hasMoved) group_->carried().follow(x1_, v_);
+    return hasMoved;
 }
 
 // Whether contact gave a point a place or velocity that is not finite or too fast: a fault of its island.
 bool ContactStage::findFaults(double t, std::vector<std::optional<Fault>>& faults) const {
     bool areAny = false;
-    for (int i : result_.moved) {
+    for (int i : group_->result().moved) {
         const dvec3 &x = x1_[static_cast<std::size_t>(i)], &v = v_[static_cast<std::size_t>(i)];
         const double square = glm::dot(v, v);
         const bool isNumber = std::isfinite(square + glm::dot(x, x));
@@ -1095,15 +1001,24 @@ bool ContactStage::findFaults(double t, std::vector<std::optional<Fault>>& fault
     return areAny;
 }
 
-// Gives the islands the accelerations by contact in the last instant.
+// The accelerations by contact in this step, before constraints share them -> pressed_.
+void ContactStage::takeAccelerations() {
+    pressed_.clear();
+    for (const int i : group_->result().moved) {
+        const auto k = static_cast<std::size_t>(i);
+        pressed_.push_back({i, (v_[k] - vBefore_[k]) * (steps_ / tickSeconds_)});
+    }
+}
+
+// Gives the islands those of the last step.
 void ContactStage::reportAccelerations() {
-    std::vector<ContactAcceleration> accelerations;
-    std::size_t next = 0;
+    std::vector<ContactAcceleration> own;
+    auto next = pressed_.begin();
     for (const Part& part : parts_) {
-        accelerations.clear();
-        for (; next < result_.moved.size() && result_.moved[next] < part.last; ++next)
-            accelerations.push_back({result_.moved[next] - part.first, accelerations_[next]});
-        part.island->bear(accelerations);
+        own.clear();
+        for (; next != pressed_.end() && next->point < part.last; ++next)
+            own.push_back({next->point - part.first, next->acceleration});
+        part.island->bear(own);
     }
 }
 
@@ -1116,10 +1031,10 @@ ContactInfo ContactStage::info() const {
         info.surfaces.push_back({elements().surface(surface).thickness, elements().shortestEdge(surface)});
     }
     info.points = static_cast<int>(x1_.size());
-    info.mostInstants = mostInstants();
-    info.lastInstants = instants_;
+    info.mostDetections = mostBlocks_;
+    info.lastDetections = blocks_;
     info.lastTestedPairs = static_cast<int>(group_->testedCount());
-    info.lastImpulses = result_.impulses;
+    info.lastImpulses = group_->result().impulses;
     info.candidateLists = static_cast<std::int64_t>(group_->listsMade());
     info.bytes = group_->bytes();
     return info;

@@ -158,6 +158,7 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                        .place = dvec3(0.0),
                        .gap = near.distance - query.thickness,
                        .way = 0,
+                       .slide = 0,
                        .thickness = query.thickness + shape.thickness,
                        .velocity = dvec3(0.0)};
     dvec3 end(0.0);
@@ -167,7 +168,9 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
     }
     const dvec3 on = touch.place - near.distance * touch.normal,
                 wayOfShape = shape.to.toWorld(shape.from.toLocal(on)) - on;
-    touch.way = -glm::dot(touch.normal, end - touch.place - wayOfShape);
+    const dvec3 way = end - touch.place - wayOfShape;
+    touch.way = -glm::dot(touch.normal, way);
+    touch.slide = glm::length(way + touch.way * touch.normal);
     touch.velocity = wayOfShape / query.seconds;
     if (touch.gap < closeShare * touch.thickness || touch.way > touch.gap) touches_.push_back(touch);
 }

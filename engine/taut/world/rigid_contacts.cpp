@@ -113,7 +113,6 @@ void RigidContacts::touch(const ShapeInMotion& a, const ShapeInMotion& b, double
     for (const Manifold::Place& place : manifold.places()) {
         const dvec3 onA = carriedBy(atA, a.from, place.onA), onB = carriedBy(atB, b.from, place.onB);
         const dvec3 wayOfB = carriedBy(atB, b.to, place.onB) - onB;
-        const dvec3 way = carriedBy(atA, a.to, place.onA) - onA - wayOfB;
         RigidTouch touch{a.surface,
                          b.surface,
                          b.collider,
@@ -125,10 +124,8 @@ void RigidContacts::touch(const ShapeInMotion& a, const ShapeInMotion& b, double
                          onB,
                          0,
                          thickness,
-                         0,
                          wayOfB / seconds};
         touch.gap = glm::dot(manifold.normal, onA - onB);
-        touch.way = -glm::dot(manifold.normal, way);
         // One place keeps the angular momentum. A ball is pressed towards its centre, at a place of its own.
         const auto isBall = [](const ShapeInMotion& own) {
             return own.convex->closed().kind == collision::ClosedKind::sphere;

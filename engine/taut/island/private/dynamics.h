@@ -48,10 +48,10 @@ struct ContactWork {
     double atTouch = 0;  // [J] kinetic, elastic and of height over the lowest point, at a tick's first touch; or 0
 };
 
-// The acceleration that contact with other bodies gave a point in the last instant.
+// The acceleration that contact with other bodies gave a point in the last step.
 struct ContactAcceleration {
     int point;
-    dvec3 acceleration;  // [m/s²] mean over the instant
+    dvec3 acceleration;  // [m/s²] mean over the step
 };
 
 // Speed of points on their way out of a collider in which they began. [m/s]

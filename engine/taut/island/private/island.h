@@ -57,8 +57,8 @@ struct ColliderMotion {
 // What becomes of one try of a tick.
 enum class TickVerdict { stands, again, fails };
 
-// [rad] Largest ω H of the motion that contact causes. H is the time from one instant of contact to the next.
-// With an instant each step (2 is the limit of leap-frog) an impulse is one more force of the step's kick, and contact
+// [rad] Largest ω H of the motion that contact causes. H is the time from one step of contact to the next.
+// With one each step (2 is the limit of leap-frog) an impulse is one more force of the step's kick, and contact
 // without restitution takes energy: ΔE = ½ λ (u' + u), never above 0, with u' the approach after it and u that in the
 // step before. Moving points back over several steps works against their springs: at ω H = 3 these gain several times ½
 // m u².
@@ -95,9 +95,9 @@ class Island {
     void endTick(const TickTime& time);
     int substeps() const { return now_.substeps; }
     bool keepsStep() const { return keepsStep_; }
-    // Instants of contact in a tick that are enough however the island is pressed: one each step, or fewer where steps
+    // Steps of contact in a tick that are enough however the island is pressed: one each step, or fewer where steps
     // are very short. The fastest motion turns by at most longestTurn between two.
-    int instantsToPress() const;
+    int stepsToPress() const;
     // Makes all substeps of a tick divisible by so many parts from now on. To be called between two tries.
     void takeParts(const TickTime& time, int parts);
     // Positions and velocities of the points, velocities as the method stores them (points) [m], [m/s].
@@ -106,7 +106,7 @@ class Island {
     void place(std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v);
     // After place(): constraints share its changes. Returns whether any point of the island moved.
     bool settle() { return !isStill() && dynamics_->settle(); }
-    // After the last part: takes over the accelerations by contact with other bodies in the last instant.
+    // After the last part: takes over the accelerations by contact with other bodies in the last step.
     void bear(std::span<const ContactAcceleration> pressed) { now_.pressed.assign(pressed.begin(), pressed.end()); }
 
     // Whether any spring tore in the last tick.

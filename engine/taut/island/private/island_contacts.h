@@ -120,7 +120,7 @@ class IslandContacts {
     }
 
     // Forces have acted on these velocities for `seconds` [s] since the state, the pressure of other bodies has not.
-    // Adds its accelerations of the last instant. An impact does not last, so each addition is limited by what
+    // Adds its accelerations of the last step of contact. An impact does not last, so each addition is limited by what
     // forces have added.
     void bear(std::span<const ContactAcceleration> pressed, double seconds, Planes& velocities) const {
         constexpr double most = 2.0;  // times what forces have added

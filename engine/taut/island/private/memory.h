@@ -57,7 +57,7 @@ struct ContactBudget {
 struct IslandMemory {
     // Contact with colliders, and with other bodies.
     std::vector<collision::Contact> contacts;  // of the last step of the last tick
-    std::vector<ContactAcceleration> pressed;  // of the last instant of that tick
+    std::vector<ContactAcceleration> pressed;  // of the last step of contact in that tick
     std::vector<int> inside;                   // points that began inside a collider and have not been out yet
     bool hasTouched = false;                   // in any step so far
     ContactBudget budget;

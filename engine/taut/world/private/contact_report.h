@@ -14,7 +14,7 @@ namespace taut::world {
 // Two bodies that press on each other, or a body and a figure, at one place.
 struct BodyContact {
     dvec3 place{0.0}, normal{0.0};                   // [m] midpoint; unit, towards the first
-    double impulse = 0;                              // [N s] of the last instant
+    double impulse = 0;                              // [N s] of the last step
     const Body *first = nullptr, *second = nullptr;  // null: the figure
     bool isOf(const Body& body) const { return first == &body || second == &body; }
 };

@@ -1,23 +1,25 @@
-// The contact stage of a tick: all islands with bodies that may touch go through the tick together, from one instant of
-// contact to the next. Between two instants each island takes its own substeps and knows nothing of the others; at an
-// instant the ContactGroup keeps surfaces from going through each other.
+// The contact stage of a tick: all islands with bodies that may touch go through the tick together, step by step. In
+// each step every island moves as if it were alone; then the ContactGroup gives impulses that keep surfaces from going
+// through each other. Which surfaces may meet is found once in a block of steps.
 //
-//     tick    |-----------|-----------|-----------|-----------|       4 instants
-//     island  |---|---|---|---|---|---|---|---|---|---|---|---|       12 substeps: a multiple of the instants
+//     tick    |---------------|---------------|---------------|---------------|    4 blocks: detection, certificate
+//             |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|    16 steps: impulses
+//     island  |-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|    32 substeps: a multiple of the steps
 //
-// How many instants. As few as possible, because each instant costs a detection:
-// - No touch is forecast: a trial with few, often one. It stands only if no pair got an impulse.
-// - A touch is forecast: at least one per 1.1 ms, and so many that two sides close by no more than 0.35 of their
-//   thickness in one.
-// - An instant was too coarse: a trial found contact, a pair went too deep, pairs had to be slid apart, or what met one
-//   collider came into another. The whole tick is then undone and repeated with at least twice as many, up to 64.
-// - Contact moved points against springs that are too stiff for the instant (turnOf). Cloth that lies on cloth is moved
-//   across its stiff threads, and needs few instants; blocks need as many as their fastest motion (instantsToPress).
-// A tick is also repeated if an island asks for it (its step was too long), and if one diverged and is frozen. The
-// other islands then go on, and the frozen one stands still. Islands keep the state to go back to in beginTry().
+// How many steps. As many as the stiffest body has that may meet something in this tick, so that an impulse is one more
+// force of its step: all islands take substeps that are a multiple of these. And so many that nothing goes by more than
+// three thicknesses in one.
 //
-// Deterministic. Each choice is a function of the state at the start of the tick and of the results of the tries. An
-// instant depends only on its places and velocities (contact_group.h). Clocks, threads and the age of lists have no
+// How many blocks. As few as possible, because detection is dear: eight in a sixtieth of a second, or one a step if
+// these are fewer. A block in which two sides would close by more than three thicknesses, or an edge or a face slide
+// along a shape, is shorter; after one in which little moved the next is twice as long.
+//
+// A tick is never tried and undone for contact. It is repeated if an island asks for it (its step was too long), if one
+// diverged and is frozen, and where something that sleeps was reached. The other islands then go on, and the frozen one
+// stands still. Islands keep the state to go back to in beginTry().
+//
+// Deterministic. Each choice is a function of the state at the start of the tick and of the results of the tries. A
+// block depends only on its places and velocities (contact_group.h). Clocks, threads and the age of lists have no
 // influence; wall time is measured for reports only.
 //
 // Restorable. All that outlives a tick is saved by its owner: the states of the islands, and the pace, which is the
@@ -43,8 +45,8 @@
 
 namespace taut::world {
 
-// The smallest number of instants in a tick in which bodies touch.
-int fewestInstants(double tickSeconds);
+// The smallest number of steps of a tick that bodies with springs take where they touch.
+int fewestSteps(double tickSeconds);
 
 // Whether any body of the plan may touch other bodies, itself, or edges of colliders.
 bool touches(const IslandPlan& plan);
@@ -60,7 +62,7 @@ void carry(const CarriedSurface& own, const std::function<int(int)>& numberOf, c
 class ContactStage {
   public:
     // Takes the islands with bodies that may touch. Keeps references to them and to `pace`. The pace follows the number
-    // of instants needed, and each island's substeps are a multiple of it. Calls `colliders` if any body touches
+    // of steps needed, and each island's substeps are a multiple of it. Calls `colliders` if any body touches
     // colliders.
     ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, const TickTime& now,
                  StepFollowing& pace, const std::function<std::vector<TouchedCollider>()>& colliders);
@@ -93,11 +95,9 @@ class ContactStage {
     // To be called when points have been moved from outside.
     void drop() { hasJumped_ = true, areCrossingsKnown_ = false; }
 
-    // Number in the last tick.
-    int instants() const { return instants_; }
-    const contact::InstantResult& result() const { return result_; }
+    const contact::BlockResult& result() const { return group_->result(); }  // of the last block
     ContactInfo info() const;
-    std::vector<int> squeezed() const;  // points of the group that were squeezed in its last instant
+    std::vector<int> squeezed() const;  // points of the group that were squeezed in its last block
     // At its end; of whole bodies with colliders too, whose other side is noSurface.
     static constexpr int noSurface = -1;
     std::vector<contact::ContactPoint> contacts() const;
@@ -116,7 +116,7 @@ class ContactStage {
         return isOfBody(surface) ? bodyOf(surface).fullName() : colliders_.nameOf(surface);
     }
     const std::string& colliderName(int collider) const { return colliderNames_[static_cast<std::size_t>(collider)]; }
-    // Of the last instant.
+    // Of the last block.
     std::span<const ElementTouch> elementTouches() const { return elementTouches_; }
     void keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched);
     // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
@@ -146,19 +146,16 @@ class ContactStage {
     void takeMasses();
     void takeSolids();
     void addPiece(const Body& body, contact::ContactSurface& surface, int offset);
-    void addWholeContacts(double h);
+    void addWholeContacts(double h, double ahead);
     bool isHeldIn(const Body& body, int collider) const;
     bool mayMeet(int surface, int collider) const;
     void findTouches(std::span<const dvec3> x0, std::span<const dvec3> x1, double from, double to,
                      bool alsoOfStill = false);
     void findPresentTouches();
     void addTouches();
-    void foreseeTouches(contact::Forecast& forecast);
-    void foreseeWholes(contact::Forecast& forecast);
     template <class Each>
     void forEachNearCollider(double past, double ahead, const Each& each,
                              const std::function<bool(int surface)>& isWanted = nullptr) const;
-    double furtherIntoColliders(double h) const;
     void wake(const TickTime& time, std::span<const std::int64_t> companies);
     void wakeCrossed(const TickTime& time);
     void addReached(int surfaceA, int surfaceB);
@@ -167,29 +164,28 @@ class ContactStage {
     void addFootholds();
     bool anySleeps() const;
     void readAll();
-    bool areSolid(std::span<const int> surfaces) const;
-    int fewestFor(std::span<const int> surfaces) const;
-    double longestTurnOf(std::span<const int> surfaces) const;
-    double mostClosingOf(std::span<const int> surfaces) const;  // in an instant, as a share of the thickness
-    int mostInstants() const;
+    int mostSteps() const;
     int commonSubsteps() const;  // greatest common divisor over the islands; 1 if all are frozen
     bool movesAny() const;
-    int instantsFor(std::span<const int> surfaces) const;
-    int chooseInstants(const TickTime& time, std::span<const ColliderMotion> moving);
-    int takeInstants(const TickTime& time, int needed, std::span<const int> pressed = {});
-    int instantsToFollow() const;
-    void resolveInstant(double h);
-    double turnOf(const Part& part, double h) const;
-    void settle();
+    bool isNearAny(int surface, std::span<const core::Aabb> boxes) const;
+    void chooseSteps(const TickTime& time);
+    void takeSteps(const TickTime& time, int steps);
+    void takeBlocks(const TickTime& time, std::span<const ColliderMotion> moving,
+                    std::vector<std::optional<Fault>>& faults);
+    bool advance(const TickTime& time, std::span<const ColliderMotion> moving, int step,
+                 std::vector<std::optional<Fault>>& faults);
+    int openBlock(int step, int steps, int usual);
+    int stepsAfter(int usual) const;
+    void closeBlock();
+    void place(std::span<const int> points);
+    bool settle();
     bool findFaults(double t, std::vector<std::optional<Fault>>& faults) const;
+    void takeAccelerations();
     void reportAccelerations();
-    bool isTooCoarse(bool isTrial) const;
-    bool tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
-                 std::vector<std::optional<Fault>>& faults, bool isTrial);
 
     ContactSpec spec_;
     double tickSeconds_;
-    int fewest_;  // smallest number of instants in a tick with contact
+    int fewest_;  // fewestSteps()
     StepFollowing& pace_;
     std::vector<Island*> islands_;
     std::vector<Part> parts_;               // (islands)
@@ -208,7 +204,7 @@ class ContactStage {
     ConvexColliders convex_;
     RigidContacts rigid_;
     ElementContacts ofElements_;
-    std::vector<ShapeInMotion> shapes_;  // of convex colliders, in the last instant
+    std::vector<ShapeInMotion> shapes_;  // of convex colliders, in the last block
     std::span<const RigidTouch> rigidTouches_;
     std::span<const ElementTouch> elementTouches_;
     std::vector<collision::Material> materials_;  // (colliders)
@@ -218,17 +214,14 @@ class ContactStage {
     bool hadImpulse_ = false;
     bool areCrossingsKnown_ = false;
     std::vector<contact::Crossing> crossings_;
-    std::vector<dvec3> x0_, x1_, v_;        // (points)
-    std::vector<dvec3> xBefore_, vBefore_;  // (points) before the last instant of contact
-    std::vector<dvec3> accelerations_;      // (result_.moved) [m/s²] by it alone, before constraints share them
-    double further_ = 0;                    // furtherIntoColliders() in the last instant
-    double turn_ = 0;                       // [rad] largest turnOf() in the last instant
-    std::vector<double> inverseMass_;       // (points)
+    std::vector<dvec3> x0_, x1_, v_;            // (points)
+    std::vector<dvec3> xStart_, ahead_;         // (points) [m] at the start of the block; where it may lead
+    std::vector<dvec3> vBefore_;                // (points) before contact in the last step
+    std::vector<ContactAcceleration> pressed_;  // (moved points of the group) in the last step
+    std::vector<double> inverseMass_;           // (points)
     std::vector<contact::KinematicContact> kinematic_;
     std::vector<contact::ContactConstraint> rigidPairs_;
-    double deepestTouch_ = 0;             // as Instant::deepestTouch
-    double share_ = 0, shareBefore_ = 0;  // of the tick, at the end and the start of the instant
-    // What contact did with a point in a tick, summed over pairs and instants.
+    // What contact did with a point in a tick, summed over pairs and steps.
     struct Press {
         double limit = 0;                // [N s] of friction
         dvec3 push{0.0}, friction{0.0};  // [N s] along the normals, and across
@@ -237,11 +230,11 @@ class ContactStage {
     std::vector<std::pair<const Island*, const Island*>> pressing_;  // likewise
     Footholds footholds_;                                            // likewise
     std::vector<std::int64_t> reached_;                              // companies, in this try
-    double weight_ = 0;  // [m/s²] largest acceleration by uniform fields, at the start of the tick
-    int instants_ = 0;
-    int room_ = 1;  // instants for which the substeps of this tick have room
-    contact::InstantResult result_;
-    ContactInfo total_;  // sum over the ticks since it was made
+    double weight_ = 0;           // [m/s²] largest acceleration by uniform fields, at the start of the tick
+    int blocks_ = 1, steps_ = 1;  // of this tick
+    int room_ = 1;                // steps for which the substeps of this tick have room
+    int mostBlocks_ = 0;          // in any tick
+    ContactInfo total_;           // sum over the ticks since it was made
 };
 
 }  // namespace taut::world

@@ -1,6 +1,6 @@
 // Deformable bodies against convex shapes whose distance is a formula: points, edges and faces of theirs near solids,
 // and near colliders the edges and faces, as what comes between the points that islands, or whole bodies, bring out.
-// Found at the start of an instant, as what rigid shapes touch is (rigid_contacts.h).
+// Found at the start of a block, as what rigid shapes touch is (rigid_contacts.h).
 #pragma once
 
 #include <array>
@@ -21,12 +21,13 @@ struct ElementTouch {
     std::array<int, 3> points;  // of the group; of an edge the third is -1, of a point the second too
     std::array<double, 3> weights;
     dvec3 normal, place;  // unit, out of the shape; [m] of the element
-    double gap, way;      // [m] beyond the thickness of the surface; by which they close in the instant
+    double gap, way;      // [m] beyond the thickness of the surface; by which they close in the block
+    double slide;         // [m] that they go across each other in it
     double thickness;     // [m] of both
     dvec3 velocity;       // [m/s] of the shape there
 };
 
-// Touches in an instant of `seconds` [s], in which points go from x0 to x1 (points) [m]. `mayTouch` says which
+// Touches in a block of `seconds` [s], in which points go from x0 to x1 (points) [m]. `mayTouch` says which
 // surfaces, and which surface and collider, may.
 class ElementContacts {
   public:
@@ -44,7 +45,7 @@ class ElementContacts {
     void add(const Query& query, int element, const std::array<int, 3>& points, const collision::ElementNear& near);
 
     // Of one surface and one shape, (points).
-    std::vector<dvec3> local_;              // [m] at the start of the instant, in the axes of the shape
+    std::vector<dvec3> local_;              // [m] at the start of the block, in the axes of the shape
     std::vector<collision::Nearest> near_;  // to the shape
     std::vector<double> ways_;              // [m] how far they go
     std::vector<char> isNear_;              // an element of theirs may touch

@@ -1,10 +1,10 @@
-// The places where convex solids touch, or nearly touch, each other and convex colliders in an instant.
+// The places where convex solids touch, or nearly touch, each other and convex colliders in a block.
 //
 //     swept boxes, sorted along an axis  -->  pairs  -->  collision::manifoldOf() of each  -->  touches
 //
-// A touch is measured at the start of the instant, so that its gap is speculative (contact_group.h). Where two shapes
-// that are apart meet within the instant, the normal is that of the moment when they do: balls that meet aslant fly
-// apart as they lie then. All of it is a function of the poses at both ends of the instant.
+// A touch is measured at the start of the block, so that its gap is speculative (contact_group.h). Where two shapes
+// that are apart meet within the block, the normal is that of the moment when they do: balls that meet aslant fly
+// apart as they lie then. All of it is a function of the poses at both ends of the block.
 #pragma once
 
 #include <functional>
@@ -25,9 +25,8 @@ struct RigidTouch {
     int first, second;        // numbers of the shapes, for a name of the pair
     int number;               // among the places of the pair
     dvec3 normal;             // unit, towards the first
-    dvec3 onFirst, onSecond;  // [m] where they press each other, at the start of the instant
+    dvec3 onFirst, onSecond;  // [m] where they press each other, at the start of the block
     double gap, thickness;    // [m] then; of both
-    double way;               // [m] by which they close along the normal in the instant, if nothing stops them
     dvec3 velocity;           // [m/s] of the collider's surface there
 };
 
@@ -43,7 +42,7 @@ class RigidContacts {
     void addSolid(const Solid& solid) { solids_.push_back(solid); }
     bool isEmpty() const { return solids_.empty(); }
 
-    // Touches in an instant of `seconds` [s], of solids whose points go from x0 to x1 (points) [m], with each other and
+    // Touches in a block of `seconds` [s], of solids whose points go from x0 to x1 (points) [m], with each other and
     // with shapes of colliders. `mayTouch` says which surfaces, and which surface and collider, may.
     using MayTouch = std::function<bool(int surface, int other, int collider)>;
     std::span<const RigidTouch> find(std::span<const dvec3> x0, std::span<const dvec3> x1, double seconds,

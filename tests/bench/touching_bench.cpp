@@ -1,4 +1,4 @@
-// What it costs that bodies touch, a point and instant of contact, the steps between the instants left in: a sheet that
+// What it costs that bodies touch, a point and detection of contact, the steps in between left in: a sheet that
 // falls on its edge while it piles up and when it lies, one that hangs and meets nothing, and two that lie on a ball;
 // and boxes that fall into a heap, and that stand in a wall.
 #include <benchmark/benchmark.h>
@@ -111,14 +111,14 @@ world::SceneSpec wall(int width) {
 void touching(benchmark::State& state, const world::SceneSpec& spec, int ticks) {
     world::World world(spec, {.threads = 1});
     for (int i = 0; i < ticks; ++i) (void)world.advance();
-    const auto before = world.contact().instants;
+    const auto before = world.contact().detections;
     for (auto _ : state) (void)world.advance();
     double points = 0;
     for (const world::IslandInfo& island : world.islands()) points += island.points;
-    const auto instants = static_cast<double>(world.contact().instants - before);
-    state.counters["instants a tick"] = instants / static_cast<double>(state.iterations());
-    state.counters["per point and instant"] =
-        benchmark::Counter(points * instants, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    const auto detections = static_cast<double>(world.contact().detections - before);
+    state.counters["detections a tick"] = detections / static_cast<double>(state.iterations());
+    state.counters["per point and detection"] =
+        benchmark::Counter(points * detections, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK_CAPTURE(touching, piles up, folding(), 25)->Unit(benchmark::kMillisecond)->Iterations(20);
 BENCHMARK_CAPTURE(touching, lies, folding(), 180)->Unit(benchmark::kMillisecond)->Iterations(20);

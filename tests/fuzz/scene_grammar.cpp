@@ -51,7 +51,7 @@ class Growing {
         addSolver();
         if (choices_.oneIn(4)) add({"world.gravity = {}\n", choices_.vector(50)});
         if (choices_.oneIn(4)) add({"contact.friction = {:.6g}\n", choices_.magnitude(1e-3, 10)});
-        if (choices_.oneIn(8)) add({"contact.instants = {}\n", choices_.of({"1", "2", "16"})});
+        if (choices_.oneIn(8)) add({"contact.detections = {}\n", choices_.of({"1", "2", "16"})});
         addMaterial();
         const int colliders = choices_.below(3), bodies = 1 + choices_.below(3);
         isJoined_ = bodies > 1 && choices_.oneIn(4);

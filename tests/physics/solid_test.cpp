@@ -298,7 +298,7 @@ TEST(SolidBox, MadeOfHalvesMovesAsTheWhole) {
         const dvec3 middle = 0.5 * (motionOf(two, "solid.left").centre + motionOf(two, "solid.right").centre);
         for (const dvec3& centre : {middle, motionOf(three, "solid.parts").centre})
             furthest = std::max(furthest, glm::distance(centre, wanted));
-        if (tick == 20) EXPECT_LT(furthest, 1e-12);  // still in the air
+        if (tick == 20) EXPECT_LT(furthest, 1e-11);  // in the air: a weld is settled to 1e-12 in each of 168 steps
         // The first impact, of an edge: two rows or four, which the solver settles to 1e-5 of the thickness. What
         // balances on an edge after it grows apart.
         if (tick == 28) EXPECT_LT(furthest, 2e-8);
@@ -752,7 +752,7 @@ TEST(Solid, KeepsMomentaWhereItIsRound) {
 // A ball, a box and a cylinder fall on a free cloth in free space: nothing is lost of both momenta, nothing crosses.
 TEST(Solid, KeepsMomentaWithACloth) {
     world::SceneSpec spec = scene(0.5);
-    spec.contact.instants = 32;  // steps that change while bodies press would lose momentum
+    spec.contact.detections = 32;  // steps that change while bodies press would lose momentum
     spec.world.gravity = dvec3(0.0);
     spec.bodies.add(sheet("cloth", {-0.2, 0.0, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 10));
     SolidSpec thrown = ball("ball", {0.05, 0.15, 0.02}, 0.05);

@@ -82,9 +82,8 @@ TEST(TouchingSlide, LosesNothingOnAFlatClothWithoutFriction) {
     EXPECT_LT(world.metrics("net.ball").momentum.x, 1.001 * 0.05);
 }
 
-// Of islands of few steps, which meet in a tick in which nothing should have: it is taken again, in no more instants
-// than they have steps.
-TEST(TouchingSlide, OfStiffOnWhatIsHeldNeedsNoMoreInstantsThanThereAreSteps) {
+// However fast it is: what may meet is found no more often than there are steps.
+TEST(TouchingSlide, OfStiffOnWhatIsHeldNeedsNoMoreDetectionsThanThereAreSteps) {
     world::SceneSpec spec = scene(0.0);
     world::ClothSpec track = sheet("track", {-0.1, 0.0, -0.05}, {1.0, 0, 0}, {0, 0, 0.1}, 50);
     track.hold = {"all"};
@@ -96,7 +95,7 @@ TEST(TouchingSlide, OfStiffOnWhatIsHeldNeedsNoMoreInstantsThanThereAreSteps) {
     for (int i = 0; i < 10; ++i) {
         ASSERT_FALSE(world.advance());
         for (const world::IslandInfo& island : world.islands())
-            EXPECT_EQ(island.substeps % world.contact().lastInstants, 0) << i;
+            EXPECT_LE(world.contact().lastDetections, island.substeps) << i;
     }
 }
 
@@ -108,7 +107,7 @@ TEST(TouchingStack, OfTwoSheetsKeepsItsDistanceAndComesToRest) {
     spec.bodies.add(sheet("upper", {0.013, 0.03, 0.017}, {0.28, 0, 0.02}, {-0.02, 0, 0.28}, 6));
     World world(spec);
     EXPECT_FALSE(advance(world, 90));
-    EXPECT_LT(fastest(world, {"cloth.lower", "cloth.upper"}), 1e-3);  // an instant's fall gives 0.04 m/s
+    EXPECT_LT(fastest(world, {"cloth.lower", "cloth.upper"}), 1e-3);  // a step's fall gives 0.01 m/s
     for (const dvec3& x : positionsOf(world, "cloth.lower")) EXPECT_NEAR(x.y, keep / 2, 0.05 * keep);
     for (const dvec3& x : positionsOf(world, "cloth.upper")) EXPECT_NEAR(x.y, 1.5 * keep, 0.05 * keep);
 }

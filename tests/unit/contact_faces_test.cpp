@@ -1,9 +1,5 @@
 // Corners and edges of rigid surfaces in a group: impulses by hand, and how far they stand out.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "taut/contact/contact_group.h"
+#include "contact_support.h"
 #include "taut/contact/penetration.h"
 
 namespace taut::contact {
@@ -60,14 +56,7 @@ TEST(ContactFaces, ATriangleIsStoppedByATipAsItsWholeMass) {
     }
     const std::vector<dvec3> before = x1;
     const std::vector<double> inverse = masses(scene);
-    Instant instant;
-    instant.h = h;
-    instant.x0 = x0;
-    instant.x1 = x1;
-    instant.v = v;
-    instant.inverseMass = inverse;
-    group.begin(x0);
-    EXPECT_EQ(group.resolve(instant).impulses, 1);
+    EXPECT_EQ(resolve(group, h, x0, x1, v, inverse).impulses, 1);
     double momentum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         momentum += v[i].y;
@@ -95,14 +84,7 @@ TEST(ContactFaces, ATipHasTheFrictionOfItselfAndTheBody) {
         x1[i] += h * v[i];
     }
     const std::vector<double> inverse = masses(scene);
-    Instant instant;
-    instant.h = h;
-    instant.x0 = scene.x;
-    instant.x1 = x1;
-    instant.v = v;
-    instant.inverseMass = inverse;
-    group.begin(scene.x);
-    EXPECT_EQ(group.resolve(instant).impulses, 1);
+    EXPECT_EQ(resolve(group, h, scene.x, x1, v, inverse).impulses, 1);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(v[i].x, slide - 0.5 * 0.4 * speed, 1e-12);
 }
 
@@ -154,14 +136,7 @@ TEST(ContactFaces, AnEdgeDoesNotStopWhatComesAlongAFaceBesideIt) {
         x1[i] += h * v[i];
     }
     const std::vector<double> inverse = masses(scene);
-    Instant instant;
-    instant.h = h;
-    instant.x0 = scene.x;
-    instant.x1 = x1;
-    instant.v = v;
-    instant.inverseMass = inverse;
-    group.begin(scene.x);
-    EXPECT_EQ(group.resolve(instant).impulses, 0);
+    EXPECT_EQ(resolve(group, h, scene.x, x1, v, inverse).impulses, 0);
     EXPECT_EQ(v[0].z, speed);
 }
 

@@ -72,21 +72,30 @@ struct Flight {
         return surface;
     }
 
-    // Flies for h [s], and is met at the end.
-    const InstantResult& fly(double h) {
+    // Flies for h [s], in a block of one step or more.
+    const BlockResult& fly(double h, int steps = 1) {
         if (!group) {
             group = std::make_unique<ContactGroup>(surfaces, rest.empty() ? x : rest, options);
             group->begin(x);
         }
-        std::vector<dvec3> before = x;
-        for (std::size_t i = 0; i < x.size(); ++i) x[i] += h * v[i];
-        Instant instant;
-        instant.h = h;
-        instant.x0 = before;
-        instant.x1 = x;
-        instant.v = v;
-        instant.inverseMass = inverseMass;
-        return group->resolve(instant);
+        const std::vector<dvec3> start = x;
+        std::vector<dvec3> ahead = x;
+        for (std::size_t i = 0; i < x.size(); ++i) ahead[i] += h * v[i];
+        Block block;
+        block.h = h / steps;
+        block.steps = steps;
+        block.x0 = start;
+        block.ahead = ahead;
+        block.inverseMass = inverseMass;
+        group->open(block);
+        for (int step = 0; step < steps; ++step) {
+            const std::vector<dvec3> before = x;
+            for (std::size_t i = 0; i < x.size(); ++i) x[i] += block.h * v[i];
+            group->step({before, x, v});
+        }
+        group->close(x, v);
+        group->finish(x);
+        return group->result();
     }
 
     double mass(std::size_t i) const { return inverseMass[i] > 0 ? 1.0 / inverseMass[i] : 0.0; }
@@ -115,6 +124,23 @@ struct Flight {
         return skin;
     }
 };
+
+// A block of one step from x0 to x1, straight on (points).
+inline const BlockResult& resolve(ContactGroup& group, double h, std::span<const dvec3> x0, std::span<dvec3> x1,
+                                  std::span<dvec3> v, std::span<const double> inverseMass) {
+    const std::vector<dvec3> ahead(x1.begin(), x1.end());
+    Block block;
+    block.h = h;
+    block.x0 = x0;
+    block.ahead = ahead;
+    block.inverseMass = inverseMass;
+    group.begin(x0);
+    group.open(block);
+    group.step({x0, x1, v});
+    group.close(x1, v);
+    group.finish(x1);
+    return group.result();
+}
 
 // Numbers from -1 to 1, the same on all machines.
 class Dice {

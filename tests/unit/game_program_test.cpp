@@ -399,9 +399,9 @@ TEST(Program, InfoTellsOfContactBetweenBodies) {
     const auto contact = nlohmann::json::parse(run({"info", two, "--json"}).out)["contact"];
     EXPECT_EQ(contact["points"], 5 + 3);
     EXPECT_EQ(contact["bodies"][0]["shortest_edge_m"], 0.25);
-    EXPECT_GE(contact["most_instants"].get<double>(), contact["mean_instants"].get<double>());
+    EXPECT_GE(contact["most_detections"].get<double>(), contact["mean_detections"].get<double>());
     const std::string text = run({"info", two}).out;
-    EXPECT_TRUE(has(text, "\ncontact of rope.a, rope.b\n  instants    ")) << text;
+    EXPECT_TRUE(has(text, "\ncontact of rope.a, rope.b\n  detections  ")) << text;
     EXPECT_TRUE(has(text, "layers of rope.b lie 0.4 m apart, its shortest edge is 0.5 m\n")) << text;
 }
 

@@ -29,7 +29,7 @@ air_pressure_Pa = 2e4
 [contact]
 friction = 0.45
 restitution = 0.35
-instants = 8
+detections = 8
 [run]
 fps = 30
 seconds = 4.5

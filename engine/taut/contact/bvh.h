@@ -89,7 +89,7 @@ class Bvh {
     // Surfaces that stand still may have moved in between: their leaves are followed once more.
     void forgetStill() { std::fill(isStillFollowed_.begin(), isStillFollowed_.end(), 0); }
 
-    // An block from x0 to x1 (points) [m] begins. Finds travel() of all leaves, and nothing else.
+    // A block from x0 to x1 (points) [m] begins. Finds travel() of all leaves, and nothing else.
     void start(std::span<const dvec3> x0, std::span<const dvec3> x1);
     double travel(int leaf) const { return travel_[static_cast<std::size_t>(leaf)]; }  // [m] furthest way of a point
     // Finds the motion of these leaves, unless it was found in this block already. A leaf that has deformed more than

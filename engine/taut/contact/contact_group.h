@@ -7,8 +7,8 @@
 //       |________________________________________|____|____|____|____|____|________________|
 //                                  rows are frozen: pair, weights, normal
 //
-// Detection is dear and what it finds lasts for some steps; impulses are cheap, and springs need them at once. So pairs
-// are found once a block, and solved in every step (solver.h).
+// Detection is expensive, and its pairs stay valid for several steps. Impulses are cheap, and springs need them in
+// every step. So pairs are found once per block and solved in every step (solver.h).
 //
 // The group knows places, velocities and inverse masses of points. It does not know why the points move.
 //
@@ -112,7 +112,7 @@ class ContactGroup {
     // this tick, not solved. Where the last tick began without any and was certified, there are none while the points
     // are where it left them.
     void begin(std::span<const dvec3> x);
-    // A block, see above. What has no rows needs no steps.
+    // A block, see above. A block without rows needs no step().
     // Returns how many steps the block has, from one to those that were asked for.
     int open(const Block& block);
     bool hasRows() const;

@@ -118,7 +118,7 @@ struct Sweeps {
 // what is left of its gap within a step.
 class RowPacks {
   public:
-    // gaps (rows) [m]: besides its `closing`, a row may close by what is left of it.
+    // gaps (rows) [m]: a row may close by the rest of its gap, in addition to `closing`.
     RowPacks(std::span<const Row> rows, std::span<const double> gaps, std::size_t slotCount, const Levers& levers);
     // One step of h [s]. As projectedGaussSeidel(), from the impulses of the step before. gone (slots) [m]: since the
     // gaps were measured.

@@ -470,7 +470,7 @@ void ContactSolver::sweep(Cluster& cluster) {
     cluster.packs->read(rowsOf(cluster));
 }
 
-// Sweeps; what they do not settle soon of solids near rest, all at once, and sweeps for what that leaves.
+// Sweeps. A pile of solids near rest that does not settle soon is solved as a whole, and then swept again.
 void ContactSolver::sweepSolids(const Cluster& cluster) {
     constexpr int fewSweeps = 16;
     const std::span<Row> rows = rowsOf(cluster);
@@ -559,7 +559,7 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
         for (int slot : row.slots) each(static_cast<std::size_t>(slot));
         for (const Share& share : row.shares.of(levers().shares)) each(static_cast<std::size_t>(share.slot));
     };
-    constexpr double rounding = 1e-9;  // what meets at the end of a step, meets in it with all its corners
+    constexpr double rounding = 1e-9;  // so that all corners of a face meet in the same step
     const auto closes = [&](const Bouncing& own) {
         return own.closing > block_.options.restSpeed && own.gap < (1 + rounding) * own.closing * block_.h;
     };

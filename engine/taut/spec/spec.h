@@ -39,7 +39,7 @@ struct WorldSpec {
 struct ContactSpec {
     double friction = 0.3;          // Coulomb's μ between two bodies, times the factors of both [-]
     double restitution = 0.0;       // 0 … 1: speed after two bodies bounce / before, times the factors of both [-]
-    std::optional<int> detections;  // in a tick, of what may meet; none: as many as the speeds need
+    std::optional<int> detections;  // of possible contact pairs, in a tick; none: chosen from the speeds
 };
 
 // What hands may do during a run. Steps allow for the timeline's own grabs without it.

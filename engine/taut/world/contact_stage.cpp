@@ -16,7 +16,7 @@
 namespace taut::world {
 namespace {
 
-constexpr double longestStep = 1.1e-3;  // [s] of contact of what has springs
+constexpr double longestStep = 1.1e-3;  // [s] of contact with deformable bodies
 constexpr int stepsOfBlock = 2;         // of the longest ones, in a block of the usual length
 constexpr int mostStepsForSpeed = 64;   // in a tick
 // In one block, times the thickness:
@@ -841,7 +841,7 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
             std::swap(x0_, x1_);
             if (!advance(time, moving, step, faults)) return;
             if (step == first) last = first + openBlock(step, last - first, usual);
-            // What touches nothing needs no impulses until the block ends.
+            // Without rows there are no impulses until the block ends.
             if (!group_->hasRows()) {
                 pressed_.clear();
                 for (int left = step + 1; left < last; ++left)

@@ -1,4 +1,4 @@
-// What meshes touch of cylinders and cones as solids.
+// Prisms that stand for cylinders and cones against meshes.
 #include "taut/collision/private/shapes/shape_parts.h"
 #include "taut/core/trig.h"
 

@@ -45,7 +45,7 @@
 
 namespace taut::world {
 
-// The smallest number of steps of a tick that bodies with springs take where they touch.
+// The smallest number of steps in a tick of deformable bodies that touch.
 int fewestSteps(double tickSeconds);
 
 // Whether any body of the plan may touch other bodies, itself, or edges of colliders.
@@ -221,7 +221,7 @@ class ContactStage {
     std::vector<double> inverseMass_;           // (points)
     std::vector<contact::KinematicContact> kinematic_;
     std::vector<contact::ContactConstraint> rigidPairs_;
-    // What contact did with a point in a tick, summed over pairs and steps.
+    // Impulses of contact on a point in a tick, summed over pairs and steps.
     struct Press {
         double limit = 0;                // [N s] of friction
         dvec3 push{0.0}, friction{0.0};  // [N s] along the normals, and across

@@ -1,4 +1,4 @@
-// What the files of the shapes share: checks of sizes, and prisms.
+// Shared by the files of the shapes: checks of sizes, and prisms.
 #pragma once
 
 #include <string>

@@ -23,7 +23,6 @@ constexpr int mostStepsForSpeed = 64;   // in a tick
 constexpr double mostClosing = 3.0;    // of a pair
 constexpr double calmWay = 1.0;        // of the sides of a pair, in a block that is longer than the usual one
 constexpr int mostGrowth = 2;          // of such a block
-constexpr double mostSliding = 0.2;    // of an edge or a face along a shape, whose normal is another where it comes to
 constexpr int ofElement = 1 << 28;     // in the name of a pair
 constexpr double stickingShare = 0.9;  // of Coulomb's limit: up to there friction may hold what sleeps
 
@@ -594,6 +593,7 @@ void ContactStage::addTouches() {
                 pair.weights[k + 1] = -touch.weights[k];
             }
             pair.normal = -touch.normal;
+            pair.slack = touch.slack;
             pair.a = ofElement | touch.shape;
             pair.b = touch.element;
             pair.places = {{touch.place, touch.place}};
@@ -601,7 +601,7 @@ void ContactStage::addTouches() {
         }
         contact::KinematicContact& contact =
             add(touch.collider, touch.points[0], touch.normal, touch.place - surface.thickness * touch.normal,
-                touch.velocity, touch.gap);
+                touch.velocity, touch.gap + touch.slack);
         contact.points = touch.points;
         contact.weights = touch.weights;
         if (!contact::mayYield(contact.used(), std::span(contact.weights).first(contact.used().size()), inverseMass_))
@@ -839,13 +839,12 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
         last = std::min(first + longest, steps_);
         for (int step = first; step < last; ++step) {
             std::swap(x0_, x1_);
-            if (!advance(time, moving, step, faults)) return;
+            if (!advance(time, moving, step, step + 1, faults)) return;
             if (step == first) last = first + openBlock(step, last - first, usual);
             // Without rows there are no impulses until the block ends.
             if (!group_->hasRows()) {
                 pressed_.clear();
-                for (int left = step + 1; left < last; ++left)
-                    if (!advance(time, moving, left, faults)) return;
+                if (step + 1 < last && !advance(time, moving, step + 1, last, faults)) return;
                 break;
             }
             vBefore_ = v_;
@@ -866,26 +865,31 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
 
 // Of the block after one: what hardly moves, and does not roll, keeps its normals for longer than the usual one.
 int ContactStage::stepsAfter(int usual) const {
-    const bool mayRoll = !rigidPairs_.empty() || std::any_of(kinematic_.begin(), kinematic_.end(),
-                                                             [](const auto& contact) { return contact.isWhole; });
+    const bool mayRoll =
+        !rigidPairs_.empty() || std::any_of(kinematic_.begin(), kinematic_.end(), [](const auto& contact) {
+            return contact.isWhole && contact.used().size() == 1;
+        });
     if (mayRoll) return usual;
     const int most = mostGrowth * usual;
-    const double way = group_->wayOfStep();
+    const double h = tickSeconds_ / steps_;
+    double way = group_->wayOfStep();
+    for (const ElementTouch& touch : elementTouches_) way = std::max(way, touch.speed * h / touch.thickness);
     return way * most > calmWay ? std::max(usual, static_cast<int>(calmWay / way)) : most;
 }
 
-// The islands take a step without contact. Returns false on a fault.
-bool ContactStage::advance(const TickTime& time, std::span<const ColliderMotion> moving, int step,
+// The islands take these steps without contact. Returns false on a fault.
+bool ContactStage::advance(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last,
                            std::vector<std::optional<Fault>>& faults) {
     core::parallelFor(
         static_cast<int>(islands_.size()), [&](int k) { return islands_[static_cast<std::size_t>(k)]->callsBack(); },
         [&](int k) {
             const auto own = static_cast<std::size_t>(k);
-            faults[own] = islands_[own]->advance(time, moving, step, steps_);
+            for (int step = first; step < last && !faults[own]; ++step)
+                faults[own] = islands_[own]->advance(time, moving, step, steps_);
         });
     if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); })) return false;
     readAll();
-    colliders_.place(static_cast<double>(step + 1) / steps_, x1_);
+    colliders_.place(static_cast<double>(last) / steps_, x1_);
     return true;
 }
 
@@ -909,9 +913,6 @@ int ContactStage::openBlock(int step, int steps, int usual) {
     const double from = static_cast<double>(step) / steps_;
     findTouches(x0_, ahead_, from, std::min(1.0, from + ahead / steps_));
     addTouches();
-    for (const ElementTouch& touch : elementTouches_)
-        if (const double most = mostSliding * touch.thickness; touch.slide * steps > ahead * most)
-            steps = std::max(1, static_cast<int>(ahead * most / touch.slide));
     std::stable_sort(kinematic_.begin(), kinematic_.end(),
                      [](const auto& a, const auto& b) { return a.point() < b.point(); });
     contact::Block block;

@@ -8,6 +8,7 @@ namespace {
 
 // Of the thickness:
 constexpr double closeShare = 0.05;     // what is nearer counts though nothing closes
+constexpr double flatShare = 0.2;       // an element that slides less keeps its normal
 constexpr double standsOutShare = 0.2;  // an edge or a face counts where it comes nearer than its points by so much
 
 double longestEdge(const contact::Elements& elements, int surface, std::span<const dvec3> x) {
@@ -158,7 +159,8 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                        .place = dvec3(0.0),
                        .gap = near.distance - query.thickness,
                        .way = 0,
-                       .slide = 0,
+                       .speed = 0,
+                       .slack = 0,
                        .thickness = query.thickness + shape.thickness,
                        .velocity = dvec3(0.0)};
     dvec3 end(0.0);
@@ -170,9 +172,30 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                 wayOfShape = shape.to.toWorld(shape.from.toLocal(on)) - on;
     const dvec3 way = end - touch.place - wayOfShape;
     touch.way = -glm::dot(touch.normal, way);
-    touch.slide = glm::length(way + touch.way * touch.normal);
+    touch.speed = glm::length(way) / query.seconds;
     touch.velocity = wayOfShape / query.seconds;
-    if (touch.gap < closeShare * touch.thickness || touch.way > touch.gap) touches_.push_back(touch);
+    if (!(touch.gap < closeShare * touch.thickness || touch.way > touch.gap)) return;
+    if (glm::length(way + touch.way * touch.normal) > flatShare * touch.thickness)
+        touch.slack = slackOf(query, points, near.distance - touch.way);
+    touches_.push_back(touch);
+}
+
+// [m] By how much an element is further from the shape at the end of the block than `distance`, the one along its
+// normal at the start: it slides past an edge, or along what is round.
+double ElementContacts::slackOf(const Query& query, const std::array<int, 3>& points, double distance) {
+    const auto at = [&](std::size_t k) {
+        return query.shape.to.toLocal(query.x1[static_cast<std::size_t>(points[k])]);
+    };
+    const auto from = [&](const dvec3& place) { return collision::distanceTo(query.closed, place); };
+    double then = from(at(0)).distance;
+    if (points[2] >= 0) {
+        const auto near = collision::nearestInFace(*query.shape.convex, at(0), at(1), at(2));
+        then = near ? near->distance : std::min({then, from(at(1)).distance, from(at(2)).distance});
+    } else if (points[1] >= 0) {
+        const auto near = collision::nearestInEdge(query.closed, at(0), at(1), from(at(0)), from(at(1)));
+        then = near ? near->distance : std::min(then, from(at(1)).distance);
+    }
+    return std::max(0.0, then - std::max(distance, 0.0));
 }
 
 }  // namespace taut::world

@@ -11,8 +11,8 @@
 // three thicknesses in one.
 //
 // How many blocks. As few as possible, because detection is dear: eight in a sixtieth of a second, or one a step if
-// these are fewer. A block in which two sides would close by more than three thicknesses, or an edge or a face slide
-// along a shape, is shorter; after one in which little moved the next is twice as long.
+// these are fewer. A block in which two sides would close by more than three thicknesses is shorter; after one in which
+// little moved the next is twice as long.
 //
 // A tick is never tried and undone for contact. It is repeated if an island asks for it (its step was too long), if one
 // diverged and is frozen, and where something that sleeps was reached. The other islands then go on, and the frozen one
@@ -172,7 +172,7 @@ class ContactStage {
     void takeSteps(const TickTime& time, int steps);
     void takeBlocks(const TickTime& time, std::span<const ColliderMotion> moving,
                     std::vector<std::optional<Fault>>& faults);
-    bool advance(const TickTime& time, std::span<const ColliderMotion> moving, int step,
+    bool advance(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last,
                  std::vector<std::optional<Fault>>& faults);
     int openBlock(int step, int steps, int usual);
     int stepsAfter(int usual) const;

@@ -22,7 +22,8 @@ struct ElementTouch {
     std::array<double, 3> weights;
     dvec3 normal, place;  // unit, out of the shape; [m] of the element
     double gap, way;      // [m] beyond the thickness of the surface; by which they close in the block
-    double slide;         // [m] that they go across each other in it
+    double speed;         // [m/s] of the element past the shape
+    double slack;         // [m] by which the gap is wider at its end, as the element turns past the shape
     double thickness;     // [m] of both
     dvec3 velocity;       // [m/s] of the shape there
 };
@@ -42,6 +43,7 @@ class ElementContacts {
     void addPoints(const Query& query);
     void addEdges(const Query& query);
     void addFaces(const Query& query);
+    static double slackOf(const Query& query, const std::array<int, 3>& points, double distance);
     void add(const Query& query, int element, const std::array<int, 3>& points, const collision::ElementNear& near);
 
     // Of one surface and one shape, (points).

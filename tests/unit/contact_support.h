@@ -89,9 +89,9 @@ struct Flight {
         block.inverseMass = inverseMass;
         group->open(block);
         for (int step = 0; step < steps; ++step) {
-            const std::vector<dvec3> before = x;
+            const std::vector<dvec3> before = x, vBefore = v;
             for (std::size_t i = 0; i < x.size(); ++i) x[i] += block.h * v[i];
-            group->step({before, x, v});
+            group->step({before, x, v, vBefore});
         }
         group->close(x, v);
         group->finish(x);
@@ -128,7 +128,7 @@ struct Flight {
 // A block of one step from x0 to x1, straight on (points).
 inline const BlockResult& resolve(ContactGroup& group, double h, std::span<const dvec3> x0, std::span<dvec3> x1,
                                   std::span<dvec3> v, std::span<const double> inverseMass) {
-    const std::vector<dvec3> ahead(x1.begin(), x1.end());
+    const std::vector<dvec3> ahead(x1.begin(), x1.end()), before(v.begin(), v.end());
     Block block;
     block.h = h;
     block.x0 = x0;
@@ -136,7 +136,7 @@ inline const BlockResult& resolve(ContactGroup& group, double h, std::span<const
     block.inverseMass = inverseMass;
     group.begin(x0);
     group.open(block);
-    group.step({x0, x1, v});
+    group.step({x0, x1, v, before});
     group.close(x1, v);
     group.finish(x1);
     return group.result();

@@ -33,6 +33,7 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
     const auto count = static_cast<std::size_t>(elements_.pointCount());
     u0_.resize(count);
     u_.resize(count);
+    start_.resize(count);
     v_.resize(count);
     shift_.resize(count);
     marks_.assign(count, unmarked);
@@ -102,9 +103,9 @@ int ContactGroup::open(const Block& block) {
     return block_.steps;
 }
 
-// Returns so many of the steps that no pair closes by more than it may -> wayOfStep_.
+// Returns so many of the steps that the sides of no pair go further than they may -> wayOfStep_.
 int ContactGroup::measureWays() {
-    double closing = 0, square = 0;
+    double square = 0;
     for (const ContactConstraint& pair : active_) {
         if (pair.places) continue;
         dvec3 way(0.0);
@@ -112,16 +113,11 @@ int ContactGroup::measureWays() {
             const auto i = static_cast<std::size_t>(pair.points[k]);
             way += pair.weights[k] * (block_.ahead[i] - block_.x0[i]);
         }
-        way /= pair.thickness;
-        closing = std::max(closing, -glm::dot(pair.normal, way));
-        square = std::max(square, glm::dot(way, way));
+        square = std::max(square, glm::dot(way, way) / (pair.thickness * pair.thickness));
     }
-    wayOfStep_ = std::sqrt(square) / block_.steps;
-    const auto within = [&](double way, double most, int least) {
-        return way > most ? std::max(least, static_cast<int>(block_.steps * most / way)) : block_.steps;
-    };
-    return std::min(within(closing, block_.mostClosing, 1),
-                    within(std::sqrt(square), block_.calmWay, std::min(block_.steps, block_.usualSteps)));
+    const double way = std::sqrt(square);
+    wayOfStep_ = way / block_.steps;
+    return way > block_.mostWay ? std::max(1, static_cast<int>(block_.steps * block_.mostWay / way)) : block_.steps;
 }
 
 bool ContactGroup::hasRows() const {
@@ -149,7 +145,7 @@ void ContactGroup::step(const Step& step) {
 }
 
 bool ContactGroup::close(std::span<dvec3> x, std::span<dvec3> v) {
-    const Step whole{block_.x0, x, v};
+    const Step whole{block_.x0, x, v, {}};
     moved_ = result_.moved;
     if (!hasRows()) return certify(x, v);
     const std::vector<int> corrected = correctPositions(whole);
@@ -160,7 +156,7 @@ bool ContactGroup::close(std::span<dvec3> x, std::span<dvec3> v) {
 // Points are not where they were expected. Rounds until every pair has a certificate: the first use slide apart, the
 // others impact zones.
 bool ContactGroup::certify(std::span<dvec3> x, std::span<dvec3> v) {
-    const Step whole{block_.x0, x, v};
+    const Step whole{block_.x0, x, v, {}};
     bool movesAny = false;
     pending_ = all_;
     for (int round = 0; options_.certifies; ++round) {
@@ -206,6 +202,7 @@ void ContactGroup::load(const Step& step) {
     const auto load = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         u0_[k] = u_[k] = (step.x1[k] - step.x0[k]) / block_.h;
+        start_[k] = 0.5 * (u_[k] + step.before[k]);
         v_[k] = step.v[k];
     };
     for (const int i : solver_.points()) load(i);
@@ -221,12 +218,12 @@ void ContactGroup::load(const Step& step) {
 
 void ContactGroup::solveActive(const Step& step) {
     load(step);
-    solver_.step(step.x0, u_, v_);
+    solver_.step(step.x0, start_, u_, v_);
     for (int round = 0; round < mostSqueezes && findSqueezed(); ++round) {
         std::erase_if(active_, [&](const ContactConstraint& pair) { return isLetThrough(pair); });
         beginRows();
         load(step);
-        solver_.step(step.x0, u_, v_);
+        solver_.step(step.x0, start_, u_, v_);
     }
 }
 

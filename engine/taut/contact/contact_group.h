@@ -58,10 +58,7 @@ struct Block {
     std::span<const KinematicContact> kinematic;  // contacts of points with colliders, ascending by point
     std::span<const ContactConstraint> rigid{};   // pairs of convex solids, each with a point of both and a place
     double restSpeed = 0;                         // [m/s] what closes more slowly does not bounce
-    // Of the thickness of a pair: a block in which it closes further is shorter, and one in which its sides go further
-    // is no longer than usual.
-    double mostClosing = 1e300, calmWay = 1e300;
-    int usualSteps = 1;
+    double mostWay = 1e300;  // of the sides of a pair from one another, over its thickness: else the block is shorter
     // The group calls it with the points (ascending) whose x and v it has changed. Their island places them, and may
     // change both again: by rounding, or at a collider. May be empty.
     std::function<void(std::span<const int> points)> place;
@@ -70,6 +67,7 @@ struct Block {
 struct Step {
     std::span<const dvec3> x0;
     std::span<dvec3> x1, v;
+    std::span<const dvec3> before;  // [m/s] stored as the step began; only bounces need it
 };
 
 struct BlockResult {
@@ -117,6 +115,7 @@ class ContactGroup {
     int open(const Block& block);
     bool hasRows() const;
     void step(const Step& step);
+    bool hasBounced() const { return solver_.hasBounced(); }  // in the last step
     // The whole block, from its x0: takes overlap back, and gives all pairs a certificate. certify() does the latter
     // again, where something else has moved points since. Both return whether they moved any.
     bool close(std::span<dvec3> x, std::span<dvec3> v);
@@ -157,7 +156,7 @@ class ContactGroup {
     void selectActive();                                                // tested_ -> active_
     int measureWays();
     void beginRows();                    // active_ -> rows of solver_
-    void load(const Step& step);         // -> u0_, u_, v_
+    void load(const Step& step);         // -> u0_, u_, start_
     void solveActive(const Step& step);  // -> u_, v_
     int countImpulses() const;
     bool findSqueezed();  // active_ -> squeezed_
@@ -215,9 +214,9 @@ class ContactGroup {
     std::vector<Pressed> pressed_;  // (points) scratch, as new between uses
     std::map<int, int> squeezed_;   // points; the rank of the driven surface that still presses, -1: none
     Block block_;
-    // (points) [m/s] mean velocity in the step before and after the solver; [m/s] stored velocity after it; [m]
-    // position correction. Set where active pairs or crossings have points.
-    std::vector<dvec3> u0_, u_, v_, shift_;
+    // (points) [m/s] mean velocity in the step before and after the solver; [m/s] velocity at its start; [m/s] stored
+    // velocity after it; [m] position correction. Set where active pairs or crossings have points.
+    std::vector<dvec3> u0_, u_, start_, v_, shift_;
     std::vector<int> all_;              // points
     std::vector<int> moved_, pending_;  // points that were handed over in this step; since tested_ was found
     double wayOfStep_ = 0;

@@ -501,6 +501,22 @@ bool ContactSolver::areOfOneImpact(const Row& a, const Row& b) const {
     return &a == &b || (!a.turns.of(levers().turns).empty() && turnsAll(a, b) && turnsAll(b, a));
 }
 
+// Whether a row has no point of a deformable body.
+bool ContactSolver::isRigid(const Row& row) const {
+    const auto isOf = [&](int point) {
+        bool all = true;
+        carried_->forEachMover(point, [&](int i, double) { all = all && (isFixed(i) || solidOf(i) != nullptr); });
+        return all;
+    };
+    const auto source = static_cast<std::size_t>(row.source);
+    if (source >= block_.pairs.size()) {
+        const auto used = block_.kinematic[source - block_.pairs.size()].used();
+        return std::all_of(used.begin(), used.end(), isOf);
+    }
+    const auto& points = block_.pairs[source].points;
+    return std::all_of(points.begin(), points.end(), isOf);
+}
+
 // Bounces: one impact after the other, the fastest first, gives back its share of the speeds with which its rows close,
 // until none closes faster than restSpeed. So momentum goes through a row of balls as from one to the next, and a box
 // that lands on a face leaves it without turning. Normal impulses of an impact that each give their row its speed take
@@ -508,9 +524,13 @@ bool ContactSolver::areOfOneImpact(const Row& a, const Row& b) const {
 // would be answered with energy of its own, where the impact turns a body. The impulses are added to those that the
 // rows get.
 //
-//       the gap closes      now         Sides that close by c meet s before the end of the step. Until then they use
-//     |-------- h - s ------|--- s ---| up the gap, then they part by e c. Forces, which change u to v by d along the
-//     step before                       normal, act on until v: for h/2 + s under leap-frog, and before that on c.
+//       the gap closes      now         Rigid bodies that close by c meet s before the end of the step. Until then they
+//     |-------- h - s ------|--- s ---| use up the gap, then they part by e c. Forces, which change u to v by d along
+//     step before                       the normal, act on until v: for h/2 + s under leap-frog, and before that on c.
+//
+// Springs would gain or lose by that, since their forces go with the place. A step of leap-frog from x keeps
+// ½ w·Mw + V(x), where w is the velocity at x: the mean of those before and after its kick. So a row of a deformable
+// body gives back its closing w, and u and v change as w does: at e = 1 this is the step before taken back.
 void ContactSolver::bounce(const Cluster& cluster) {
     const std::span<const Row> rows = rowsOf(cluster);
     const std::span<double> sizes = std::span(bounces_).subspan(cluster.first, rows.size());
@@ -527,20 +547,26 @@ void ContactSolver::bounce(const Cluster& cluster) {
         const auto closingIn = [&](std::span<const Four> velocities) {
             return -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, levers()));
         };
-        all.push_back({&row, restitution, gap, closingIn(v_) - closingIn(u_), 0.0});
+        const double u = closingIn(u_);
+        all.push_back({&row, restitution, gap, u - closingIn(start_), closingIn(v_) - u, 0.0, isRigid(row)});
     }
     const double h = block_.h;
     // Until the sides meet [s]; they part by e c then.
     const auto untilMet = [h](const Bouncing& own, double closing) { return std::min(own.gap / closing, h); };
+    // Forces have changed the closing by so much since it was c.
+    const auto parts = [](const Bouncing& own, double change) {
+        return -std::max(own.restitution * (own.closing - change) - change, 0.0);
+    };
     bounceIn(u_, all, rows, {}, [&](const Bouncing& own) {
+        if (!own.isRigid) return parts(own, own.gained);
         const double before = untilMet(own, own.closing);
         return (before - own.restitution * (h - before)) * own.closing / h;
     });
     bounceIn(v_, all, rows, sizes, [&](const Bouncing& own) {
+        if (!own.isRigid) return parts(own, own.gained + own.drift);
         const double then = own.closing - own.drift;  // of u
         const double before = then > 0 ? untilMet(own, then) : h;
-        const double change = own.drift * (1.5 - before / h);
-        return -std::max(own.restitution * (own.closing - change) - change, 0.0);
+        return parts(own, own.drift * (1.5 - before / h));
     });
 }
 
@@ -611,8 +637,14 @@ void ContactSolver::correctPositions(const Cluster& cluster) {
         double target = 0;
         if (isLikePair(row)) {
             const auto source = static_cast<std::size_t>(row.source);
-            const double gap = gapNow(r), share = source < block_.pairs.size() ? block_.pairs[source].recovery : 1.0;
-            if (gap < 0) target = std::min(-block_.options.recovery * share * gap, fastestOut * block_.seconds());
+            const bool isPair = source < block_.pairs.size();
+            const double gap = gapNow(r), share = isPair ? block_.pairs[source].recovery : 1.0;
+            // A bounce takes sides apart by itself, and without damping nothing takes up the work of a shift.
+            const double restitution =
+                isPair ? block_.pairs[source].restitution : block_.kinematic[source - block_.pairs.size()].restitution;
+            if (gap < 0)
+                target =
+                    std::min(-block_.options.recovery * (1 - restitution) * share * gap, fastestOut * block_.seconds());
             if (!(target > 0) && !(row.impulse.of[3] > 0)) continue;
         }
         overlaps = overlaps || target > 0;
@@ -667,7 +699,12 @@ void ContactSolver::forEachCluster(const Each& each) {
         core::parallelFor(count, one);
 }
 
-void ContactSolver::step(std::span<const dvec3> x, std::span<dvec3> u, std::span<dvec3> v) {
+void ContactSolver::step(std::span<const dvec3> x, std::span<const dvec3> start, std::span<dvec3> u,
+                         std::span<dvec3> v) {
+    if (anyBounces_) {
+        load(x, start, start);
+        start_ = u_;
+    }
     load(x, u, v);
     bounces_.assign(rows_.size(), 0.0);
     if (anyBounces_) forEachCluster([&](Cluster& cluster) { bounce(cluster); });

@@ -42,6 +42,7 @@
 // forgotten as a tick begins, so that what outlives a tick is the state of the islands alone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -114,8 +115,9 @@ class ContactSolver {
   public:
     // Makes the rows of a block.
     void begin(const SolverBlock& block);
-    // Changes u and v (points) [m/s] of a step that starts at x (points) [m] by the impulses.
-    void step(std::span<const dvec3> x, std::span<dvec3> u, std::span<dvec3> v);
+    // Changes u and v (points) [m/s] of a step that starts at x (points) [m] by the impulses. start (points) [m/s]: the
+    // velocities at its start.
+    void step(std::span<const dvec3> x, std::span<const dvec3> start, std::span<dvec3> u, std::span<dvec3> v);
     // Ends the block, where points are at x. shift (points) [m] gets the position correction; expects 0.
     void end(std::span<const dvec3> x, std::span<dvec3> shift);
     // Which points keep their distances. Keeps the span.
@@ -137,6 +139,10 @@ class ContactSolver {
     // (pairs, then contacts with colliders) [N s] along the normal, and tangential, on the first side or the point.
     std::span<const double> impulses() const { return impulses_; }
     std::span<const dvec3> frictions() const { return frictions_; }
+    bool hasBounced() const {
+        return std::any_of(
+            bounces_.begin(), bounces_.end(), [](double size) { return size > 0; });
+    }
 
   private:
     // A solid in this block.
@@ -177,9 +183,13 @@ class ContactSolver {
     struct Bouncing {
         const Row* row;
         double restitution, gap;  // [-], [m]
-        double drift;             // [m/s] by which v closes faster than u
-        double closing;           // [m/s] now
+        // [m/s] By which it closes faster than at the start of the step; 0 without springs. By which v closes faster
+        // than u.
+        double gained, drift;
+        double closing;  // [m/s] now
+        bool isRigid;
     };
+    bool isRigid(const Row& row) const;
     void bounce(const Cluster& cluster);
     void bounceIn(std::span<Four> velocities, std::vector<Bouncing>& all, std::span<const Row> rows,
                   std::span<double> sizes, const std::function<double(const Bouncing&)>& target) const;
@@ -208,7 +218,7 @@ class ContactSolver {
     std::vector<std::pair<int, int>> moving_,
         fixed_;                                  // slot and point, of what moves and is of no solid; that does not
     std::vector<std::pair<int, dvec3>> driven_;  // slot and velocity of colliders
-    std::vector<Four> u_, v_, shift_;            // (slots)
+    std::vector<Four> u_, v_, start_;            // (slots) [m/s]
     std::vector<Four> before_, gone_;            // (slots) u_ before sweeps; [m] since the block began
     std::span<const Solid> solids_;
     std::vector<int> solidAt_;  // (points) empty where there are none; -1: of none

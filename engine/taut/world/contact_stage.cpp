@@ -19,10 +19,12 @@ namespace {
 constexpr double longestStep = 1.1e-3;  // [s] of contact with deformable bodies
 constexpr int stepsOfBlock = 2;         // of the longest ones, in a block of the usual length
 constexpr int mostStepsForSpeed = 64;   // in a tick
-// In one block, times the thickness:
-constexpr double mostClosing = 3.0;    // of a pair
-constexpr double calmWay = 1.0;        // of the sides of a pair, in a block that is longer than the usual one
-constexpr int mostGrowth = 2;          // of such a block
+constexpr int mostGrowth = 2;           // of a block after a calm one, times the usual length
+// Of two sides from one another or past, times their thickness:
+constexpr double mostWay = 3.0;  // in a block, and in a step
+constexpr double calmWay = 1.0;  // in a block of which the next one is longer, and in any block where something bounces
+// Of an element past a solid in a block: the solid stands on the rows of such elements.
+constexpr double mostWayOnSolid = 0.2;
 constexpr int ofElement = 1 << 28;     // in the name of a pair
 constexpr double stickingShare = 0.9;  // of Coulomb's limit: up to there friction may hold what sleeps
 
@@ -343,11 +345,19 @@ int ContactStage::commonSubsteps() const {
     return std::max(common, 1);
 }
 
+// Whether bodies of an island give back a part of an impact among themselves.
+bool ContactStage::bounces(const Island& island) const {
+    return spec_.restitution > 0 &&
+           std::any_of(
+               island.plan().bodies.begin(), island.plan().bodies.end(),
+               [](const Body* body) { return body->spec->facesMeet() && body->spec->restitution > 0; });
+}
+
 // How many steps any body may need, whatever touches.
 int ContactStage::mostSteps() const {
     int most = fewest_;
     for (const Island* island : islands_)
-        if (!island->isStill()) most = std::max(most, island->stepsToPress());
+        if (!island->isStill()) most = std::max(most, island->stepsToPress(bounces(*island)));
     return most;
 }
 
@@ -391,8 +401,8 @@ void ContactStage::chooseSteps(const TickTime& time) {
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
         const Island& island = *bodies_[s]->island;
         if (island.isStill() || !isNearAny(static_cast<int>(s), boxes)) continue;
-        steps = std::max(steps, island.stepsToPress());
-        const double way = mostClosing * surfaces[s].thickness, speed = std::sqrt(speeds[s]);
+        steps = std::max(steps, island.stepsToPress(bounces(island)));
+        const double way = mostWay * surfaces[s].thickness, speed = std::sqrt(speeds[s]);
         while (steps < mostStepsForSpeed && tickSeconds_ * speed > steps * way) steps *= 2;
     }
     takeSteps(time, steps);
@@ -593,7 +603,6 @@ void ContactStage::addTouches() {
                 pair.weights[k + 1] = -touch.weights[k];
             }
             pair.normal = -touch.normal;
-            pair.slack = touch.slack;
             pair.a = ofElement | touch.shape;
             pair.b = touch.element;
             pair.places = {{touch.place, touch.place}};
@@ -839,6 +848,7 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
         last = std::min(first + longest, steps_);
         for (int step = first; step < last; ++step) {
             std::swap(x0_, x1_);
+            vStart_ = v_;
             if (!advance(time, moving, step, step + 1, faults)) return;
             if (step == first) last = first + openBlock(step, last - first, usual);
             // Without rows there are no impulses until the block ends.
@@ -848,33 +858,29 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
                 break;
             }
             vBefore_ = v_;
-            group_->step({x0_, x1_, v_});
+            group_->step({x0_, x1_, v_, vStart_});
             if (!presses_.empty()) addPresses();
             if (!presses_.empty() && !wholes_.empty()) addFootholds();
             if (anySleeps() && findReached()) return;
             takeAccelerations();
             settle();
             if (findFaults(time.at(step + 1, steps_), faults)) return;
+            if (group_->hasBounced()) last = step + 1;  // it does not go where it was expected
         }
         closeBlock();
         xStart_ = x1_;
         if (findFaults(time.at(last, steps_), faults)) return;
-        longest = spec_.detections ? usual : stepsAfter(usual);
+        const int calm = mostGrowth * usual;
+        longest = !spec_.detections && !mayRoll() && group_->wayOfStep() * calm < calmWay ? calm : usual;
     }
 }
 
-// Of the block after one: what hardly moves, and does not roll, keeps its normals for longer than the usual one.
-int ContactStage::stepsAfter(int usual) const {
-    const bool mayRoll =
-        !rigidPairs_.empty() || std::any_of(kinematic_.begin(), kinematic_.end(), [](const auto& contact) {
-            return contact.isWhole && contact.used().size() == 1;
-        });
-    if (mayRoll) return usual;
-    const int most = mostGrowth * usual;
-    const double h = tickSeconds_ / steps_;
-    double way = group_->wayOfStep();
-    for (const ElementTouch& touch : elementTouches_) way = std::max(way, touch.speed * h / touch.thickness);
-    return way * most > calmWay ? std::max(usual, static_cast<int>(calmWay / way)) : most;
+// Whether a body in contact may roll.
+bool ContactStage::mayRoll() const {
+    return !rigidPairs_.empty() ||
+           std::any_of(
+               kinematic_.begin(), kinematic_.end(),
+               [](const auto& contact) { return contact.isWhole && contact.used().size() == 1; });
 }
 
 // The islands take these steps without contact. Returns false on a fault.
@@ -897,9 +903,12 @@ bool ContactStage::advance(const TickTime& time, std::span<const ColliderMotion>
 // has: fewer where something is fast.
 int ContactStage::openBlock(int step, int steps, int usual) {
     const auto start = Clock::now();
-    const double h = tickSeconds_ / steps_, ahead = steps;
-    ahead_.resize(x1_.size());
-    for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = x0_[i] + ahead * (x1_[i] - x0_[i]);
+    const double h = tickSeconds_ / steps_;
+    const auto lookAhead = [&](double ahead) {
+        ahead_.resize(x1_.size());
+        for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = x0_[i] + ahead * (x1_[i] - x0_[i]);
+    };
+    lookAhead(steps);
     kinematic_.clear();
     for (const Part& part : parts_)
         for (const collision::Contact& c :
@@ -909,10 +918,17 @@ int ContactStage::openBlock(int step, int steps, int usual) {
                                   .speed = glm::dot(c.normal, c.carried),
                                   .carried = c.carried,
                                   .friction = c.friction});
-    if (!wholes_.empty()) addWholeContacts(h, (ahead - 1) * h);
+    if (!wholes_.empty()) addWholeContacts(h, (steps - 1) * h);
     const double from = static_cast<double>(step) / steps_;
-    findTouches(x0_, ahead_, from, std::min(1.0, from + ahead / steps_));
+    findTouches(x0_, ahead_, from, std::min(1.0, from + static_cast<double>(steps) / steps_));
     addTouches();
+    const int longest = steps;
+    if (mayRoll()) steps = std::min(steps, usual);  // normals turn with what rolls
+    for (const ElementTouch& touch : elementTouches_)
+        if (const double most = (touch.solid < 0 ? calmWay : mostWayOnSolid) * touch.thickness;
+            touch.speed * h * steps > most)
+            steps = std::max(1, static_cast<int>(most / (touch.speed * h)));
+    if (steps < longest) lookAhead(steps);
     std::stable_sort(kinematic_.begin(), kinematic_.end(),
                      [](const auto& a, const auto& b) { return a.point() < b.point(); });
     contact::Block block;
@@ -925,9 +941,7 @@ int ContactStage::openBlock(int step, int steps, int usual) {
     block.rigid = rigidPairs_;
     block.restSpeed = 2.0 * weight_ * steps * h;  // as with colliders
     block.place = [this](std::span<const int> points) { place(points); };
-    block.mostClosing = mostClosing;
-    block.calmWay = calmWay;
-    block.usualSteps = usual;
+    block.mostWay = spec_.restitution > 0 ? calmWay : mostWay;
     const int taken = group_->open(block);
     total_.testedPairs += static_cast<std::int64_t>(group_->testedCount());
     total_.seconds += secondsSince(start);

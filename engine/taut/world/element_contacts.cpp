@@ -175,7 +175,7 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
     touch.speed = glm::length(way) / query.seconds;
     touch.velocity = wayOfShape / query.seconds;
     if (!(touch.gap < closeShare * touch.thickness || touch.way > touch.gap)) return;
-    if (glm::length(way + touch.way * touch.normal) > flatShare * touch.thickness)
+    if (touch.collider >= 0 && glm::length(way + touch.way * touch.normal) > flatShare * touch.thickness)
         touch.slack = slackOf(query, points, near.distance - touch.way);
     touches_.push_back(touch);
 }

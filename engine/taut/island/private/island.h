@@ -96,8 +96,8 @@ class Island {
     int substeps() const { return now_.substeps; }
     bool keepsStep() const { return keepsStep_; }
     // Steps of contact in a tick that are enough however the island is pressed: one each step, or fewer where steps
-    // are very short. The fastest motion turns by at most longestTurn between two.
-    int stepsToPress() const;
+    // are very short and nothing bounces. The fastest motion turns by at most longestTurn between two.
+    int stepsToPress(bool bounces) const;
     // Makes all substeps of a tick divisible by so many parts from now on. To be called between two tries.
     void takeParts(const TickTime& time, int parts);
     // Positions and velocities of the points, velocities as the method stores them (points) [m], [m/s].

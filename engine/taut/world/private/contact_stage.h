@@ -11,8 +11,8 @@
 // three thicknesses in one.
 //
 // How many blocks. As few as possible, because detection is dear: eight in a sixtieth of a second, or one a step if
-// these are fewer. A block in which two sides would close by more than three thicknesses is shorter; after one in which
-// little moved the next is twice as long.
+// these are fewer, and half as many where little moves and nothing may roll. A block in which two sides would go further
+// than three thicknesses from one another or past is shorter, and it ends with a step in which something bounced.
 //
 // A tick is never tried and undone for contact. It is repeated if an island asks for it (its step was too long), if one
 // diverged and is frozen, and where something that sleeps was reached. The other islands then go on, and the frozen one
@@ -164,6 +164,7 @@ class ContactStage {
     void addFootholds();
     bool anySleeps() const;
     void readAll();
+    bool bounces(const Island& island) const;
     int mostSteps() const;
     int commonSubsteps() const;  // greatest common divisor over the islands; 1 if all are frozen
     bool movesAny() const;
@@ -175,7 +176,7 @@ class ContactStage {
     bool advance(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last,
                  std::vector<std::optional<Fault>>& faults);
     int openBlock(int step, int steps, int usual);
-    int stepsAfter(int usual) const;
+    bool mayRoll() const;
     void closeBlock();
     void place(std::span<const int> points);
     bool settle();
@@ -216,7 +217,7 @@ class ContactStage {
     std::vector<contact::Crossing> crossings_;
     std::vector<dvec3> x0_, x1_, v_;            // (points)
     std::vector<dvec3> xStart_, ahead_;         // (points) [m] at the start of the block; where it may lead
-    std::vector<dvec3> vBefore_;                // (points) before contact in the last step
+    std::vector<dvec3> vStart_, vBefore_;       // (points) as the last step began; before contact in it
     std::vector<ContactAcceleration> pressed_;  // (moved points of the group) in the last step
     std::vector<double> inverseMass_;           // (points)
     std::vector<contact::KinematicContact> kinematic_;

@@ -23,7 +23,7 @@ struct ElementTouch {
     dvec3 normal, place;  // unit, out of the shape; [m] of the element
     double gap, way;      // [m] beyond the thickness of the surface; by which they close in the block
     double speed;         // [m/s] of the element past the shape
-    double slack;         // [m] by which the gap is wider at its end, as the element turns past the shape
+    double slack;         // [m] to a collider, by which it is wider at the end, as the element turns past it
     double thickness;     // [m] of both
     dvec3 velocity;       // [m/s] of the shape there
 };

@@ -128,6 +128,26 @@ TEST(StartDoubts, AreOfASolidInTheGround) {
     EXPECT_EQ(doubtsOf(scene), Doubts());
 }
 
+// The points that have a solid's mass may lie outside of it: those of a cone lie below its base.
+TEST(StartDoubts, AreNotOfSolidsThatStandOnTheGround) {
+    for (const char* shape : {"box", "sphere", "capsule", "cylinder", "cone"}) {
+        SceneSpec scene;
+        scene.bodies.add(crate("a", {0, 0, 0}));
+        SolidSpec& solid = scene.bodies.of<SolidSpec>()[0];
+        solid.shape = shape;
+        const collision::ShapeKind& kind = *collision::builtInShapes().find(shape);
+        solid.position.y = -kind.convex(sizesOf(solid, kind), 0.0)->bounds()->low.y;
+        if (kind.isRound) solid.thickness = solid.radius;
+        scene.colliders = {support::ground()};
+        EXPECT_EQ(doubtsOf(scene), Doubts()) << shape;
+        EXPECT_NEAR(World(scene).metrics().penetration, 0.0, 1e-7) << shape;  // rounding of 1 m in float
+        solid.position.y -= 0.05;
+        EXPECT_EQ(doubtsOf(scene), (Doubts{"solid.a starts 0.05 m deep in collider.ground, and is pushed out of it: "
+                                           "move the body or the collider"}))
+            << shape;
+    }
+}
+
 TEST(StartDoubts, SayHowFarSolidsReachIntoEachOther) {
     SceneSpec scene;
     scene.bodies.add(crate("a", {0, 1, 0}));

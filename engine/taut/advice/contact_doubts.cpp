@@ -67,8 +67,11 @@ void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies
 struct PlacedSolid {
     const Body* body;
     std::vector<dvec3> x;  // (points of the model) [m]
-    core::Aabb box;
-    double rounding;  // [m] how far beyond them it ends
+    core::Aabb box;        // of those that touch
+
+    std::span<const dvec3> touching() const {
+        return std::span(x).subspan(static_cast<std::size_t>(body->model.innerPoints));
+    }
 };
 
 std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
@@ -76,13 +79,9 @@ std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
     for (const auto& island : world.islands)
         for (const Body* body : island->plan().bodies) {
             if (!body->spec->isRigid() || body->spec->touch == Touch::nothing) continue;
-            PlacedSolid& solid = solids.emplace_back(PlacedSolid{body, {}, {}, 0});
-            for (const mechanics::RigidPart& part : surfacesOf(*body))
-                solid.rounding = std::max(solid.rounding, part.rounding);
-            for (const int i : body->pointOf) {
-                solid.x.push_back(island->plan().positions[static_cast<std::size_t>(i)]);
-                solid.box.add(solid.x.back());
-            }
+            PlacedSolid& solid = solids.emplace_back(PlacedSolid{body, {}, {}});
+            for (const int i : body->pointOf) solid.x.push_back(island->plan().positions[static_cast<std::size_t>(i)]);
+            for (const dvec3& x : solid.touching()) solid.box.add(x);
         }
     std::sort(solids.begin(), solids.end(),
               [](const PlacedSolid& a, const PlacedSolid& b) { return sortsBefore(*a.body, *b.body); });
@@ -101,7 +100,8 @@ void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<core::Fi
             if (inner.body->island == outer.body->island || !inner.box.overlaps(outer.box, 0)) continue;
             if (isConvex(inner) && isConvex(outer)) continue;
             const Inside inside(outer.x, outer.body->model.triangles, {8, 8});
-            if (!std::all_of(inner.x.begin(), inner.x.end(), [&](const dvec3& x) { return inside.has(x); })) continue;
+            const auto touching = inner.touching();
+            if (!std::all_of(touching.begin(), touching.end(), [&](const dvec3& x) { return inside.has(x); })) continue;
             if (++count <= mostDoubts)
                 doubts.push_back(warningAt(inner.body->spec->source) +
                                  fmt::format("{} starts wholly inside {}, and nothing brings it out: move it, or give "
@@ -140,8 +140,11 @@ void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, s
     for (const PlacedSolid& solid : solids) {
         const collision::Colliders& colliders = solid.body->island->colliders();
         collision::Colliders::Inside deepest;
-        for (const dvec3& x : solid.x)
-            if (const auto inside = colliders.inside(x); inside.depth > deepest.depth) deepest = inside;
+        for (const mechanics::RigidPart& part : surfacesOf(*solid.body))
+            for (int i = part.first; i < part.last; ++i)
+                if (const auto inside = colliders.inside(solid.x[static_cast<std::size_t>(i)], part.rounding);
+                    inside.depth > deepest.depth)
+                    deepest = inside;
         const bool isCounted =
             solid.body->spec->collide && deepest.depth > share * glm::length(solid.box.high - solid.box.low);
         if (!isCounted) continue;
@@ -152,7 +155,7 @@ void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, s
         if (isMounted || solid.body->spec->holdOn == collider || ++count > mostDoubts) continue;
         doubts.push_back(warningAt(solid.body->spec->source) +
                          fmt::format("{} starts {} deep in {}, and is pushed out of it: move the body or the collider",
-                                     solid.body->fullName(), inLength(deepest.depth + solid.rounding), collider));
+                                     solid.body->fullName(), inLength(deepest.depth), collider));
     }
 }
 

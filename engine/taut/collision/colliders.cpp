@@ -229,11 +229,11 @@ void Colliders::findNear(const Ways& ways, double thickness, double seconds, dou
     }
 }
 
-Colliders::Inside Colliders::inside(const glm::dvec3& position) const {
+Colliders::Inside Colliders::inside(const glm::dvec3& centre, double radius) const {
     Inside deepest;
     for (const Solid& solid : impl_->solids) {
-        if (solid.bounded && !solid.bounds.contains(position)) continue;
-        const double depth = -solid.form->nearest(solid.to.toLocal(position)).distance;
+        if (solid.bounded && !solid.bounds.overlaps({centre, centre}, radius)) continue;
+        const double depth = radius - solid.form->nearest(solid.to.toLocal(centre)).distance;
         if (depth > deepest.depth) deepest = {solid.collider, depth};
     }
     return deepest;

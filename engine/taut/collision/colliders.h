@@ -177,12 +177,12 @@ class Colliders {
     };
     void findNear(const Ways& ways, double thickness, double seconds, double h, std::vector<Surface>& found) const;
 
-    // The collider whose end-of-step pose contains the position deepest, and how deep [m]; -1 and 0 outside all.
+    // The collider, at its end-of-step pose, in which a ball is deepest, and how deep [m]; -1 and 0 outside all.
     struct Inside {
         int collider = -1;
         double depth = 0;
     };
-    Inside inside(const glm::dvec3& position) const;
+    Inside inside(const glm::dvec3& centre, double radius = 0.0) const;
 
   private:
     struct Impl;

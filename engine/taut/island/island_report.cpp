@@ -64,7 +64,7 @@ double penetrationOf(const Island& island, const std::vector<bool>& wanted) {
         return depth;
     }
     for (const Body* body : island.plan().bodies)
-        if (body->spec->collide)
+        if (body->spec->collide && !body->spec->meetsCollidersAsWhole())
             for (int i = body->firstPoint; i < body->lastPoint; ++i) look(i);
     return depth;
 }

@@ -30,8 +30,8 @@ std::string textOf(const ColliderSpec& collider) {
     return text;
 }
 
-bool isFigure(const ColliderSpec& collider) {
-    return collider.shape == "figure" && collider.meshData != nullptr && collider.meshData->figure != nullptr;
+bool hasFigure(const SceneSpec& scene, const ColliderSpec& collider) {
+    return scene.isFigure(collider) && collider.meshData != nullptr && collider.meshData->figure != nullptr;
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ bool isFigure(const ColliderSpec& collider) {
 std::vector<core::Finding> figureDoubts(const SceneSpec& scene) {
     std::vector<core::Finding> doubts;
     for (const ColliderSpec& collider : scene.colliders)
-        if (isFigure(collider) && collider.meshData->figure->skins.empty() &&
+        if (hasFigure(scene, collider) && collider.meshData->figure->skins.empty() &&
             collider.meshData->figure->animations.empty())
             doubts.push_back(warningAt(collider.source) +
                              fmt::format("collider.{}: {} has neither a skin nor an animation: it never moves, and "
@@ -51,7 +51,7 @@ std::vector<core::Finding> figureDoubts(const SceneSpec& scene) {
 std::vector<std::string> figureNotes(const SceneSpec& scene) {
     std::vector<std::string> notes;
     for (const ColliderSpec& collider : scene.colliders)
-        if (isFigure(collider)) notes.push_back(textOf(collider));
+        if (hasFigure(scene, collider)) notes.push_back(textOf(collider));
     return notes;
 }
 

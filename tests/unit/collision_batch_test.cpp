@@ -1,5 +1,5 @@
-// Many points at once get what each gets alone: kernels against the code that takes points one by one, and candidates
-// that last against candidates found anew.
+// Many points at once get what each gets alone: kernels against the code that takes points one by one, and feet
+// that last against feet found anew.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -93,11 +93,11 @@ struct Points {
         points.thickness = thickness;
         return points;
     }
-    void resolve(const Colliders& colliders, Candidates& candidates) {
+    void resolve(const Colliders& colliders, Feet& feet) {
         const MovingPoints<Real> points = moving();
         touched.clear();
         contacts.clear();
-        colliders.resolve(std::span(&points, 1), 0.01, candidates, touched, &contacts);
+        colliders.resolve(std::span(&points, 1), 0.01, feet, touched, &contacts);
     }
 };
 
@@ -143,7 +143,7 @@ TYPED_TEST(CollisionBatch, KernelsGiveTheBitsOfPointsTakenOneByOne) {
                 Points<TypeParam> first(10000, numbers);
                 first.thickness = material.restitution > 0.0 ? 0.0 : 0.01;
                 Points<TypeParam> alone = first;
-                Candidates any;
+                Feet any;
                 alone.resolve(plain, any);
                 EXPECT_GT(alone.touched.size(), 200U);
                 for (const auto isa :
@@ -152,7 +152,7 @@ TYPED_TEST(CollisionBatch, KernelsGiveTheBitsOfPointsTakenOneByOne) {
                     SCOPED_TRACE(core::nameOf(isa));
                     core::useInstructionSet(isa);
                     Points<TypeParam> together = first;
-                    Candidates none;
+                    Feet none;
                     together.resolve(fast, none);
                     expectSame(together, alone);
                 }
@@ -160,14 +160,14 @@ TYPED_TEST(CollisionBatch, KernelsGiveTheBitsOfPointsTakenOneByOne) {
             }
 }
 
-TYPED_TEST(CollisionBatch, CandidatesThatLastGiveTheBitsOfCandidatesFoundAnew) {
+TYPED_TEST(CollisionBatch, FeetThatLastGiveTheBitsOfFeetFoundAnew) {
     // A swarm that oscillates through shapes of which one spins, one comes and goes, and one jumps.
     Colliders colliders;
     for (const SizedShape& shape : shapes()) colliders.add(shape, {0.4, 0.3}, {{0.0, -0.9, 0.0}, {1.0, 0.0, 0.0, 0.0}});
     Numbers numbers;
     Points<TypeParam> kept(500, numbers);
     kept.thickness = 0.002;
-    Candidates candidates;
+    Feet feet;
     Pose pose[3];
     std::size_t touched = 0;
     for (int step = 0; step < 400; ++step) {
@@ -184,9 +184,9 @@ TYPED_TEST(CollisionBatch, CandidatesThatLastGiveTheBitsOfCandidatesFoundAnew) {
             kept.x[i] += TypeParam(0.01) * kept.v[i];
         }
         Points<TypeParam> anew = kept;
-        Candidates none;
+        Feet none;
         anew.resolve(colliders, none);
-        kept.resolve(colliders, candidates);
+        kept.resolve(colliders, feet);
         ASSERT_NO_FATAL_FAILURE(expectSame(kept, anew)) << step;
         touched += kept.touched.size();
     }
@@ -203,7 +203,7 @@ TYPED_TEST(CollisionBatch, KnownFeetGiveTheBitsOfPointsTakenOneByOne) {
         Points<TypeParam> kept(500, numbers);
         kept.thickness = 0.02;
         for (TypeParam& v : kept.v) v = 0;
-        Candidates candidates, any;
+        Feet feet, any;
         Pose pose;
         std::size_t touched = 0;
         for (int step = 0; step < 400; ++step) {
@@ -219,7 +219,7 @@ TYPED_TEST(CollisionBatch, KnownFeetGiveTheBitsOfPointsTakenOneByOne) {
             }
             Points<TypeParam> alone = kept;
             alone.resolve(plain, any);
-            kept.resolve(colliders, candidates);
+            kept.resolve(colliders, feet);
             ASSERT_NO_FATAL_FAILURE(expectSame(kept, alone)) << step;
             touched += kept.touched.size();
         }

@@ -20,9 +20,9 @@ struct Pose {
 // If any place of a collider is faster than this [m/s], the collider counts as having jumped: see Colliders::resolve.
 inline constexpr double fastestSurface = 100.0;
 
-class CandidateRooms;
 class Convex;
 class Form;
+struct FootMemory;
 struct ConvexParts;
 
 // The shape of a collider: one form (form.h), which a row of the table of shapes makes, or several parts, each with its
@@ -74,22 +74,17 @@ struct Contact {
 // bounces. Expects contacts of one point.
 glm::dvec3 velocityInContact(std::span<const Contact> contacts, glm::dvec3 v);
 
-// Candidate pairs: which of an island's points may touch which solids. Colliders::resolve() finds these pairs and uses
-// them as long as points and solids stay in the boxes that it gave them. They change the cost of a step, never its
-// result.
-class Candidates {
+// The places of meshes that were nearest to an island's points, which Colliders::resolve() remembers. They change the
+// cost of a step, never its result.
+class Feet {
   public:
-    Candidates();
-    ~Candidates();
-    Candidates(Candidates&&) noexcept;
-    Candidates& operator=(Candidates&&) noexcept;
-
-    // Call it when something other than a step and its resolve() has changed positions.
-    void drop();
+    Feet() = default;
+    Feet(Feet&&) noexcept = default;
+    Feet& operator=(Feet&&) noexcept = default;
 
   private:
     friend class Colliders;
-    std::unique_ptr<CandidateRooms> rooms_;
+    std::shared_ptr<FootMemory> memory_;
 };
 
 class Colliders {
@@ -138,8 +133,8 @@ class Colliders {
     // The same for all bodies of an island, always in the same order. Points that were touched are appended to
     // `touched`, each once. Contacts are appended only if they are asked for.
     template <class Real>
-    void resolve(std::span<const MovingPoints<Real>> bodies, double h, Candidates& candidates,
-                 std::vector<int>& touched, std::vector<Contact>* contacts) const;
+    void resolve(std::span<const MovingPoints<Real>> bodies, double h, Feet& feet, std::vector<int>& touched,
+                 std::vector<Contact>* contacts) const;
 
     // Whether a box may be touched by a collider during the step; yes if in doubt.
     bool isNear(int collider, const core::Aabb& box) const;

@@ -48,18 +48,6 @@ core::Aabb boundsOf(const BlockRows<Real>& rows) {
 }
 
 template <class Real>
-bool staysIn(const BlockRows<Real>& rows, const core::Aabb& box) {
-    int out = 0;
-    for (int k = 0; k < 3; ++k) {
-        const Real* const x = rows.after[k];
-        const Real low = static_cast<Real>(box.low[k]);
-        const Real high = static_cast<Real>(box.high[k]);
-        for (int i = 0; i < rows.count; ++i) out |= static_cast<int>((x[i] < low) | (x[i] > high));
-    }
-    return out == 0;
-}
-
-template <class Real>
 void markNearBox(const BlockRows<Real>& rows, const core::Aabb& box, std::uint32_t bit, std::uint32_t* mask) {
     for (int k = 0; k < 3; ++k) {
         const Real* const a = rows.before[k];
@@ -96,8 +84,6 @@ void markUnderPlane(const BlockRows<Real>& rows, const dvec3& normal, double off
 
 template core::Aabb boundsOf(const BlockRows<float>&);
 template core::Aabb boundsOf(const BlockRows<double>&);
-template bool staysIn(const BlockRows<float>&, const core::Aabb&);
-template bool staysIn(const BlockRows<double>&, const core::Aabb&);
 template void markNearBox(const BlockRows<float>&, const core::Aabb&, std::uint32_t, std::uint32_t*);
 template void markNearBox(const BlockRows<double>&, const core::Aabb&, std::uint32_t, std::uint32_t*);
 template void markUnderPlane(const BlockRows<float>&, const dvec3&, double, double, std::uint32_t, std::uint32_t*);

@@ -1,15 +1,30 @@
 #include <algorithm>
 #include <array>
 
-#include "taut/collision/private/candidates.h"
 #include "taut/collision/private/contact_kernel.h"
 #include "taut/collision/private/cull.h"
 #include "taut/collision/private/foot_finder.h"
+#include "taut/collision/private/foot_rows.h"
 #include "taut/collision/private/impl.h"
 #include "taut/collision/private/response.h"
 #include "taut/core/private/instruction_set.h"
 
 namespace taut::collision {
+
+// Of all bodies of an island, in blocks of contactBatch points.
+struct FootMemory {
+    std::shared_ptr<const char> of;  // identity of the colliders
+    std::vector<FootRows> feet;      // (blocks) as far as they came near a mesh
+    // Scratch:
+    std::vector<core::Aabb> boxes;     // (blocks of a body) [m] of the paths
+    std::vector<const Solid*> solids;  // all, those near a body, those near its first half …
+    std::vector<Contact> contacts;
+
+    FootRows& at(std::size_t block) {
+        if (block >= feet.size()) feet.resize(block + 1);
+        return feet[block];
+    }
+};
 
 TAUT_KERNELS(template <class Real> std::int64_t contact(const ContactArgs<Real>&, ContactLanes&);)
 
@@ -38,29 +53,60 @@ struct Impact {
 template <class Real>
 class Resolver {
   public:
-    Resolver(const std::vector<Solid>& solids, const MovingPoints<Real>& points, double h, CandidateRooms& candidates,
-             std::size_t& block, std::vector<int>& touched, std::vector<Contact>& contacts, bool records)
+    Resolver(const std::vector<Solid>& solids, const MovingPoints<Real>& points, double h, FootMemory& memory,
+             std::size_t firstBlock, std::vector<int>& touched, std::vector<Contact>& contacts, bool records)
         : solids_(solids),
           points_(points),
           h_(h),
           restSpeed_(2.0 * points.gravity * h),
-          candidates_(candidates),
-          block_(block),
+          memory_(memory),
+          firstBlock_(firstBlock),
           touched_(touched),
           contacts_(contacts),
           records_(records) {}
 
-    void resolveBody() {
-        for (int first = points_.first; first < points_.last; first += candidateBlock, ++block_) {
-            const int last = std::min(first + candidateBlock, points_.last);
-            blockFirst_ = first;
-            core::Aabb box;
-            candidates_.look<Real>(solids_, block_, rowsOf(first, last), points_.thickness, box);
-            if (!candidates_.near().empty()) resolveBlock(first, last, box);
-        }
+    // Returns how many blocks it has.
+    std::size_t resolveBody() {
+        memory_.boxes.clear();
+        for (int first = points_.first; first < points_.last; first += contactBatch)
+            memory_.boxes.push_back(boundsOf(rowsOf(first, std::min(first + contactBatch, points_.last))));
+        memory_.solids.clear();
+        for (const Solid& solid : solids_) memory_.solids.push_back(&solid);
+        resolveBlocks(0, memory_.boxes.size(), 0);
+        return memory_.boxes.size();
     }
 
   private:
+    // Some blocks of the body against those of the solids, from `from` on, that are near them. Halves are near to fewer
+    // of many.
+    void resolveBlocks(std::size_t first, std::size_t last, std::size_t from) {
+        constexpr std::size_t many = 8;
+        core::Aabb box;
+        for (std::size_t block = first; block < last; ++block) box.add(memory_.boxes[block]);
+        const double reach = reachOf(box);
+        const std::size_t end = memory_.solids.size();
+        for (std::size_t s = from; s < end; ++s)
+            if (mayTouch(*memory_.solids[s], box, reach)) memory_.solids.push_back(memory_.solids[s]);
+        const std::size_t found = memory_.solids.size() - end;
+        if (found > many && last - first > 1) {
+            const std::size_t middle = first + (last - first) / 2;
+            resolveBlocks(first, middle, end);
+            resolveBlocks(middle, last, end);
+        } else if (found > 0) {
+            for (block_ = first; block_ < last; ++block_)
+                resolveBlock(firstOf(block_), std::min(firstOf(block_ + 1), points_.last), memory_.boxes[block_], end);
+        }
+        memory_.solids.resize(end);
+    }
+    int firstOf(std::size_t block) const { return points_.first + contactBatch * static_cast<int>(block); }
+
+    // [m] Points are tried against a solid if they are nearer to it than this: the distance that they keep, plus
+    // roundings of the largest coordinate in their box.
+    double reachOf(const core::Aabb& box) const {
+        const dvec3 most = glm::max(glm::abs(box.low), glm::abs(box.high));
+        return points_.thickness + 20.0 * skinPerMetre<Real> * (most.x + most.y + most.z);
+    }
+
     using Near = std::array<const Solid*, mostAtOnce>;
 
     BlockRows<Real> rowsOf(int first, int last) const {
@@ -73,29 +119,31 @@ class Resolver {
         return rows;
     }
 
-    void resolveBlock(int first, int last, const core::Aabb& box) {
+    // Points of one block.
+    void resolveBlock(int first, int last, const core::Aabb& box, std::size_t from) {
         const BlockRows<Real> rows = rowsOf(first, last);
-        const double reach = reachOf<Real>(points_.thickness, box);
+        const double reach = reachOf(box);
         Near near;
         int count = 0;
-        for (const Solid* solid : candidates_.near()) {
+        for (std::size_t s = from; s < memory_.solids.size(); ++s) {
+            const Solid* solid = memory_.solids[s];
             if (!mayTouch(*solid, box, reach)) continue;
             if (count == mostAtOnce) {
-                if (last - first > 1) return halve(first, last);
+                if (last - first > 1) return halve(first, last, from);
                 resolveAgainst(first, rows, near, count, reach);  // one point near more solids takes group after group
                 count = 0;
             }
             near[static_cast<std::size_t>(count++)] = solid;
         }
         // Most parts of a block are near to only one solid, and those cost least.
-        if (count > 1 && last - first > smallBlock) return halve(first, last);
+        if (count > 1 && last - first > smallBlock) return halve(first, last, from);
         if (count > 0) resolveAgainst(first, rows, near, count, reach);
     }
 
-    void halve(int first, int last) {
+    void halve(int first, int last, std::size_t from) {
         const int middle = first + (last - first) / 2;
-        resolveBlock(first, middle, boundsOf(rowsOf(first, middle)));
-        resolveBlock(middle, last, boundsOf(rowsOf(middle, last)));
+        resolveBlock(first, middle, boundsOf(rowsOf(first, middle)), from);
+        resolveBlock(middle, last, boundsOf(rowsOf(middle, last)), from);
     }
 
     static bool mayTouch(const Solid& solid, const core::Aabb& box, double margin) {
@@ -112,7 +160,7 @@ class Resolver {
 
     void resolveAgainst(int first, const BlockRows<Real>& rows, const Near& near, int count, double margin) {
         if (count == 1 && isForKernel(*near[0])) return resolveBatch(first, rows.count, near);
-        std::array<std::uint32_t, candidateBlock> mask{};
+        std::array<std::uint32_t, contactBatch> mask{};
         for (int c = 0; c < count; ++c) {
             const Solid& solid = *near[static_cast<std::size_t>(c)];
             if (solid.bounded) {
@@ -240,8 +288,8 @@ class Resolver {
             args.feet = {.finder = solid.feet,
                          .facets = solid.feet->facetNumbers(),
                          .isClosed = solid.feet->isClosed(),
-                         .rows = &candidates_.feet(block_),
-                         .first = first - blockFirst_,
+                         .rows = &memory_.at(firstBlock_ + block_),
+                         .first = first - firstOf(block_),
                          .find = findFeet};
         args.offset = solid.above.offset;
         args.to = frameFor(solid.to);
@@ -380,9 +428,9 @@ class Resolver {
     // The speed that free fall adds in two steps. A resting point arrives with about the speed of one step each time. A
     // bounce from less than this would end within the next step.
     const double restSpeed_;
-    CandidateRooms& candidates_;
-    std::size_t& block_;
-    int blockFirst_ = 0;  // its first point
+    FootMemory& memory_;
+    const std::size_t firstBlock_;  // of the body, among those of all bodies
+    std::size_t block_ = 0;         // of the body
     std::vector<int>& touched_;
     std::vector<Contact>& contacts_;
     const bool records_;  // whether the caller wants contacts
@@ -409,27 +457,31 @@ dvec3 velocityInContact(std::span<const Contact> contacts, dvec3 v) {
 }
 
 template <class Real>
-void Colliders::resolve(std::span<const MovingPoints<Real>> bodies, double h, Candidates& candidates,
-                        std::vector<int>& touched, std::vector<Contact>* contacts) const {
-    CandidateRooms& found = *candidates.rooms_;
-    found.follow(impl_->solids);
+void Colliders::resolve(std::span<const MovingPoints<Real>> bodies, double h, Feet& feet, std::vector<int>& touched,
+                        std::vector<Contact>* contacts) const {
+    if (feet.memory_ == nullptr) feet.memory_ = std::make_shared<FootMemory>();
+    FootMemory& memory = *feet.memory_;
+    if (memory.of != impl_->identity) {
+        memory.feet.clear();
+        memory.of = impl_->identity;
+    }
     std::size_t block = 0;
     for (const MovingPoints<Real>& points : bodies)
-        Resolver<Real>(impl_->solids, points, h, found, block, touched, contacts != nullptr ? *contacts : found.scratch,
-                       contacts != nullptr)
-            .resolveBody();
+        block += Resolver<Real>(impl_->solids, points, h, memory, block, touched,
+                                contacts != nullptr ? *contacts : memory.contacts, contacts != nullptr)
+                     .resolveBody();
 }
 
 template <class Real>
 void Colliders::resolve(const MovingPoints<Real>& points, double h, std::vector<Contact>& contacts) const {
-    Candidates candidates;
+    Feet feet;
     std::vector<int> touched;
-    resolve(std::span(&points, 1), h, candidates, touched, &contacts);
+    resolve(std::span(&points, 1), h, feet, touched, &contacts);
 }
 
-template void Colliders::resolve(std::span<const MovingPoints<float>>, double, Candidates&, std::vector<int>&,
+template void Colliders::resolve(std::span<const MovingPoints<float>>, double, Feet&, std::vector<int>&,
                                  std::vector<Contact>*) const;
-template void Colliders::resolve(std::span<const MovingPoints<double>>, double, Candidates&, std::vector<int>&,
+template void Colliders::resolve(std::span<const MovingPoints<double>>, double, Feet&, std::vector<int>&,
                                  std::vector<Contact>*) const;
 template void Colliders::resolve(const MovingPoints<float>&, double, std::vector<Contact>&) const;
 template void Colliders::resolve(const MovingPoints<double>&, double, std::vector<Contact>&) const;

@@ -127,7 +127,6 @@ class DynamicsOf final : public Dynamics {
         step_ = h;
         if (!constraints_.isEmpty()) constraints_.start(t);
         method_->start(system_, t, h, state_);
-        contacts_.drop();
         std::size_t size = 0;
         forEachPart([&](Real*, std::size_t n) { size += n; });
         keptSize_ = size;
@@ -158,7 +157,6 @@ class DynamicsOf final : public Dynamics {
         if (constraints_.isEmpty()) return false;
         speeds_ = ode::Speeds::unknown;
         if (!constraints_.settle(*method_, time_ + step_)) return false;
-        contacts_.drop();
         return true;
     }
     double strain(double t, const std::vector<bool>& only) override {
@@ -200,7 +198,6 @@ class DynamicsOf final : public Dynamics {
             std::copy_n(next, n, numbers);
             next += n;
         });
-        contacts_.drop();
     }
     void setStep(double h) override { step_ = h; }
     mechanics::FastestNow fastestNow() override {
@@ -310,7 +307,6 @@ class DynamicsOf final : public Dynamics {
         for (Friction& friction : frictions_) bytes.planes(friction.sliders);
         rounding_.visit(bytes, state_.x.size());
         if (!bytes.isReading()) return;
-        contacts_.drop();
         makeMethod();  // all that it keeps is in the state
         for (const Since moment : {Since::tick, Since::step}) keep(moment);
     }

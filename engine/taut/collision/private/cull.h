@@ -23,10 +23,6 @@ struct BlockRows {
 template <class Real>
 core::Aabb boundsOf(const BlockRows<Real>& rows);
 
-// Whether every path ends in the box. A coordinate that is not a number counts as inside.
-template <class Real>
-bool staysIn(const BlockRows<Real>& rows, const core::Aabb& box);
-
 // Sets `bit` in the mask of every point whose path's box overlaps the given box.
 template <class Real>
 void markNearBox(const BlockRows<Real>& rows, const core::Aabb& box, std::uint32_t bit, std::uint32_t* mask);

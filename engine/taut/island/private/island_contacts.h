@@ -29,8 +29,6 @@ class IslandContacts {
           planar_{system.layout().stride},
           before_(system.layout().size()) {}
 
-    // To be called when anything but a step and its contacts has changed positions.
-    void drop() { candidates_.drop(); }
     // Keeps the positions before a step.
     void remember() {
         std::copy(state_.x.begin(), state_.x.end(), before_.begin());
@@ -46,7 +44,7 @@ class IslandContacts {
         if (watch_.isOn()) watch_.remember(state_.x, state_.v, method.predicted(state_));
         records_.clear();
         const bool records = contacts != nullptr || watch_.isOn() || method.yields();
-        colliders.resolve(std::span<const collision::MovingPoints<Real>>(colliding_), h, candidates_, touched_,
+        colliders.resolve(std::span<const collision::MovingPoints<Real>>(colliding_), h, feet_, touched_,
                           records ? &records_ : nullptr);
         if (touched_.empty()) return false;
         method.touch(state_, touched_);
@@ -103,10 +101,10 @@ class IslandContacts {
                 own.x = placed_.data();
                 own.v = placedSpeeds_.data();
                 own.inverseMass = placedMasses_.data();
-                collision::Candidates candidates;
+                collision::Feet feet;
                 more_.clear();
                 if (own.last > own.first)
-                    colliders->resolve(std::span<const collision::MovingPoints<Real>>(&own, 1), h, candidates, more_,
+                    colliders->resolve(std::span<const collision::MovingPoints<Real>>(&own, 1), h, feet, more_,
                                        nullptr);
             }
         for (int k = 0; k < count; ++k) {
@@ -220,8 +218,7 @@ class IslandContacts {
     void findMore(const collision::Colliders& colliders, double h) {
         moreRecords_.clear();
         more_.clear();
-        colliders.resolve(std::span<const collision::MovingPoints<Real>>(colliding_), h, candidates_, more_,
-                          &moreRecords_);
+        colliders.resolve(std::span<const collision::MovingPoints<Real>>(colliding_), h, feet_, more_, &moreRecords_);
         const auto isOld = [&](int i) { return std::binary_search(touched_.begin(), touched_.end(), i); };
         std::erase_if(more_, isOld);
         std::erase_if(moreRecords_, [&](const collision::Contact& contact) { return isOld(contact.point); });
@@ -355,7 +352,7 @@ class IslandContacts {
     Planar<Real> planar_;
     Planes before_;                                         // positions at the start of the step
     std::vector<collision::MovingPoints<Real>> colliding_;  // bodies
-    collision::Candidates candidates_;
+    collision::Feet feet_;
     std::vector<int> touched_, more_;                        // points
     std::vector<int> outside_;                               // those of touched_ that were outside before the step
     std::vector<collision::Contact> records_, moreRecords_;  // of the last collide(), if it kept them

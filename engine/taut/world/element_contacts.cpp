@@ -63,6 +63,8 @@ std::span<const ElementTouch> ElementContacts::find(const contact::Elements& ele
         for (std::size_t k = 0; k < shapes.size(); ++k) {
             const ShapeInMotion& shape = shapes[k];
             const collision::ClosedShape closed = shape.convex->closed();
+            // A hull's triangles meet elements in engine/contact. They are its surface, so that GJK, of 0.8 to 9 µs an
+            // element where a formula takes 0.2 to 0.3, would be no more exact.
             if (closed.kind == collision::ClosedKind::none || shape.convex->isHalfSpace()) continue;
             if (!box.overlaps(shape.box, 0.0) || !mayTouch(s, shape.surface, shape.collider)) continue;
             if (longest < 0) longest = longestEdge(elements, s, x0);

@@ -1,4 +1,8 @@
-// Prisms that stand for cylinders and cones against meshes.
+// Prisms that stand for cylinders and cones against meshes. On a flat mesh they stand and lie within 0.1 mm of where
+// they do on a plane, but roll as 24 sides do: of a radius of 0.1 m and at first 0.3 m/s, 0.22 m in 1.4 s instead of
+// 0.28 m. Bullet's GJK would roll them rightly. It takes 1.3 to 2 µs for each triangle near the solid: a box on a ball
+// of 4096 triangles has 37, with 23 places that would have to become four, and normals that lean at edges inside of a
+// face.
 #include "taut/collision/private/shapes/shape_parts.h"
 #include "taut/core/trig.h"
 

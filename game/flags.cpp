@@ -72,9 +72,13 @@ void addRunFlags(Options& options, double& fps, double& seconds) {
     options.value("--seconds", seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
 }
 
+std::string overrideBy(std::string_view flag, std::string_view key, std::string_view value) {
+    return fmt::format("{}={} # {}", key, value, flag);
+}
+
 void addRunOverrides(double fps, double seconds, std::vector<std::string>& overrides) {
-    if (fps > 0.0) overrides.push_back(fmt::format("run.fps={}", fps));
-    if (seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", seconds));
+    if (fps > 0.0) overrides.push_back(overrideBy("--fps", "run.fps", fmt::to_string(fps)));
+    if (seconds > 0.0) overrides.push_back(overrideBy("--seconds", "run.seconds", fmt::to_string(seconds)));
 }
 
 void addSmoothFlag(Options& options, int& smooth) {
@@ -85,7 +89,7 @@ void addSmoothFlag(Options& options, int& smooth) {
 }
 
 void addSmoothOverride(int smooth, std::vector<std::string>& overrides) {
-    if (smooth >= 0) overrides.push_back(fmt::format("picture.smooth={}", smooth));
+    if (smooth >= 0) overrides.push_back(overrideBy("--smooth", "picture.smooth", fmt::to_string(smooth)));
 }
 
 void addThreadsFlag(Options& options, int& threads) {

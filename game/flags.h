@@ -53,6 +53,8 @@ void addInstructionSetFlag(Options& options, std::string& isa);
 
 // --fps and --seconds, which override what the scene says of its run; 0: not given.
 void addRunFlags(Options& options, double& fps, double& seconds);
+// An override that a flag stands for; messages about it name the flag.
+std::string overrideBy(std::string_view flag, std::string_view key, std::string_view value);
 // These flags in the words of the scene format.
 void addRunOverrides(double fps, double seconds, std::vector<std::string>& overrides);
 

@@ -20,11 +20,13 @@ std::vector<std::string> allOverrides(const RenderFlags& flags) {
     addRunOverrides(flags.fps, flags.seconds, overrides);
     if (!flags.size.empty()) {
         const Size size = pictureSize(flags.size);
-        overrides.push_back(fmt::format("picture.size=[{}, {}]", size.width, size.height));
+        overrides.push_back(overrideBy("--size", "picture.size", fmt::format("[{}, {}]", size.width, size.height)));
     }
-    if (flags.samples > 0) overrides.push_back(fmt::format("picture.samples={}", flags.samples));
+    if (flags.samples > 0)
+        overrides.push_back(overrideBy("--samples", "picture.samples", fmt::to_string(flags.samples)));
     addSmoothOverride(flags.smooth, overrides);
-    if (!flags.camera.empty()) overrides.push_back(fmt::format("picture.camera=\"{}\"", flags.camera));
+    if (!flags.camera.empty())
+        overrides.push_back(overrideBy("--camera", "picture.camera", fmt::format("\"{}\"", flags.camera)));
     return overrides;
 }
 

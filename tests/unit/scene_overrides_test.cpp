@@ -90,6 +90,7 @@ TEST(SceneOverrides, FaultsAreNamedByTheirKey) {
          "--set cloth.flag.material: error: there is no material \"none\"; "
          "add a table [material.none], or take a fabric: taut materials lists them"},
         {"solver.dt=[1", "--set solver.dt: error: [1 is not a value: array: encountered end-of-file"},
+        {"picture.samples=0 # --samples", "--samples: error: samples must be 1 or 4 or 8 or 16, not 0"},
         {"solver.dt=1\nx=2", "--set solver.dt: error: the value must be one value"},
     };
     for (const auto& [override, message] : cases) EXPECT_EQ(messageWith({override}), message);

@@ -156,7 +156,8 @@ std::string overrideLabel(const std::string& text) {
         throw core::Error(core::ErrorKind::usage,
                           core::at({"--set " + text}) + "write KEY=VALUE, e.g. --set cloth.flag.cells=[72,48]");
     }
-    return "--set " + key;
+    const std::size_t flag = text.rfind(" # --");
+    return flag != std::string::npos ? text.substr(flag + 3) : "--set " + key;
 }
 
 void applyOverride(const std::string& text, int origin, const std::vector<SceneSection>& sections, Node& root,

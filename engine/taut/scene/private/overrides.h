@@ -9,8 +9,8 @@
 
 namespace taut::scene {
 
-// The name of an override in messages: "--set cloth.flag.cells". Throws core::Error(usage) for one without a key and a
-// value.
+// The name of an override in messages: "--set cloth.flag.cells", or the flag that stands for it, which follows as a
+// comment: `picture.camera="side" # --camera`. Throws core::Error(usage) for one without a key and a value.
 std::string overrideLabel(const std::string& text);
 
 // Changes the document. `origin` is the override's number from 1. Instead of a name, or of the number of an element, *

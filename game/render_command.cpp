@@ -114,8 +114,12 @@ std::vector<pipeline::RunLock> locksOf(const RenderFlags& flags, const RunPart& 
 }
 
 // Where frames lie that are drawn; none where there are none.
+bool drawsFrames(const RenderFlags& flags) {
+    return !flags.noPictures && !flags.output.empty() && !image::isVideoPath(flags.output);
+}
+
 std::optional<PartPlace> placeOf(const RenderFlags& flags, std::uint64_t key) {
-    if (flags.noPictures || flags.output.empty() || image::isVideoPath(flags.output)) return std::nullopt;
+    if (!drawsFrames(flags)) return std::nullopt;
     return PartPlace{framePattern(flags), filesBeside(flags.layers), key, flags.continuation.resume,
                      flags.overwrite.yes};
 }
@@ -203,8 +207,13 @@ pipeline::RunResult playRun(const RenderFlags& flags, const pipeline::RunOptions
     pipeline::RunListener listener =
         listenerFor(flags, options, progress, drawing.overlay.get(), world.ticksPerFrame());
     prepare(listener);
-    return pipeline::play(world, options, drawing.draw, drawing.draw ? sink : nullptr, listener, stop,
-                          std::move(records));
+    try {
+        return pipeline::play(world, options, drawing.draw, drawing.draw ? sink : nullptr, listener, stop,
+                              std::move(records));
+    } catch (const core::Error& error) {
+        if (error.kind() != core::ErrorKind::inputOutput || !drawsFrames(flags) || !flags.video.empty()) throw;
+        throw core::Error(error.kind(), std::string(error.what()) + "; the same with --resume then goes on");
+    }
 }
 
 // What is said before anything is done.

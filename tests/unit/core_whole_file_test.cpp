@@ -45,7 +45,9 @@ TEST(WholeFile, FullDiskIsReportedAndLeavesNothing) {
     test::writeText(path, "old");
     const test::FileSizeLimit limit(2);
     const std::string message = messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(path, "new"); });
-    EXPECT_NE(message.find("a.txt: cannot write: File too large"), std::string::npos) << message;
+    EXPECT_NE(message.find("a.txt: cannot write: File too large; make room for it, or write to another disk"),
+              std::string::npos)
+        << message;
     EXPECT_EQ(contentOf(path), "old");
     EXPECT_EQ(folder.entryCount(), 1);
 }

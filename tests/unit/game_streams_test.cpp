@@ -72,7 +72,11 @@ TEST(Streams, AReaderThatHasHadEnoughIsNoError) {
 
 TEST(Streams, AFileThatMayNotGrowIsAnErrorAndLeavesNoHalf) {
     const Shell shell;
-    EXPECT_EQ(shell.exitCode("ulimit -f 0;", "render spring.toml -o out 2>/dev/null"), 6);
+    EXPECT_EQ(shell.exitCode("ulimit -f 1;", "render spring.toml -o out 2>said"), 6);
+    const std::string said = test::contentOf(shell.folder / "said");
+    EXPECT_NE(said.find("make room for it, or write to another disk; the same with --resume then goes on"),
+              std::string::npos)
+        << said;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(shell.folder.path()))
         EXPECT_NE(entry.path().extension(), ".part");
 }

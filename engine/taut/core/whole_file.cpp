@@ -18,7 +18,9 @@ namespace taut::core {
 namespace {
 
 [[noreturn]] void failOn(const std::filesystem::path& path, const char* what, int error) {
-    throw Error(ErrorKind::inputOutput, path.string() + ": " + what + ": " + std::strerror(error));
+    const bool isFull = error == ENOSPC || error == EDQUOT || error == EFBIG;
+    throw Error(ErrorKind::inputOutput, path.string() + ": " + what + ": " + std::strerror(error) +
+                                            (isFull ? "; make room for it, or write to another disk" : ""));
 }
 
 // Removes what a process that was killed has left under a temporary name; a link is not followed. False when it is

@@ -28,7 +28,7 @@ struct TwiceJoint final : SpecOf<TwiceJoint, JointSpec> {
         other.stiffness *= 2;
         return other;
     }
-    void tie(IslandPlan& plan, int first, int second, double distance) const override {
+    void tie(IslandPlan& plan, const Spot& first, const Spot& second, double distance) const override {
         twice().tie(plan, first, second, distance);
     }
     void carry(IslandPlan& plan, Grip grip) const override { twice().carry(plan, std::move(grip)); }
@@ -68,8 +68,8 @@ struct LeashJoint final : SpecOf<LeashJoint, JointSpec> {
 
     std::string_view title() const override { return "a leash"; }
     bool tiesWithin() const override { return true; }
-    void tie(IslandPlan& plan, int first, int second, double distance) const override {
-        plan.constraints.push_back(std::make_shared<Leash>(first, second, longer * distance));
+    void tie(IslandPlan& plan, const Spot& first, const Spot& second, double distance) const override {
+        plan.constraints.push_back(std::make_shared<Leash>(first.nearest(), second.nearest(), longer * distance));
     }
     void carry(IslandPlan&, Grip) const override {
         throw core::Error(core::ErrorKind::badContent, world::at(source) + "a leash is for points of bodies");

@@ -1,6 +1,8 @@
 // Seams: which points they pair, how they close, what keeps off what then, how they come apart, what is refused.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <set>
 
@@ -14,7 +16,7 @@ namespace taut::world::seams {
 namespace {
 
 using support::run;
-using Pairs = std::vector<std::pair<int, int>>;
+using Pairs = std::vector<SewnPair>;
 
 std::vector<dvec3> line(int points, const dvec3& from, const dvec3& to) {
     std::vector<dvec3> x;
@@ -35,30 +37,47 @@ Pairs paired(const std::vector<dvec3>& a, const std::vector<dvec3>& b) {
     return pairedByLength(edgeOf(a), edgeOf(b));
 }
 
+// "0-5 0.6*0+0.4*1-4": pairs of places, and of what lies between two.
+std::string textOf(const Pairs& pairs) {
+    const auto spot = [](const Spot& end) {
+        std::vector<Spot::Share> shares(end.shares().begin(), end.shares().end());
+        std::sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.point < b.point; });
+        std::string all;
+        for (const auto& [place, weight] : shares)
+            all += (all.empty() ? "" : "+") + (end.isPoint() ? "" : fmt::format("{:.3g}*", weight)) +
+                   std::to_string(place);
+        return all;
+    };
+    std::string all;
+    for (const auto& [a, b] : pairs) all += (all.empty() ? "" : " ") + spot(a) + "-" + spot(b);
+    return all;
+}
+
 TEST(SeamPairing, PairsEqualEdgesPointByPointInTheNearerDirection) {
     const auto a = line(4, {0, 0, 0}, {0, 3, 0});
     EXPECT_EQ(paired(a, line(4, {1, 0, 0}, {1, 3, 0})), (Pairs{{0, 0}, {1, 1}, {2, 2}, {3, 3}}));
     EXPECT_EQ(paired(a, line(4, {1, 3, 0}, {1, 0, 0})), (Pairs{{0, 3}, {1, 2}, {2, 1}, {3, 0}}));
 }
 
-// Of a longer edge with more points each has a partner, at the same share of the length; so from either side.
+// Of a longer edge with more points each goes with the spot at the same share of the length; so from either side.
 TEST(SeamPairing, GathersTheFinerEdgeEvenly) {
     const auto few = line(3, {0, 0, 0}, {0, 2, 0}), many = line(6, {1, 4, 0}, {1, 0, 0});
-    EXPECT_EQ(paired(few, many), (Pairs{{0, 5}, {0, 4}, {1, 3}, {1, 2}, {2, 1}, {2, 0}}));
-    EXPECT_EQ(paired(many, few), (Pairs{{0, 2}, {1, 2}, {2, 1}, {3, 1}, {4, 0}, {5, 0}}));
+    EXPECT_EQ(textOf(paired(few, many)), "0-5 0.6*0+0.4*1-4 0.2*0+0.8*1-3 0.8*1+0.2*2-2 0.4*1+0.6*2-1 2-0");
+    EXPECT_EQ(textOf(paired(many, few)), "0-2 1-0.4*1+0.6*2 2-0.8*1+0.2*2 3-0.2*0+0.8*1 4-0.6*0+0.4*1 5-0");
 }
 
 TEST(SeamPairing, LeavesNoPointOfAnUnevenEdgeAlone) {
     const std::vector<dvec3> uneven{{0, 0, 0}, {0, 0.1, 0}, {0, 0.2, 0}, {0, 3, 0}};
-    EXPECT_EQ(paired(uneven, line(4, {1, 0, 0}, {1, 3, 0})), (Pairs{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {3, 2}, {3, 3}}));
+    EXPECT_EQ(textOf(paired(uneven, line(4, {1, 0, 0}, {1, 3, 0}))),
+              "0-0 1-0.9*0+0.1*1 2-0.8*0+0.2*1 0.357*2+0.643*3-2 3-3");
 }
 
 // A square, and another that begins at another corner and runs the other way, with the middles of two sides.
 TEST(SeamPairing, TurnsAClosedEdgeToWhereItLiesNearest) {
     const SewnEdge square = edgeOf({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, true);
     const SewnEdge other = edgeOf({{2, 2, 1}, {2, 1, 1}, {2, 0, 1}, {0, 0, 1}, {0, 1, 1}, {0, 2, 1}}, true);
-    EXPECT_EQ(pairedByLength(square, other), (Pairs{{0, 3}, {1, 2}, {1, 1}, {2, 0}, {3, 5}, {3, 4}}));
-    EXPECT_EQ(pairedByLength(other, square), (Pairs{{3, 0}, {2, 1}, {1, 1}, {0, 2}, {5, 3}, {4, 3}}));
+    EXPECT_EQ(textOf(pairedByLength(square, other)), "0-3 1-2 0.5*1+0.5*2-1 2-0 3-5 0.5*0+0.5*3-4");
+    EXPECT_EQ(textOf(pairedByLength(other, square)), "3-0 2-1 1-0.5*1+0.5*2 0-2 5-3 4-0.5*0+0.5*3");
 }
 
 TEST(SeamPairing, BothEndsOfALineMeetAroundAClosedEdge) {
@@ -101,12 +120,16 @@ double lengthOf(const dvec3& d) {
     return std::sqrt(glm::dot(d, d));
 }
 
-// The largest distance of a point of the finer edge from its partner: points 0, 1, … of 7 go with 0, 1, 1, 2, 3, 3, 4.
+// The largest distance of a point of the finer edge from its place on the other, at the same share of the length.
 double gap(const World& world) {
     const auto a = world.points("cloth.a@right").x, b = world.points("cloth.b@left").x;
-    constexpr std::size_t partners[] = {0, 1, 1, 2, 3, 3, 4};
+    const std::size_t last = a.size() - 1;
     double most = 0;
-    for (std::size_t i = 0; i < b.size(); ++i) most = std::max(most, lengthOf(b[i] - a[partners[i]]));
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const std::size_t whole = i * last / (b.size() - 1), next = std::min(whole + 1, last);
+        const double share = static_cast<double>(i * last % (b.size() - 1)) / static_cast<double>(b.size() - 1);
+        most = std::max(most, lengthOf(b[i] - (1 - share) * a[whole] - share * a[next]));
+    }
     return most;
 }
 
@@ -210,22 +233,42 @@ TEST(Seams, GoOnWithTheSameBitsFromTheMiddle) {
 
 TEST(Seams, AreClosedAtOnceWhereTheyMeet) {
     World merged(sceneOf(panels("0.0", ""))), named(sceneOf(panels("0.001", "name = \"s\"\n")));
-    EXPECT_EQ(merged.islands().front().points, 4 * 5 + 4 * 7 - 7);
+    EXPECT_EQ(merged.islands().front().points, 4 * 5 + 4 * 7 - 3);  // both ends and the middle
     EXPECT_EQ(named.islands().front().points, 4 * 5 + 4 * 7);
-    EXPECT_EQ(gap(merged), 0);
-    EXPECT_EQ(gap(named), 0);
+    EXPECT_LT(gap(merged), 1e-15);
+    EXPECT_LT(gap(named), 1e-15);
     EXPECT_EQ(named.joints().front().kind, "seam");
     EXPECT_EQ(named.joints().front().pairs.at(0).points, 7);
 }
 
-TEST(Seams, WarnWhereEdgesHaveUnlikePoints) {
+// Edges of 17 and 32 points, of one length, as they meet and drawn together: no cell is stretched, so both edges have
+// their lengths. They vibrate a little when a seam has drawn them.
+TEST(Seams, KeepTheSizeOfUnlikeCells) {
+    for (const auto& [apart, seam, most] :
+         {std::tuple{"0.0", "", 1e-12}, {"0.0", "name = \"s\"\n", 1e-12}, {"0.05", "over_s = 0.5\n", 1e-3}}) {
+        std::string text = panels(apart, seam);
+        text.replace(text.find("[3, 4]"), 6, "[3, 16]");
+        text.replace(text.find("[3, 6]"), 6, "[3, 31]");
+        text.replace(text.find("drag_per_s = 0"), 14, "drag_per_s = 9");
+        World world(sceneOf(text));
+        EXPECT_TRUE(world.warnings().empty()) << world.warnings().front().text;
+        run(world, 100);
+        EXPECT_LT(gap(world), 1e-14) << seam;
+        for (const char* edge : {"cloth.a@right", "cloth.b@left"}) {
+            const std::vector<dvec3> x = world.points(edge).x;
+            for (std::size_t i = 1; i < x.size(); ++i)
+                EXPECT_NEAR(lengthOf(x[i] - x[i - 1]) * static_cast<double>(x.size() - 1), 0.4, 0.4 * most)
+                    << edge << seam << i;
+        }
+    }
+}
+
+TEST(Seams, WarnOfEdgesThatCannotBeSewn) {
     const auto warnings = [](const std::string& text) { return printed(World(sceneOf(text)).warnings()); };
-    const std::string uneven = panels("0.2", "over_s = 1\n");
-    std::string even = uneven;
+    std::string even = panels("0.2", "over_s = 1\n");
+    EXPECT_TRUE(warnings(even).empty());
     even.replace(even.find("[3, 6]"), 6, "[3, 4]");
     EXPECT_TRUE(warnings(even).empty());
-    ASSERT_EQ(warnings(uneven).size(), 1U);
-    EXPECT_NE(warnings(uneven)[0].find("sews 5 points to 7"), std::string::npos) << warnings(uneven)[0];
     const auto expectWarning = [&](std::string text, const std::string& from, const std::string& to,
                                    const std::string& what) {
         text.replace(text.rfind(from), from.size(), to);
@@ -273,7 +316,7 @@ TEST(Seams, AreDrawnWithoutGapsWhereEdgesAreSmooth) {
 }
 
 // Of two panels the coarser side gets the points of the finer; a panel gets those of a grid, whose cells are given. A
-// panel whose cells would differ too much stays as it is, and a warning says so.
+// panel whose cells would differ too much stays as it is, and points of the other go between its own.
 TEST(Seams, GivePanelsThePointsOfWhatTheyAreSewnTo) {
     const auto worldOf = [](const std::string& seam, const std::string& cell) {
         return World(
@@ -296,8 +339,9 @@ TEST(Seams, GivePanelsThePointsOfWhatTheyAreSewnTo) {
         EXPECT_EQ(world.joints().front().pairs.at(0).points, points);
         EXPECT_TRUE(world.warnings().empty()) << world.warnings().front().text;
     }
-    ASSERT_EQ(worldOf(toFine, "0.1").warnings().size(), 1U);
-    EXPECT_NE(worldOf(toFine, "0.1").warnings()[0].text.find("sews 5 points to 13"), std::string::npos);
+    const World unlike = worldOf(toFine, "0.1");
+    EXPECT_EQ(unlike.joints().front().pairs.at(0).points, 13);
+    EXPECT_TRUE(unlike.warnings().empty());
 }
 
 TEST(Seams, ComeApartWhenReleasedTornOrCut) {

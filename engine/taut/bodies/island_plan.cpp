@@ -10,6 +10,7 @@
 
 #include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/joints/joints.h"
+#include "taut/bodies/private/joints/pins.h"
 #include "taut/bodies/private/rigid_constraint.h"
 #include "taut/bodies/private/seam_pairing.h"
 #include "taut/bodies/private/strain_limit.h"
@@ -58,7 +59,7 @@ struct PointRef {
 };
 
 struct JointPair {
-    PointRef a, b;
+    Spot a, b;  // in global numbers of points
     const JointSpec* spec;
     int number;       // of the scene's joints
     double distance;  // [m]
@@ -93,7 +94,7 @@ class Planner {
             members[static_cast<std::size_t>(islands_.find(body))].push_back(body);
         std::vector<std::vector<JointPair>> joints(bodies_.size());
         for (const JointPair& joint : joints_)
-            joints[static_cast<std::size_t>(islands_.find(joint.a.body))].push_back(joint);
+            joints[static_cast<std::size_t>(islands_.find(refOf(joint.a.nearest()).body))].push_back(joint);
         std::vector<int> numberOf(firstGlobalEnd(), -1);  // by the global point that represents a weld
         std::vector<IslandPlan> plans;
         for (std::size_t root = 0; root < members.size(); ++root)
@@ -115,6 +116,10 @@ class Planner {
     }
 
     int global(PointRef p) const { return firstGlobal_[static_cast<std::size_t>(p.body)] + p.point; }
+    PointRef refOf(int global) const {
+        const auto after = std::upper_bound(firstGlobal_.begin(), firstGlobal_.end(), global);
+        return {static_cast<int>(after - firstGlobal_.begin()) - 1, global - after[-1]};
+    }
     Body& body(int i) const { return *bodies_[static_cast<std::size_t>(i)]; }
     dvec3 position(PointRef p) const { return body(p.body).model.positions[static_cast<std::size_t>(p.point)]; }
 
@@ -154,10 +159,15 @@ class Planner {
         }
     };
 
-    bool isHeld(PointRef p) const {
-        const std::vector<int>& carried = body(p.body).carried;
-        return body(p.body).model.held[static_cast<std::size_t>(p.point)] ||
-               std::binary_search(carried.begin(), carried.end(), p.point);
+    bool isHeld(const Spot& spot) const {
+        return std::all_of(
+            spot.shares().begin(), spot.shares().end(),
+            [&](const Spot::Share& own) {
+                const PointRef p = refOf(own.point);
+                const std::vector<int>& carried = body(p.body).carried;
+                return body(p.body).model.held[static_cast<std::size_t>(p.point)] ||
+                       std::binary_search(carried.begin(), carried.end(), p.point);
+            });
     }
 
     double distance(PointRef a, PointRef b) const {
@@ -237,11 +247,14 @@ class Planner {
             rows.push_back({row(seam.a, seam.source), row(seam.b, seam.source)});
             const auto& [a, b] = rows.back();
             if (a.edge.isClosed() || b.edge.isClosed()) continue;
+            const auto isEnd = [](const Spot& spot, const Row& row) {
+                return spot.isPoint() &&
+                       (spot.nearest() == 0 || spot.nearest() + 1 == static_cast<int>(row.points.size()));
+            };
             for (const auto& [i, j] : pairedByLength(a.edge, b.edge))
-                if (i == 0 || i + 1 == static_cast<int>(a.points.size()))
-                    if (j == 0 || j + 1 == static_cast<int>(b.points.size()))
-                        meets.unite(global(a.points[static_cast<std::size_t>(i)]),
-                                    global(b.points[static_cast<std::size_t>(j)]));
+                if (isEnd(i, a) && isEnd(j, b))
+                    meets.unite(global(a.points[static_cast<std::size_t>(i.nearest())]),
+                                global(b.points[static_cast<std::size_t>(j.nearest())]));
         }
         for (std::array<Row, 2>& sides : rows)
             for (Row& row : sides) {
@@ -258,36 +271,36 @@ class Planner {
 
     void addSeam(const JointSpec& seam, int ofScene, const std::array<Row, 2>& rows) {
         const auto& [as, bs] = rows;
-        // Partners are half of a step aside at most.
+        // Points that are paired with points are half of a step aside at most.
         const double reach = seam.reach() + 0.5 * std::max(as.longest, bs.longest);
         JointReport& report = reports_.emplace_back();
         report.spec = &seam;
-        // Points that others are in one place with count once.
-        const auto countOf = [](const Row& row) {
-            return static_cast<int>(row.points.size()) -
-                   static_cast<int>(std::count(row.edge.steps.begin(), row.edge.steps.end(), 0.0));
-        };
-        report.sewn = {{countOf(as), countOf(bs)}, {as.length(), bs.length()}, std::max(as.gap, bs.gap)};
+        report.sewn = {{as.length(), bs.length()}, std::max(as.gap, bs.gap)};
         std::map<std::pair<int, int>, int> sewn;  // by bodies: number of points
         for (const auto& [i, j] : pairedByLength(as.edge, bs.edge)) {
-            const PointRef first = as.points[static_cast<std::size_t>(i)];
-            const PointRef second = bs.points[static_cast<std::size_t>(j)];
-            if (global(first) == global(second)) continue;  // where two edges of one body meet
-            const double apart = distance(first, second);
+            const auto globalOf = [&](const Row& row) {
+                return [&](int k) { return global(row.points[static_cast<std::size_t>(k)]); };
+            };
+            const Spot a = i.renumbered(globalOf(as)), b = j.renumbered(globalOf(bs));
+            const PointRef first = refOf(a.nearest()), second = refOf(b.nearest());
+            if (a.has(b.nearest()) || b.has(a.nearest())) continue;  // where two edges of one body meet
+            const dvec3 way = j.of(bs.edge.places) - i.of(as.edge.places);
+            const double apart = std::sqrt(glm::dot(way, way));
             if (apart > reach)
                 throw Error(ErrorKind::badContent, at(seam.source) + "the seam \"" + seam.a.text() + "\" – \"" +
                                                        seam.b.text() + "\" starts " + std::to_string(apart) +
                                                        " m apart; say how long it takes to close, e.g. over_s = 1.0");
             if (seam.isWeld()) report.jump = std::max(report.jump, apart);
             report.sewn.apart = std::max(report.sewn.apart, apart);
-            if (apart > WeldJoint().furthest && isHeld(first) && isHeld(second)) ++report.sewn.heldApart;
+            if (apart > WeldJoint().furthest && isHeld(a) && isHeld(b)) ++report.sewn.heldApart;
             ++sewn[{first.body, second.body}];
             islands_.unite(first.body, second.body);
-            sewn_.push_back({first, second});
-            if (seam.isWeld() && first.body != second.body && !seam.hasOwnTies())
-                welds_.unite(global(first), global(second));
+            sewn_.push_back({a, b});
+            const bool merges = seam.isWeld() && first.body != second.body && !seam.hasOwnTies();
+            if (merges && a.isPoint() && b.isPoint())
+                welds_.unite(a.nearest(), b.nearest());
             else
-                joints_.push_back({first, second, &seam, ofScene, apart});
+                joints_.push_back({a, b, &seam, ofScene, apart});
         }
         if (sewn.empty())
             throw Error(ErrorKind::badContent,
@@ -298,10 +311,16 @@ class Planner {
 
     // Borders that are sewn are one curve, also where each is drawn as a smooth one, if both go the same way from point
     // to point. Where one turns off, as at a seam's end, where three are sewn, or at a corner of one, both have a
-    // corner.
+    // corner, and where points of one edge are tied between those of the other.
     void markSeamCorners() {
         Sets one(firstGlobalEnd());
-        for (const auto& [a, b] : sewn_) one.unite(global(a), global(b));
+        std::vector<PointRef> between;  // on the straight part of an edge that is sewn to a point there
+        for (const auto& [a, b] : sewn_)
+            if (a.isPoint() && b.isPoint())
+                one.unite(a.nearest(), b.nearest());
+            else
+                for (const Spot* end : {&a, &b})
+                    for (const Spot::Share& own : end->shares()) between.push_back(refOf(own.point));
         std::map<int, std::vector<std::vector<int>>> borders;  // by body
         const auto beside = [&](PointRef p) -> const std::vector<int>& {
             const auto [found, isNew] = borders.try_emplace(p.body);
@@ -321,9 +340,11 @@ class Planner {
             return found;
         };
         std::map<int, std::vector<PointRef>> members;
-        for (const auto& pair : sewn_)
-            for (const PointRef& p : pair) {
-                std::vector<PointRef>& own = members[one.find(global(p))];
+        for (const auto& [a, b] : sewn_)
+            for (const int number : {a.nearest(), b.nearest()}) {
+                if (!a.isPoint() || !b.isPoint()) continue;
+                const PointRef p = refOf(number);
+                std::vector<PointRef>& own = members[one.find(number)];
                 if (std::none_of(own.begin(), own.end(), [&](const PointRef& o) { return global(o) == global(p); }))
                     own.push_back(p);
             }
@@ -335,6 +356,7 @@ class Planner {
             for (const PointRef& p : own)
                 if (isCorner) body(p.body).seamCorners.push_back(p.point);
         }
+        for (const PointRef& p : between) body(p.body).seamCorners.push_back(p.point);
         for (Body* body : bodies_) std::sort(body->seamCorners.begin(), body->seamCorners.end());
     }
 
@@ -448,7 +470,7 @@ class Planner {
             if (merges && !(body(a.body).spec->isRigid() && body(bs[best].body).spec->isRigid()))
                 welds_.unite(global(a), global(bs[best]));
             else
-                joints_.push_back({a, bs[best], &joint, ofScene, bestDistance});
+                joints_.push_back({global(a), global(bs[best]), &joint, ofScene, bestDistance});
             if (!joint.isWeld()) continue;
             report.jump = std::max(report.jump, bestDistance);
             bs.erase(bs.begin() + static_cast<std::ptrdiff_t>(best));
@@ -479,6 +501,7 @@ class Planner {
         for (const bool isWeld : {true, false})  // welds first, as they move points
             for (const JointPair& joint : joints)
                 if (joint.spec->isWeld() == isWeld) tie(plan, joint, solidOf);
+        Pins::settle(plan);
         addSolids(plan, members);
         plan.origins.resize(plan.springs.size());
         plan.broken.resize(plan.springs.size(), false);
@@ -525,18 +548,21 @@ class Planner {
 
     // Points of one solid do not move against each other: what ties them is left out, as no force could satisfy it.
     void tie(IslandPlan& plan, const JointPair& joint, const std::vector<int>& solidOf) {
-        const int a = pointOf(joint.a), b = pointOf(joint.b);
-        const int solid = solidOf[static_cast<std::size_t>(a)];
-        if (solid >= 0 && solid == solidOf[static_cast<std::size_t>(b)]) {
+        const auto ofPlan = [&](int number) { return pointOf(refOf(number)); };
+        const Spot a = joint.a.renumbered(ofPlan), b = joint.b.renumbered(ofPlan);
+        const int solid = solidOf[static_cast<std::size_t>(a.nearest())];
+        if (solid >= 0 && solid == solidOf[static_cast<std::size_t>(b.nearest())]) {
             for (JointReport& report : reports_)
                 if (report.spec == joint.spec) ++report.idle;
             return;
         }
         addTie(plan,
                {.joint = joint.number,
-                .a = a,
-                .b = b,
+                .a = a.nearest(),
+                .b = b.nearest(),
                 .breakForce = joint.spec->breakForce.value_or(HUGE_VAL),
+                .from = a,
+                .to = b,
                 .isSeam = joint.spec->isSeam()},
                [&] { joint.spec->tie(plan, a, b, joint.distance); });
     }
@@ -668,7 +694,7 @@ class Planner {
     std::vector<JointPair> joints_;
     std::vector<std::pair<PointRef, int>> carried_;  // points, and the solids that carry them
     std::vector<JointReport> reports_;               // (joints of the scene)
-    std::vector<std::array<PointRef, 2>> sewn_;      // pairs of all seams
+    std::vector<SewnPair> sewn_;                     // of all seams, in global numbers of points
 };
 
 }  // namespace

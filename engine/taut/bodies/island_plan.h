@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "taut/bodies/body.h"
+#include "taut/bodies/spot.h"
 #include "taut/core/value.h"
 #include "taut/mechanics/bending_elements.h"
 #include "taut/mechanics/mass_spring_system.h"
@@ -53,10 +54,11 @@ struct Carrier {
 // constraints or grips that its kind made for it does.
 struct JointTie {
     int joint = -1;                // of the scene's joints
-    int a = -1, b = -1;            // points; b is -1 for a collider
+    int a = -1, b = -1;            // points at its ends or next to them; b is -1 for a collider
     std::string collider{};        // "collider.pole", or empty
     dvec3 offset{0.0};             // [m] of the place, from the unturned collider
     double breakForce = HUGE_VAL;  // [N]
+    Spot from = -1, to = -1;       // the places of its ends
     bool isSeam = false;           // the cells at both points do not touch each other
     std::vector<int> springs{};    // of the plan
     struct Part {
@@ -96,8 +98,7 @@ struct JointReport {
     double jump = 0;          // [m] largest distance of points that were welded
     int idle = 0;             // number of its ties between points of one solid, which are left out
     struct Sewn {
-        std::array<int, 2> points{};      // of its two edges
-        std::array<double, 2> lengths{};  // [m]
+        std::array<double, 2> lengths{};  // [m] of its two edges
         double gap = 0;                   // [m] the largest in an edge of several, which no seam closes
         double apart = 0;                 // [m] largest distance of points that it sews
         int heldApart = 0;                // pairs of points that are held, and not in one place

@@ -98,22 +98,53 @@ int nearest(const Way& way, const SewnEdge& edge, double share, const dvec3& pla
     return static_cast<int>(best);
 }
 
+// The spot at a share, in numbers of the way: the nearest place if it is as good as there.
+Spot spotAt(const Way& way, const SewnEdge& edge, double share, const dvec3& place) {
+    constexpr double asGood = 0.01;  // of the step between two places
+    const auto at = [&](std::ptrdiff_t k) { return way.shares[static_cast<std::size_t>(k)]; };
+    const int best = nearest(way, edge, share, place);
+    const std::ptrdiff_t after = std::lower_bound(way.shares.begin(), way.shares.end(), share) - way.shares.begin();
+    if (after == 0 || after == std::ssize(way.shares)) return best;
+    const double step = at(after) - at(after - 1);
+    if (std::abs(share - at(best)) <= asGood * step) return best;
+    const double weight = (share - at(after - 1)) / step;
+    return {{static_cast<int>(after) - 1, 1.0 - weight}, {static_cast<int>(after), weight}};
+}
+
+// (places of the way) Those with the same share, as where two edges meet, have one number.
+std::vector<int> meetings(const Way& way) {
+    std::vector<int> numbers{0};
+    for (std::size_t k = 1; k < way.shares.size(); ++k)
+        numbers.push_back(numbers.back() + (way.shares[k] > way.shares[k - 1] ? 1 : 0));
+    return numbers;
+}
+
 // Expects that `many` has no fewer places.
-std::vector<std::pair<int, int>> pairs(const Way& many, const SewnEdge& manyEdge, const Way& few,
-                                       const SewnEdge& fewEdge) {
+std::vector<SewnPair> pairs(const Way& many, const SewnEdge& manyEdge, const Way& few, const SewnEdge& fewEdge) {
     const auto placeOf = [](const Way& way, const SewnEdge& edge, std::size_t k) {
         return edge.places[static_cast<std::size_t>(way.order[k])];
     };
-    std::vector<std::pair<int, int>> all;
+    const std::vector<int> ofMany = meetings(many), ofFew = meetings(few);
+    bool isEven = ofMany.back() == ofFew.back();
+    for (std::size_t i = 0; i < many.shares.size(); ++i)
+        isEven = isEven &&
+                 ofFew[static_cast<std::size_t>(nearest(few, fewEdge, many.shares[i], placeOf(many, manyEdge, i)))] ==
+                     ofMany[i];
+    const auto partner = [&](const Way& way, const SewnEdge& edge, double share, const dvec3& place) -> Spot {
+        return isEven ? nearest(way, edge, share, place) : spotAt(way, edge, share, place);
+    };
+    std::vector<SewnPair> all;
     std::vector<bool> isTaken(few.shares.size(), false);
     for (std::size_t i = 0; i < many.shares.size(); ++i) {
-        all.emplace_back(static_cast<int>(i), nearest(few, fewEdge, many.shares[i], placeOf(many, manyEdge, i)));
-        isTaken[static_cast<std::size_t>(all.back().second)] = true;
+        all.push_back({static_cast<int>(i), partner(few, fewEdge, many.shares[i], placeOf(many, manyEdge, i))});
+        for (const Spot::Share& own : all.back().b.shares()) isTaken[static_cast<std::size_t>(own.point)] = true;
     }
     for (std::size_t j = 0; j < few.shares.size(); ++j)
         if (!isTaken[j])
-            all.emplace_back(nearest(many, manyEdge, few.shares[j], placeOf(few, fewEdge, j)), static_cast<int>(j));
-    std::sort(all.begin(), all.end());
+            all.push_back({partner(many, manyEdge, few.shares[j], placeOf(few, fewEdge, j)), static_cast<int>(j)});
+    std::stable_sort(all.begin(), all.end(), [](const SewnPair& own, const SewnPair& other) {
+        return std::pair(own.a.nearest(), own.b.nearest()) < std::pair(other.a.nearest(), other.b.nearest());
+    });
     return all;
 }
 
@@ -133,11 +164,11 @@ std::vector<std::vector<int>> borderNeighbours(const mechanics::Model& model) {
     return neighbours;
 }
 
-std::vector<std::pair<int, int>> pairedByLength(const SewnEdge& a, const SewnEdge& b) {
+std::vector<SewnPair> pairedByLength(const SewnEdge& a, const SewnEdge& b) {
     const bool turnsFirst = a.isClosed() && (!b.isClosed() || a.places.size() > b.places.size());
     const SewnEdge &still = turnsFirst ? b : a, &turned = turnsFirst ? a : b;
     const Way own = wayAlong(still, 0, false);
-    std::vector<std::pair<int, int>> best;
+    std::vector<SewnPair> best;
     double least = HUGE_VAL;
     for (const bool isBackward : {false, true})
         for (std::size_t start = 0; start < (turned.isClosed() ? turned.places.size() : 1); ++start) {
@@ -147,19 +178,19 @@ std::vector<std::pair<int, int>> pairedByLength(const SewnEdge& a, const SewnEdg
             double squares = 0;
             for (auto& [i, j] : all) {
                 if (!isMore) std::swap(i, j);
-                i = own.order[static_cast<std::size_t>(i)];
-                j = other.order[static_cast<std::size_t>(j)];
-                const dvec3 d = turned.places[static_cast<std::size_t>(j)] - still.places[static_cast<std::size_t>(i)];
+                i = i.renumbered([&](int k) { return own.order[static_cast<std::size_t>(k)]; });
+                j = j.renumbered([&](int k) { return other.order[static_cast<std::size_t>(k)]; });
+                const dvec3 d = j.of(turned.places) - i.of(still.places);
                 squares += glm::dot(d, d);
             }
             if (!(squares < least)) continue;
             least = squares;
             best = all;
         }
-    std::vector<std::pair<int, int>> once;  // the start of a closed edge is there twice
-    for (auto [i, j] : best) {
-        if (turnsFirst) std::swap(i, j);
-        if (std::find(once.begin(), once.end(), std::pair(i, j)) == once.end()) once.emplace_back(i, j);
+    std::vector<SewnPair> once;  // the start of a closed edge is there twice
+    for (SewnPair& pair : best) {
+        if (turnsFirst) std::swap(pair.a, pair.b);
+        if (std::find(once.begin(), once.end(), pair) == once.end()) once.push_back(pair);
     }
     return once;
 }

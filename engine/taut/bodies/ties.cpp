@@ -65,7 +65,8 @@ class Tying {
                    {.joint = number,
                     .a = point,
                     .collider = grip.holder,
-                    .breakForce = joint.breakForce.value_or(HUGE_VAL)},
+                    .breakForce = joint.breakForce.value_or(HUGE_VAL),
+                    .from = point},
                    [&] { joint.carry(plan_, std::move(grip)); });
             if (joint.hasOwnTies())
                 for (std::size_t g = own; g < plan_.grips.size(); ++g) plan_.grips[g].tie = tie;

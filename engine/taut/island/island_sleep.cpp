@@ -18,17 +18,23 @@ bool isOneSolid(const IslandPlan& plan) {
     return plan.solids.size() == 1 && plan.solids[0].size() == plan.bodies.size() && plan.constraints.size() == 1;
 }
 
-// (points) One of those that constraints hold in one place with a point; empty where they do anything else.
-std::vector<std::size_t> leadersOf(const IslandPlan& plan, double t) {
-    std::vector<std::size_t> leaders(plan.points.size());
-    std::iota(leaders.begin(), leaders.end(), std::size_t{0});
+// (points) The places of those that constraints hold in one place with others, as weighted sums of the remaining
+// points; empty if constraints do anything else.
+std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t) {
+    std::vector<std::vector<Spot::Share>> leaders;
+    for (int i = 0; i < static_cast<int>(plan.points.size()); ++i) leaders.push_back({{i, 1.0}});
     for (const auto& constraint : plan.constraints) {
         const auto pairs = constraint->joinedFrom(t);
         if (!pairs) return {};
         const auto numberOf = [&](int end) {
             return static_cast<std::size_t>(constraint->points()[static_cast<std::size_t>(end)]);
         };
-        for (const Constraint::Pair& pair : *pairs) leaders[numberOf(pair.a)] = leaders[numberOf(pair.b)];
+        for (const Constraint::Pair& pair : *pairs) {
+            std::vector<Spot::Share> sum;
+            for (const auto& [b, weight] : pair.b.shares())
+                for (const auto& [leader, own] : leaders[numberOf(b)]) sum.push_back({leader, weight * own});
+            leaders[numberOf(pair.a.nearest())] = std::move(sum);
+        }
     }
     return leaders;
 }
@@ -82,7 +88,7 @@ bool Island::rests(double t, double seconds, std::vector<Support> supports, std:
             if (const dvec3 v = rest_.velocity(i, x_[i], seconds); !(glm::dot(v, v) <= still * still)) return false;
         return holdRigidly(footholds, x_);
     }
-    const std::vector<std::size_t> leaders = leadersOf(plan_, t);
+    const auto leaders = leadersOf(plan_, t);
     if (leaders.empty()) return false;
     supports.resize(n);
     for (const collision::Contact& contact : now_.contacts) {
@@ -102,23 +108,29 @@ bool Island::rests(double t, double seconds, std::vector<Support> supports, std:
         const double push = std::sqrt(glm::dot(supports[i].push, supports[i].push));
         if (push > 0) normals[i] = supports[i].push / push;
     }
-    // A leader stands for all that are in its place.
+    // Leaders stand for all that are in their place, or between them.
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t leader = leaders[i];
-        if (leader == i) continue;
-        double& inverse = inverseMasses[leader];
-        inverse = inverse > 0 && inverseMasses[i] > 0 ? 1.0 / (1.0 / inverse + 1.0 / inverseMasses[i]) : 0.0;
+        if (leaders[i].size() == 1 && leaders[i].front().point == static_cast<int>(i)) continue;
+        for (const auto& [point, weight] : leaders[i]) {
+            const auto leader = static_cast<std::size_t>(point);
+            double& inverse = inverseMasses[leader];
+            inverse = inverse > 0 && inverseMasses[i] > 0 ? 1.0 / (1.0 / inverse + weight / inverseMasses[i]) : 0.0;
+            r[leader] += weight * r[i];
+            if (normals[leader] == dvec3(0.0)) normals[leader] = normals[i];
+        }
         inverseMasses[i] = 0;
-        r[leader] += r[i];
-        if (normals[leader] == dvec3(0.0)) normals[leader] = normals[i];
     }
     std::vector<dvec3> ways(n), forces(n);
     const mechanics::StiffnessProduct stiffness = stiffnessAt(x_);
     const auto ofLeaders = [&](std::span<const dvec3> in, std::span<dvec3> sum) {
-        for (std::size_t i = 0; i < n; ++i) ways[i] = in[leaders[i]];
+        for (std::size_t i = 0; i < n; ++i) {
+            ways[i] = dvec3(0.0);
+            for (const auto& [leader, weight] : leaders[i]) ways[i] += weight * in[static_cast<std::size_t>(leader)];
+        }
         std::fill(forces.begin(), forces.end(), dvec3(0.0));
         stiffness(ways, forces);
-        for (std::size_t i = 0; i < n; ++i) sum[leaders[i]] += forces[i];
+        for (std::size_t i = 0; i < n; ++i)
+            for (const auto& [leader, weight] : leaders[i]) sum[static_cast<std::size_t>(leader)] += weight * forces[i];
     };
     return restBound(inverseMasses, normals, v, r, still, ofLeaders) <= error / 3;
 }

@@ -34,16 +34,23 @@ dvec3 JoinedBodies::held(std::size_t pair, const dvec3& difference) const {
 }
 
 bool JoinedBodies::isEmpty() const {
-    return std::none_of(
-        pairs_.begin(), pairs_.end(), [&](const Pair& pair) { return bodyOf_[pair.a] >= 0 || bodyOf_[pair.b] >= 0; });
+    const auto isOfBody = [&](const Spot& end) {
+        return std::any_of(
+            end.shares().begin(), end.shares().end(),
+            [&](const Spot::Share& own) { return bodyOf_[static_cast<std::size_t>(own.point)] >= 0; });
+    };
+    return std::none_of(pairs_.begin(), pairs_.end(),
+                        [&](const Pair& pair) { return isOfBody(pair.a) || isOfBody(pair.b); });
 }
 
 // moved_ = A way_
 void JoinedBodies::respond(std::span<const dvec3> at, std::span<const double> inverseMass) {
     sum_.assign(bodies_.size(), dvec3(0.0));
     turn_.assign(bodies_.size(), dvec3(0.0));
-    for (const Pair& pair : pairs_) force_[pair.a] = force_[pair.b] = dvec3(0.0);
-    const auto push = [&](std::size_t point, const dvec3& impulse) {
+    for (const Pair& pair : pairs_)
+        for (const Spot* end : {&pair.a, &pair.b})
+            for (const Spot::Share& own : end->shares()) force_[static_cast<std::size_t>(own.point)] = dvec3(0.0);
+    const auto pushPoint = [&](std::size_t point, const dvec3& impulse) {
         if (!(inverseMass[point] > 0)) return;
         force_[point] += impulse;
         if (bodyOf_[point] < 0) return;
@@ -51,16 +58,24 @@ void JoinedBodies::respond(std::span<const dvec3> at, std::span<const double> in
         sum_[k] += impulse;
         turn_[k] += glm::cross(at[point] - bodies_[k].centre, impulse);
     };
+    const auto push = [&](const Spot& end, const dvec3& impulse) {
+        for (const auto& [point, weight] : end.shares()) pushPoint(static_cast<std::size_t>(point), weight * impulse);
+    };
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
         push(pairs_[k].a, way_[k]);
         push(pairs_[k].b, -way_[k]);
     }
     for (std::size_t k = 0; k < bodies_.size(); ++k) turn_[k] = bodies_[k].inverseInertia * turn_[k];
-    const auto moved = [&](std::size_t point) {
+    const auto pointMoved = [&](std::size_t point) {
         if (!(inverseMass[point] > 0)) return dvec3(0.0);
         if (bodyOf_[point] < 0) return inverseMass[point] * force_[point];
         const auto k = static_cast<std::size_t>(bodyOf_[point]);
         return sum_[k] / bodies_[k].mass + glm::cross(turn_[k], at[point] - bodies_[k].centre);
+    };
+    const auto moved = [&](const Spot& end) {
+        dvec3 sum(0.0);
+        for (const auto& [point, weight] : end.shares()) sum += weight * pointMoved(static_cast<std::size_t>(point));
+        return sum;
     };
     for (std::size_t k = 0; k < pairs_.size(); ++k) moved_[k] = held(k, moved(pairs_[k].a) - moved(pairs_[k].b));
 }
@@ -76,11 +91,12 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
     moved_.resize(count);
     ease_.resize(count);
     force_.assign(bodyOf_.size(), dvec3(0.0));
-    const auto easeOf = [&](std::size_t point) {
+    const auto easeOf = [&](const Spot& end) {
+        const auto point = static_cast<std::size_t>(end.nearest());
+        if (bodyOf_[point] < 0) return end.ease(inverseMass);
         if (!(inverseMass[point] > 0)) return 0.0;
-        if (bodyOf_[point] < 0) return inverseMass[point];
         const core::RigidMotion& body = bodies_[static_cast<std::size_t>(bodyOf_[point])];
-        const dvec3 arm = at[point] - body.centre;
+        const dvec3 arm = end.of(at) - body.centre;
         const glm::dmat3& i = body.inverseInertia;
         return 1.0 / body.mass + glm::dot(arm, arm) * (i[0][0] + i[1][1] + i[2][2]) / 3.0;
     };
@@ -88,16 +104,17 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
     double furthest = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const Pair& pair = pairs_[k];
-        left_[k] = values[pair.b] - values[pair.a];
+        left_[k] = pair.b.of(values) - pair.a.of(values);
         if (pair.length > 0) {
-            const dvec3 between = at[pair.a] - at[pair.b];
+            const dvec3 between = pair.a.of(at) - pair.b.of(at);
             const double size = std::sqrt(glm::dot(between, between));
             along_[k] = size > 0 ? between / size : dvec3(1.0, 0.0, 0.0);
             const double square = glm::dot(left_[k], left_[k]), length = pair.length;
             left_[k] = arePlaces ? (length * length - square) / (2.0 * length) * along_[k] : held(k, left_[k]);
         }
         ease_[k] = easeOf(pair.a) + easeOf(pair.b);
-        const double size = 1.0 + std::sqrt(glm::dot(values[pair.a], values[pair.a]));
+        const dvec3 a = pair.a.of(values);
+        const double size = 1.0 + std::sqrt(glm::dot(a, a));
         furthest = std::max(furthest, std::sqrt(glm::dot(left_[k], left_[k])) / size);
     }
     if (!(furthest > settled)) return false;
@@ -137,10 +154,11 @@ double JoinedBodies::turning(std::span<const dvec3> at, std::span<const double> 
     constexpr double joined = mostSwing * mostSwing / (mostJoined * mostJoined);
     std::vector<double> sum(bodies_.size(), 0.0);
     for (std::size_t k = 0; k < pairs_.size(); ++k)
-        for (const std::size_t point : {pairs_[k].a, pairs_[k].b}) {
-            if (bodyOf_[point] < 0) continue;
-            const auto own = static_cast<std::size_t>(bodyOf_[point]);
-            const dvec3 arm = at[point] - bodies_[own].centre;
+        for (const Spot* end : {&pairs_[k].a, &pairs_[k].b}) {
+            const int body = bodyOf_[static_cast<std::size_t>(end->nearest())];
+            if (body < 0) continue;
+            const auto own = static_cast<std::size_t>(body);
+            const dvec3 arm = end->of(at) - bodies_[own].centre;
             const double length = std::sqrt(glm::dot(arm, arm));
             if (!(length > 0)) continue;
             const glm::dmat3& i = bodies_[own].inverseInertia;

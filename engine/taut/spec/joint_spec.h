@@ -19,6 +19,7 @@ namespace taut::world {
 
 struct Grip;
 struct IslandPlan;
+class Spot;
 
 // One side of a joint: one target, or several.
 class JointSide {
@@ -74,8 +75,9 @@ struct JointSpec {
     // Whether both sides are rows of edges, whose points are paired by their share of the length, all of them, and
     // whose cells beside it do not touch each other.
     virtual bool isSeam() const { return false; }
-    // Adds to the plan springs or constraints that tie two of its points, `distance` [m] apart.
-    virtual void tie(IslandPlan& plan, int a, int b, double distance) const = 0;
+    // Adds to the plan springs or constraints that tie two places on its bodies, `distance` [m] apart: points, but of a
+    // seam.
+    virtual void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const = 0;
     // The same between a point and a collider. The rigid grip has that point, the present pose of the collider, and the
     // place there: `place`, or that of the point.
     virtual void carry(IslandPlan& plan, Grip grip) const = 0;

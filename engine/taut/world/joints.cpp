@@ -92,10 +92,6 @@ std::vector<core::Finding> seamWarnings(const JointReport& report) {
         warnings.push_back(warningAt(seam.source) + "the seam \"" + seam.a.text() + "\" – \"" + seam.b.text() + "\" " +
                            what);
     };
-    if (const auto [a, b] = report.sewn.points; a != b)
-        warn("sews " + std::to_string(a) + " points to " + std::to_string(b) +
-             ": cells between points that go with the same one are crushed to nothing, which a stiff edge does not "
-             "bear; give both edges as many cells");
     if (const auto [a, b] = report.sewn.lengths; std::max(a, b) > mostGathered * std::min(a, b))
         warn("sews " + metres(a) + " to " + metres(b) +
              ": the longer edge is crushed to the length of the shorter one, or stretches it; cut them alike, or name "

@@ -116,8 +116,8 @@ void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view
             if (!drawing) continue;
             const int number = count[drawing->name()]++;
             if (!holds(plan, tie)) continue;
-            const glm::vec3 a(x[static_cast<std::size_t>(tie.a)]);
-            const glm::vec3 b = tie.b >= 0 ? glm::vec3(x[static_cast<std::size_t>(tie.b)])
+            const glm::vec3 a(tie.from.of(x));
+            const glm::vec3 b = tie.b >= 0 ? glm::vec3(tie.to.of(x))
                                            : glm::vec3(matrix(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
             if (!drawing->isShown(a, b)) continue;
             view.surfaces.push_back(drawing->surface(a, b, number));

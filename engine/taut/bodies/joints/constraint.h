@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/bodies/spot.h"
 #include "taut/bodies/state_bytes.h"
 #include "taut/core/rigid_motion.h"
 
@@ -57,15 +58,16 @@ class Constraint {
                                                     std::span<const double> /*inverseMass*/) const {
         return std::nullopt;
     }
-    // Pairs that it holds at t [s], in one place or at a distance: their numbers in Moment, and the tie that bears
+    // Pairs that it holds at t [s], in one place or at a distance, with numbers as in Moment, and the tie that bears
     // them. None in one place follows from the others.
     struct Pair {
-        int a, b, tie;
+        Spot a, b;
+        int tie;
         double length = 0;  // [m]
     };
     virtual std::vector<Pair> pairs(double /*t*/) { return {}; }
-    // Its pairs, if from t [s] on all that it does is to hold points of the plan in one place: in the order of walks that
-    // go from b to a.
+    // Its pairs, if from t [s] on all that it does is to hold each a, a point, in the place of b: in such an order that
+    // no b is the a of a later pair.
     virtual std::optional<std::vector<Pair>> joinedFrom(double /*t*/) const { return std::nullopt; }
 
     // Number of its ties, with those that have let go. They are numbered from 0.

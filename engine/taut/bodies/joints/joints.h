@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "taut/bodies/spot.h"
 #include "taut/spec/joint_spec.h"
 #include "taut/spec/specs.h"
 
@@ -18,7 +19,7 @@ struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
     std::string_view title() const override { return "a weld"; }
     double reach() const override { return furthest; }
     bool isWeld() const override { return true; }
-    void tie(IslandPlan& plan, int a, int b, double distance) const override;
+    void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
     void carry(IslandPlan& plan, Grip grip) const override;
 };
 
@@ -30,7 +31,7 @@ struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
     std::optional<double> restLength;  // [m]; none: the distance at the start, to a collider 0
 
     std::string_view title() const override { return "a spring joint"; }
-    void tie(IslandPlan& plan, int a, int b, double distance) const override;
+    void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
     void carry(IslandPlan& plan, Grip grip) const override;
 };
 
@@ -39,7 +40,7 @@ struct RodJoint final : SpecOf<RodJoint, JointSpec> {
     static constexpr std::string_view kindName = "rod";
     std::string_view title() const override { return "a rod"; }
     bool tiesWithin() const override { return true; }
-    void tie(IslandPlan& plan, int a, int b, double distance) const override;
+    void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
     void carry(IslandPlan& plan, Grip grip) const override;
 };
 
@@ -54,7 +55,7 @@ struct SeamJoint final : SpecOf<SeamJoint, JointSpec> {
     bool tiesWithin() const override { return true; }
     bool isWeld() const override { return !(over > 0); }
     bool isSeam() const override { return true; }
-    void tie(IslandPlan& plan, int a, int b, double distance) const override;
+    void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
     void carry(IslandPlan& plan, Grip grip) const override;
 };
 

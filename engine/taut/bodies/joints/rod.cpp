@@ -19,9 +19,8 @@ double distance(const dvec3& a, const dvec3& b) {
 }  // namespace
 
 // The plan has the right length: welding may have moved the points away from their bodies' positions.
-void RodJoint::tie(IslandPlan& plan, int first, int second, double) const {
-    const double length =
-        distance(plan.positions[static_cast<std::size_t>(first)], plan.positions[static_cast<std::size_t>(second)]);
+void RodJoint::tie(IslandPlan& plan, const Spot& first, const Spot& second, double) const {
+    const double length = distance(first.of(plan.positions), second.of(plan.positions));
     changeOnly<Rods>(plan, [&](Rods& rods) { rods.tie(first, second, length, source); });
 }
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double relativeTolerance = 1e-13;  // of a length
 constexpr double roundingShare = 1e-15;      // of a coordinate
-constexpr double leastPivot = 1e-10;         // of the diagonal element
 constexpr int oldPasses = 10;                // along the directions at the start of the step
 constexpr int mostPasses = 40;               // afterwards along the present directions, as in the Gauss-Newton method
 
@@ -21,31 +20,28 @@ double norm(const dvec3& v) {
 
 }  // namespace
 
-int Rods::numberOf(int point) {
-    const auto found = std::find(points_.begin(), points_.end(), point);
-    if (found != points_.end()) return static_cast<int>(found - points_.begin());
-    points_.push_back(point);
-    return static_cast<int>(points_.size()) - 1;
-}
-
 // A rod that already exists is not made twice.
-void Rods::tie(int a, int b, double length, const Source& source) {
-    const int first = numberOf(a), second = numberOf(b);
+void Rods::tie(const Spot& a, const Spot& b, double length, const Source& source) {
+    const Spot first = ends_.of(a, rods_), second = ends_.of(b, rods_);
     for (const Rod& rod : rods_)
         if ((rod.a == first && rod.b == second) || (rod.a == second && rod.b == first)) return;
     rods_.push_back({first, second, length, source});
 }
 
-void Rods::tie(int a, const Place& b, double length, const Source& source) {
-    places_.push_back(b);
-    rods_.push_back({numberOf(a), -static_cast<int>(places_.size()), length, source});
+void Rods::tie(const Spot& a, const Place& b, double length, const Source& source) {
+    const Spot first = ends_.of(a, rods_);
+    rods_.push_back({first, ends_.of(b), length, source});
 }
 
 double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) const {
+    const auto counted = [&](const Spot& end) {
+        return std::all_of(end.shares().begin(), end.shares().end(),
+                           [&](const Spot::Share& own) { return counts[static_cast<std::size_t>(own.point)]; });
+    };
     double most = 0;
     for (int r = 0; r < size(); ++r) {
         const Rod& rod = rods_[static_cast<std::size_t>(r)];
-        if (holds(r) && counts[static_cast<std::size_t>(end(rod.a))] && counts[static_cast<std::size_t>(end(rod.b))])
+        if (holds(r) && counted(rod.a) && counted(rod.b))
             most = std::max(most, std::abs(norm(between(rod, x)) - rod.length) / rod.length);
     }
     return most;
@@ -55,7 +51,7 @@ std::vector<Constraint::Pair> Rods::pairs(double /*t*/) {
     std::vector<Pair> all;
     for (int r = 0; r < size(); ++r) {
         const Rod& rod = rods_[static_cast<std::size_t>(r)];
-        if (holds(r)) all.push_back({end(rod.a), end(rod.b), r, rod.length});
+        if (holds(r)) all.push_back({rod.a, rod.b, r, rod.length});
     }
     return all;
 }
@@ -69,7 +65,10 @@ double Rods::turning(std::span<const dvec3> x, std::span<const double> inverseMa
         const double length = norm(between(rod, x));
         if (!holds(r) || !(length > 0)) continue;
         const double stiffness = norm(forces[static_cast<std::size_t>(r)]) / length;
-        for (const int number : {rod.a, rod.b}) sum[static_cast<std::size_t>(end(number))] += stiffness;
+        for (const Spot* end : {&rod.a, &rod.b})
+            for (const Spot::Share& own : end->shares())
+                for (const Spot::Share& other : end->shares())
+                    sum[static_cast<std::size_t>(own.point)] += std::abs(own.weight * other.weight) * stiffness;
     }
     double most = 0;
     for (std::size_t i = 0; i < sum.size(); ++i) most = std::max(most, 2.0 * sum[i] * inverseMass[i]);
@@ -90,17 +89,19 @@ void Rods::check() const {
 void Rods::layOut() {
     if (!order_.empty()) return;
     const auto count = rods_.size();
-    std::vector<std::vector<int>> at(points_.size());  // rods at each point
-    for (std::size_t r = 0; r < count; ++r)
-        for (const int number : {rods_[r].a, rods_[r].b})
-            if (number >= 0) at[static_cast<std::size_t>(number)].push_back(static_cast<int>(r));
+    std::vector<std::vector<Spot::Share>> ends;             // (rods) that move
+    std::vector<std::vector<int>> at(ends_.points.size());  // rods at each point
+    for (std::size_t r = 0; r < count; ++r) {
+        ends.push_back(TieEnds::difference(rods_[r].a, rods_[r].b));
+        std::erase_if(ends.back(), [&](const Spot::Share& own) { return ends_.isPlace(own.point); });
+        for (const Spot::Share& own : ends.back())
+            at[static_cast<std::size_t>(own.point)].push_back(static_cast<int>(r));
+    }
     const auto neighbours = [&](int r) {
         std::vector<int> all;
-        const Rod& rod = rods_[static_cast<std::size_t>(r)];
-        for (const int number : {rod.a, rod.b})
-            if (number >= 0)
-                all.insert(all.end(), at[static_cast<std::size_t>(number)].begin(),
-                           at[static_cast<std::size_t>(number)].end());
+        for (const Spot::Share& own : ends[static_cast<std::size_t>(r)])
+            all.insert(all.end(), at[static_cast<std::size_t>(own.point)].begin(),
+                       at[static_cast<std::size_t>(own.point)].end());
         std::sort(all.begin(), all.end());
         all.erase(std::unique(all.begin(), all.end()), all.end());
         std::erase(all, r);
@@ -129,81 +130,51 @@ void Rods::layOut() {
     }
     // The couplings of each row and the start of its envelope.
     for (int i = 0; i < static_cast<int>(count); ++i) {
-        const Rod& own = rods_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
         int first = i;
-        for (const int number : {own.a, own.b}) {
-            if (number < 0) continue;
-            for (const int r : at[static_cast<std::size_t>(number)]) {
+        for (const auto& [point, weight] : ends[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])])
+            for (const int r : at[static_cast<std::size_t>(point)]) {
                 const int j = rowOf[static_cast<std::size_t>(r)];
-                if (j >= i) continue;
-                const Rod& other = rods_[static_cast<std::size_t>(r)];
-                couplings_.push_back({i, j, number, (own.a == number) == (other.a == number) ? 1.0 : -1.0});
+                if (j > i) continue;
+                for (const auto& [same, other] : ends[static_cast<std::size_t>(r)])
+                    if (same == point) couplings_.push_back({i, j, point, weight * other});
                 first = std::min(first, j);
             }
-        }
-        start_.push_back(lower_.size());
-        first_.push_back(first);
-        lower_.resize(lower_.size() + static_cast<std::size_t>(i - first));
+        matrix_.addRow(first);
     }
-    inversePivot_.resize(count);
+    diagonal_.resize(count);
     direction_.resize(count);
     impulse_.resize(count);
 }
 
 // Factors J M⁻¹ Jᵀ with the rods' directions at x.
 void Rods::factor(std::span<const dvec3> x, std::span<const double> inverseMass) {
-    const int count = static_cast<int>(order_.size());
-    const auto weight = [&](int number) { return inverseMass[static_cast<std::size_t>(end(number))]; };
-    for (int i = 0; i < count; ++i) {
-        const Rod& rod = rods_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
-        const dvec3 d = between(rod, x);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        const dvec3 d = between(rods_[static_cast<std::size_t>(order_[i])], x);
         const double length = norm(d);
-        const bool pulls = holds(order_[static_cast<std::size_t>(i)]) && length > 0;
-        direction_[static_cast<std::size_t>(i)] = pulls ? d / length : dvec3(0.0);
+        const bool pulls = holds(order_[i]) && length > 0;
+        direction_[i] = pulls ? d / length : dvec3(0.0);
     }
-    std::fill(lower_.begin(), lower_.end(), 0.0);
-    for (const Coupling& c : couplings_)
-        at(c.i, c.j) += c.sign * weight(c.end) *
-                        glm::dot(direction_[static_cast<std::size_t>(c.i)], direction_[static_cast<std::size_t>(c.j)]);
-    for (int i = 0; i < count; ++i) {
-        const int first = first_[static_cast<std::size_t>(i)];
-        for (int j = first; j < i; ++j) {  // L D
-            double sum = at(i, j);
-            for (int k = std::max(first, first_[static_cast<std::size_t>(j)]); k < j; ++k) sum -= at(i, k) * at(j, k);
-            at(i, j) = sum;
-        }
-        const Rod& rod = rods_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
-        const dvec3& n = direction_[static_cast<std::size_t>(i)];
-        const double diagonal = (weight(rod.a) + weight(rod.b)) * glm::dot(n, n);
-        double pivot = diagonal;
-        for (int j = first; j < i; ++j) {
-            const double scaled = at(i, j) * inversePivot_[static_cast<std::size_t>(j)];
-            pivot -= scaled * at(i, j);
-            at(i, j) = scaled;
-        }
-        inversePivot_[static_cast<std::size_t>(i)] = pivot > leastPivot * diagonal ? 1.0 / pivot : 0.0;
+    matrix_.clear();
+    diagonal_.assign(order_.size(), 0.0);
+    for (const auto& [i, j, point, weight] : couplings_) {
+        const double share = weight * inverseMass[static_cast<std::size_t>(point)];
+        if (i == j)
+            diagonal_[static_cast<std::size_t>(i)] += share;
+        else
+            matrix_.at(i, j) +=
+                share * glm::dot(direction_[static_cast<std::size_t>(i)], direction_[static_cast<std::size_t>(j)]);
     }
-}
-
-void Rods::solve() {
-    const int count = static_cast<int>(order_.size());
-    for (int i = 0; i < count; ++i)
-        for (int j = first_[static_cast<std::size_t>(i)]; j < i; ++j)
-            impulse_[static_cast<std::size_t>(i)] -= at(i, j) * impulse_[static_cast<std::size_t>(j)];
-    for (int i = 0; i < count; ++i) impulse_[static_cast<std::size_t>(i)] *= inversePivot_[static_cast<std::size_t>(i)];
-    for (int i = count - 1; i >= 0; --i)
-        for (int j = first_[static_cast<std::size_t>(i)]; j < i; ++j)
-            impulse_[static_cast<std::size_t>(j)] -= at(i, j) * impulse_[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < order_.size(); ++i) diagonal_[i] *= glm::dot(direction_[i], direction_[i]);
+    matrix_.factor(diagonal_);
 }
 
 // A rod turns during a tick, so its pull is summed along its axis.
 void Rods::pull(std::span<dvec3> to, const Moment& moment) const {
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
-        const auto a = static_cast<std::size_t>(end(rod.a)), b = static_cast<std::size_t>(end(rod.b));
         const dvec3 impulse = impulse_[i] * direction_[i];
-        to[a] += moment.inverseMass[a] * impulse;
-        to[b] -= moment.inverseMass[b] * impulse;
+        rod.a.push(to, moment.inverseMass, impulse);
+        rod.b.push(to, moment.inverseMass, -impulse);
         moment.pull[static_cast<std::size_t>(order_[i])].x += impulse_[i];
     }
 }
@@ -216,14 +187,13 @@ bool Rods::projectPositions(const Moment& moment) {
             const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
             const dvec3 d = between(rod, moment.x);
             const double g = !holds(order_[i]) ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
-            const double size = norm(moment.x[static_cast<std::size_t>(end(rod.a))]) +
-                                norm(moment.x[static_cast<std::size_t>(end(rod.b))]);
+            const double size = norm(rod.a.of(moment.x)) + norm(rod.b.of(moment.x));
             isMet = isMet && std::abs(g) <= relativeTolerance * rod.length + roundingShare * size;
             impulse_[i] = g;
         }
         if (isMet) return pass > 0;
         if (pass == 0 || pass >= oldPasses) factor(pass == 0 ? moment.from : moment.x, moment.inverseMass);
-        solve();
+        matrix_.solve(std::span(impulse_));
         pull(moment.x, moment);
     }
     return true;
@@ -236,12 +206,11 @@ bool Rods::projectVelocities(const Moment& moment) {
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
         impulse_[i] = glm::dot(direction_[i], between(rod, moment.v));
-        const double size =
-            norm(moment.v[static_cast<std::size_t>(end(rod.a))]) + norm(moment.v[static_cast<std::size_t>(end(rod.b))]);
+        const double size = norm(rod.a.of(moment.v)) + norm(rod.b.of(moment.v));
         isMet = isMet && std::abs(impulse_[i]) <= roundingShare * size;
     }
     if (isMet) return false;
-    solve();
+    matrix_.solve(std::span(impulse_));
     pull(moment.v, moment);
     return true;
 }

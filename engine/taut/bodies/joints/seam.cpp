@@ -9,13 +9,13 @@
 namespace taut::world {
 
 // The plan has the right length: welding may have moved the points away from their bodies' positions.
-void SeamJoint::tie(IslandPlan& plan, int first, int second, double distance) const {
+void SeamJoint::tie(IslandPlan& plan, const Spot& first, const Spot& second, double distance) const {
     if (isWeld()) {
         WeldJoint weld;
         weld.source = source;
         return weld.tie(plan, first, second, distance);
     }
-    const dvec3 d = plan.positions[static_cast<std::size_t>(second)] - plan.positions[static_cast<std::size_t>(first)];
+    const dvec3 d = second.of(plan.positions) - first.of(plan.positions);
     const double length = start > 0 ? Pins::Closing::notBegun : std::sqrt(glm::dot(d, d));
     changeOnly<Pins>(plan, [&](Pins& pins) { pins.sew(first, second, {length, over, start}, source); });
 }
@@ -27,8 +27,8 @@ void SeamJoint::carry(IslandPlan&, Grip grip) const {
 
 Kind<JointSpec> seamKind() {
     Kind<JointSpec> kind = jointKind<SeamJoint>(
-        "Sews two edges together. Each point goes with that of the other edge at the same share of the length, in the "
-        "direction in which they lie nearer; around a closed edge, also from where they lie nearest.",
+        "Sews two edges together. Each point goes with the place on the other edge at the same share of the length, in "
+        "the direction in which they lie nearer; around a closed edge, also from where they lie nearest.",
         fields::FieldList<SeamJoint>()
             .number(
                 "over_s", &SeamJoint::over, "s", fields::notNegative,

@@ -4,9 +4,9 @@
 
 namespace taut::world {
 
-void SpringJoint::tie(IslandPlan& plan, int first, int second, double distance) const {
-    plan.springs.push_back(
-        {first, second, stiffness, restLength.value_or(distance), dampingTime, mechanics::SpringKind::joint});
+void SpringJoint::tie(IslandPlan& plan, const Spot& first, const Spot& second, double distance) const {
+    plan.springs.push_back({first.nearest(), second.nearest(), stiffness, restLength.value_or(distance), dampingTime,
+                            mechanics::SpringKind::joint});
 }
 
 // Springs draw each point to a place on the collider.

@@ -7,16 +7,16 @@
 
 namespace taut::world {
 
-// All points of the cluster start at the first held point, or else at the first point.
-void WeldJoint::tie(IslandPlan& plan, int first, int second, double) const {
+// All points of the cluster start at the first held point, or else at the first point. Places between points wait for
+// Pins::settle().
+void WeldJoint::tie(IslandPlan& plan, const Spot& first, const Spot& second, double) const {
     if (first == second) return;
     std::vector<int> cluster;
-    changeOnly<Pins>(
-        plan,
-        [&](Pins& pins) {
-            pins.tie(first, second, source);
-            cluster = pins.clusterOf(first);
-        });
+    changeOnly<Pins>(plan, [&](Pins& pins) {
+        pins.tie(first, second, source);
+        if (first.isPoint() && second.isPoint()) cluster = pins.clusterOf(first.nearest());
+    });
+    if (cluster.empty()) return;
     const auto held = std::find_if(cluster.begin(), cluster.end(),
                                    [&](int i) { return plan.points[static_cast<std::size_t>(i)].held; });
     const int leader = held != cluster.end() ? *held : cluster.front();

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/bodies/spot.h"
 #include "taut/mechanics/model.h"
 
 namespace taut::world {
@@ -32,9 +33,15 @@ struct SewnEdge {
     bool isClosed() const { return steps.size() == places.size(); }
 };
 
-// Pairs of places: each place of the edge with more goes with the place of the other that is nearest by its share of
-// the length, and of the other those that are left likewise. So each has a partner, no two pairs cross, and one may
-// have several. A closed edge begins where, and either goes the way in which, the pairs are nearest to each other.
-std::vector<std::pair<int, int>> pairedByLength(const SewnEdge& a, const SewnEdge& b);
+// A spot of each edge, in numbers of its places; one of both is a place.
+struct SewnPair {
+    Spot a, b;
+    bool operator==(const SewnPair&) const = default;
+};
+// If each place of either edge is the nearest to one of the other by its share of the length, these are the pairs. Else
+// each place of the edge with more goes with the spot of the other at the same share, and so do those of the other that
+// no spot has a part of. A closed edge begins where, and either goes the way in which, the pairs are nearest to each
+// other.
+std::vector<SewnPair> pairedByLength(const SewnEdge& a, const SewnEdge& b);
 
 }  // namespace taut::world

@@ -281,9 +281,13 @@ class ConstraintSlot {
         }
         if (bodies.empty()) return bodies;
         for (Tie& tie : ties_)
-            for (const auto& [a, b, number, length] : tie.constraint->pairs(time_))
-                joined_.addPair({tie.numbers[static_cast<std::size_t>(a)], tie.numbers[static_cast<std::size_t>(b)],
+            for (const auto& [a, b, number, length] : tie.constraint->pairs(time_)) {
+                const auto numberOf = [&](int end) {
+                    return static_cast<int>(tie.numbers[static_cast<std::size_t>(end)]);
+                };
+                joined_.addPair({a.renumbered(numberOf), b.renumbered(numberOf),
                                  static_cast<std::size_t>(tie.first + number), length});
+            }
         return bodies;
     }
     // What pairs of ties hold of rigid bodies (joined_bodies.h).
@@ -300,8 +304,8 @@ class ConstraintSlot {
             for (std::size_t k = 0; k < joined_.pairs().size(); ++k) {
                 const auto& [a, b, pull, length] = joined_.pairs()[k];
                 const dvec3& impulse = joined_.impulses()[k];
-                values[a] += inverseMass_[a] * impulse;
-                values[b] -= inverseMass_[b] * impulse;
+                a.push(values, inverseMass_, impulse);
+                b.push(values, inverseMass_, -impulse);
                 pull_[pull] += length > 0 ? dvec3(joined_.tension(k), 0.0, 0.0) : impulse;  // of a rod as Rods gives it
             }
             for (Tie* tie : bodies) {

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "taut/bodies/spot.h"
 #include "taut/core/rigid_motion.h"
 
 namespace taut::world {
@@ -21,7 +22,7 @@ namespace taut::world {
 class JoinedBodies {
   public:
     struct Pair {
-        std::size_t a, b;  // numbers of points
+        Spot a, b;
         std::size_t pull;  // for the owner
         double length;     // [m] of a rod; 0: both are in one place
     };

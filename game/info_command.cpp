@@ -17,12 +17,14 @@
 #include "taut/advice/bending_cells.h"
 #include "taut/advice/private/start_doubts.h"
 #include "taut/bodies/cloth.h"
+#include "taut/bodies/private/solid_places.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
 #include "taut/mechanics/sheet_moduli.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/private/body_size.h"
+#include "taut/spec/targets.h"
 #include "taut/world/world.h"
 
 namespace taut::game {
@@ -33,6 +35,7 @@ using Json = nlohmann::ordered_json;
 struct InfoFlags {
     std::string scene;
     std::vector<std::string> overrides;
+    std::string pointsOf;
     bool json = false;
     bool methods = false;
 };
@@ -380,6 +383,48 @@ void printMethods() {
         "along a triangle,\nthose of order 4 to 2.\n");
 }
 
+// Each name once, with its points or its place as the scene starts.
+int infoPoints(const InfoFlags& flags) {
+    const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
+    std::vector<world::Body> bodies = world::buildBodies(spec);
+    const std::vector<world::Body*> found = world::matchBodies(world::pointersTo(bodies), flags.pointsOf);
+    if (found.empty()) {
+        std::vector<std::string> names;
+        for (const world::Body& body : bodies) names.push_back(body.fullName());
+        failUsage("--points {}: there is no such body; there are {}", flags.pointsOf, fmt::join(names, ", "));
+    }
+    const auto textOf = [](const glm::dvec3& x) {
+        const auto number = [](double own) { return std::abs(own) < 1e-12 ? 0.0 : own; };
+        return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", number(x.x), number(x.y), number(x.z));
+    };
+    for (const world::Body* body : found) {
+        printResult("{}: {} points\n", body->fullName(), body->model.pointCount());
+        for (const auto& [name, points] : body->model.groups) {
+            if (name == "all" || points.empty()) continue;
+            constexpr std::size_t shown = 8;
+            std::vector<std::string> numbers;
+            for (const int i : points)
+                if (numbers.size() < shown) numbers.push_back(fmt::format("#{}", i));
+            const bool isOne = points.size() == 1;
+            printResult("  @{:<24} {}{}\n", name, fmt::join(numbers, " "),
+                        isOne ? "  " + textOf(body->model.positions[static_cast<std::size_t>(points[0])])
+                        : points.size() > shown ? fmt::format(" … {} in all", points.size())
+                                                : "");
+        }
+        for (const char* depth : {"back", "front"})
+            for (const char* height : {"bottom", "top"})
+                for (const char* width : {"left", "right"}) {
+                    const std::string name = fmt::format("{}-{}-{}", depth, height, width);
+                    if (const auto corner = world::selectPoints(body->model, name); corner.size() == 1)
+                        printResult("  @{:<24} #{}  {}\n", name, corner[0],
+                                    textOf(body->model.positions[static_cast<std::size_t>(corner[0])]));
+                }
+        for (const std::string& name : world::placeNames(body->model))
+            printResult("  @{:<24} {}\n", name, textOf(*world::placeNamed(*body, name)));
+    }
+    return static_cast<int>(ExitCode::ok);
+}
+
 int info(const InfoFlags& flags) {
     if (flags.methods && !flags.scene.empty()) failUsage("--methods tells of no scene: give one or the other");
     if (flags.methods) {
@@ -390,6 +435,7 @@ int info(const InfoFlags& flags) {
         return static_cast<int>(ExitCode::ok);
     }
     if (flags.scene.empty()) failUsage("info: give a scene, or --methods");
+    if (!flags.pointsOf.empty()) return infoPoints(flags);
     const Facts facts = gatherFacts(flags);
     if (flags.json)
         printJson(facts);
@@ -402,6 +448,8 @@ Action declareInfo(Options& options) {
     const auto flags = std::make_shared<InfoFlags>();
     options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene");
     addOverrideFlag(options, flags->overrides);
+    options.value("--points", flags->pointsOf, "List the names of points and places of these bodies instead")
+        .typeName("BODY");
     options.flag("--methods", flags->methods, "List the methods of integration instead");
     options.flag("--json", flags->json, "Print it as JSON");
     return withThreads(options, [flags] { return info(*flags); });

@@ -33,6 +33,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_restoring_test.cpp
   world_rods_test.cpp
   world_saving_test.cpp
+  world_hinge_test.cpp
   world_seam_test.cpp
   world_sleep_test.cpp
   world_solid_test.cpp

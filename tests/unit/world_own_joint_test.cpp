@@ -31,7 +31,9 @@ struct TwiceJoint final : SpecOf<TwiceJoint, JointSpec> {
     void tie(IslandPlan& plan, const Spot& first, const Spot& second, double distance) const override {
         twice().tie(plan, first, second, distance);
     }
-    void carry(IslandPlan& plan, Grip grip) const override { twice().carry(plan, std::move(grip)); }
+    void carry(IslandPlan& plan, const Spot& end, Grip grip) const override {
+        twice().carry(plan, end, std::move(grip));
+    }
 };
 
 class Leash final : public ConstraintOf<Leash> {
@@ -71,7 +73,7 @@ struct LeashJoint final : SpecOf<LeashJoint, JointSpec> {
     void tie(IslandPlan& plan, const Spot& first, const Spot& second, double distance) const override {
         plan.constraints.push_back(std::make_shared<Leash>(first.nearest(), second.nearest(), longer * distance));
     }
-    void carry(IslandPlan&, Grip) const override {
+    void carry(IslandPlan&, const Spot&, Grip) const override {
         throw core::Error(core::ErrorKind::badContent, world::at(source) + "a leash is for points of bodies");
     }
 };
@@ -171,7 +173,7 @@ TEST(OwnJoint, IsReleasedByNameAndBreaksByTheForceThroughIt) {
 TEST(OwnJoint, IsInTheManualAndRefusedByNameWhereItIsNotKnown) {
     EXPECT_NE(scene::manual(*withOwn()).find("A leash keeps points from going apart."), std::string::npos);
     const scene::AssetFolder folder;
-    EXPECT_NE(folder.messageOf(pair + leash).find("kind must be one of weld, spring, rod, not \"leash\""),
+    EXPECT_NE(folder.messageOf(pair + leash).find("kind must be one of weld, spring, rod, hinge, ball, not \"leash\""),
               std::string::npos)
         << folder.messageOf(pair + leash);
     const std::string reach = folder.messageOf(pair + leash + "reach_m = 1\n", {.kinds = withOwn()});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/bodies/drawing.h"
+#include "taut/bodies/private/solid_places.h"
 #include "taut/core/error.h"
 #include "taut/core/private/hash.h"
 #include "taut/spec/spec.h"
@@ -84,6 +85,7 @@ void addCopies(std::vector<Body>& bodies, const BodySpec& spec, const SceneSpec&
                                     static_cast<double>(z) * array.stepZ;
                 for (dvec3& position : body.model.positions) position += shift;
                 for (RigidPiece& piece : body.pieces) piece.at.position += shift;
+                body.axes.position += shift;
                 if (!single) {
                     body.name = spec.name + "." + std::to_string(number);
                     body.seed = spec.seed + number;
@@ -159,6 +161,7 @@ Body buildBody(const BodySpec& spec, const SceneSpec& scene) {
     body.seed = spec.seed;
     body.model = spec.build(scene);
     body.pieces = spec.pieces(scene);
+    body.axes = spec.axes();
     body.plasticity = spec.plasticityIn(scene);
     for (dvec3& x : body.model.positions) x += dvec3(0.0);  // no negative zero: pinned points keep their bits
     return body;
@@ -180,6 +183,7 @@ BodyOutline BodySpec::outline(const SceneSpec& scene) const {
     outline.volumes = static_cast<double>(model.cells.size());
     for (const auto& [group, points] : model.groups)
         if (group != "all") outline.groups.push_back(group);
+    outline.places = placeNames(model);
     outline.isGrid = model.grid[0] > 0;
     outline.hasSurface = !model.triangles.empty();
     return outline;

@@ -32,6 +32,7 @@ struct Body {
     std::int64_t seed = 1;                 // of its jitter
     mechanics::Model model;
     std::vector<RigidPiece> pieces;  // of a rigid body, (parts of the model)
+    collision::Frame axes;           // likewise its own, in the scene as it starts
     PlasticitySpec plasticity;
 
     std::vector<int> carried;            // ascending points of the model that a collider holds by its spec

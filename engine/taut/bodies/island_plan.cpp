@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -10,9 +11,11 @@
 
 #include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/joints/joints.h"
+#include "taut/bodies/joints/mounting.h"
 #include "taut/bodies/private/joints/pins.h"
 #include "taut/bodies/private/rigid_constraint.h"
 #include "taut/bodies/private/seam_pairing.h"
+#include "taut/bodies/private/solid_places.h"
 #include "taut/bodies/private/strain_limit.h"
 #include "taut/bodies/private/ties.h"
 #include "taut/core/error.h"
@@ -422,18 +425,126 @@ class Planner {
             report.pairs.push_back({&body(numbers.first), &body(numbers.second), count});
     }
 
+    // An end that a side of a joint gives, in global numbers of points.
+    struct JointEnd {
+        Spot spot;
+        int body;
+        dvec3 place;  // [m]
+    };
+    // The place of a joint, and the axes that its own are in: those of the first side that is a whole body. None if the
+    // joint has none.
+    std::optional<collision::Frame> frameOf(const JointSpec& joint) const {
+        if (!joint.place) return std::nullopt;
+        for (const JointSide& side : {joint.a, joint.b}) {
+            const Body* named = nullptr;
+            for (const Body* body : bodies_)
+                if (isWhole(side) && names(side, *body)) {
+                    if (named != nullptr)
+                        throw Error(ErrorKind::badContent, at(joint.source) + "\"" + side.text() +
+                                                               "\" names several bodies, and place is in the axes of "
+                                                               "one; write a [[joint]] for each");
+                    named = body;
+                }
+            if (named == nullptr) continue;
+            collision::Frame frame = named->axes;
+            frame.position = frame.toWorld(*joint.place);
+            return frame;
+        }
+        throw Error(ErrorKind::badContent,
+                    at(joint.source) +
+                        "place is on a side that is a whole body, and both sides of this joint name points of theirs; "
+                        "leave the selector of one out, or leave place out");
+    }
+
+    // What ends at `place` [m] if it is a whole body, else its points and places by name.
+    std::vector<JointEnd> ends(const JointSide& side, const JointSpec& joint, const std::optional<dvec3>& place) const {
+        const bool isAtPlace = place && isWhole(side);
+        std::vector<JointEnd> found;
+        for (int number = 0; number < static_cast<int>(bodies_.size()) && isAtPlace; ++number)
+            if (names(side, body(number))) found.push_back({spotOf(number, *place), number, *place});
+        if (isAtPlace && !found.empty()) return found;
+        for (const std::string& target : side.targets) {
+            const std::string selector = parseTarget(target).selector;
+            for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
+                if (const auto named = names(target, body(number)) && selectPoints(body(number).model, selector).empty()
+                                           ? placeNamed(body(number), selector)
+                                           : std::nullopt)
+                    found.push_back({spotOf(number, *named), number, *named});
+        }
+        if (!found.empty() && !joint.tiesPlaces() && !joint.isMounted())
+            throw Error(ErrorKind::badContent, at(joint.source) + std::string(joint.title()) +
+                                                   " ties points of bodies, and \"" + side.text() +
+                                                   "\" is a place between them; name points, such as a corner");
+        if (found.empty())
+            for (const PointRef& p : points(side, joint.source)) found.push_back({global(p), p.body, position(p)});
+        return found;
+    }
+
+    // In global numbers; of a body that is not rigid the nearest point.
+    Spot spotOf(int number, const dvec3& place) const {
+        const mechanics::Model& model = body(number).model;
+        const auto globalOf = [&](int i) { return global({number, i}); };
+        if (body(number).spec->isRigid()) return spotAt(body(number), place).renumbered(globalOf);
+        const auto distanceTo = [&](const dvec3& x) { return glm::dot(x - place, x - place); };
+        const auto nearest =
+            std::min_element(model.positions.begin(), model.positions.end(),
+                             [&](const dvec3& x, const dvec3& other) { return distanceTo(x) < distanceTo(other); });
+        return globalOf(static_cast<int>(nearest - model.positions.begin()));
+    }
+
+    // One tie at the place.
+    void addMounted(const JointSpec& joint, int ofScene) {
+        const std::optional<collision::Frame> frame = frameOf(joint);
+        if (!frame)
+            throw Error(ErrorKind::badContent, at(joint.source) + std::string(joint.title()) + " needs a place");
+        std::vector<JointEnd> sides;
+        for (const JointSide& side : {joint.a, joint.b}) {
+            const std::vector<JointEnd> own = ends(side, joint, frame->position);
+            if (own.size() != 1)
+                throw Error(ErrorKind::badContent, at(joint.source) + std::string(joint.title()) +
+                                                       " ties two bodies at a place, and \"" + side.text() + "\" are " +
+                                                       std::to_string(own.size()) +
+                                                       " points; name a whole body, or one point");
+            sides.push_back(own.front());
+        }
+        islands_.unite(sides[0].body, sides[1].body);
+        JointReport& report = reports_.emplace_back();
+        report.spec = &joint;
+        report.pairs.push_back({&body(sides[0].body), &body(sides[1].body), 1});
+        joints_.push_back({sides[0].spot, sides[1].spot, &joint, ofScene, 0.0});
+    }
+
+    Mounting mountingOf(const JointPair& pair) const {
+        Mounting mounting;
+        const auto end = [this](const Spot& spot) {
+            return [this, spot](const dvec3& place) {
+                const int number = refOf(spot.nearest()).body;
+                const Spot there = body(number).spec->isRigid() ? spotOf(number, place) : spot;
+                return there.renumbered([&](int global) { return pointOf(refOf(global)); });
+            };
+        };
+        mounting.a = end(pair.a);
+        mounting.b = end(pair.b);
+        mounting.at = *frameOf(*pair.spec);
+        mounting.size = 0.5 * sizeOf(body(refOf(pair.a.nearest()).body));
+        return mounting;
+    }
+
     // Over 60 lines: it ties each point of one side to the nearest of the other, and reports what it did not tie.
     void addJoint(const JointSpec& joint, int ofScene) {
-        if (joint.isWeld()) {
+        if (joint.isMounted()) return addMounted(joint, ofScene);
+        if (joint.isWeld() && !joint.place) {
             const std::vector<int> solidsOfA = wholeSolids(joint.a), solidsOfB = wholeSolids(joint.b);
             if (!solidsOfA.empty() && !solidsOfB.empty()) return uniteSolids(joint, solidsOfA, solidsOfB);
             if (!joint.hasOwnTies() && solidsOfA.empty() != solidsOfB.empty())
                 return carryBySolids(joint, solidsOfA.empty() ? joint.a : joint.b,
                                      solidsOfA.empty() ? solidsOfB : solidsOfA);
         }
-        const std::vector<PointRef> as = points(joint.a, joint.source);
-        std::vector<PointRef> bs = points(joint.b, joint.source);
-        const auto isOther = [&](const PointRef& p) { return p.body != as.front().body; };
+        const std::optional<collision::Frame> frame = frameOf(joint);
+        const std::optional<dvec3> place = frame ? std::optional(frame->position) : std::nullopt;
+        std::vector<JointEnd> as = ends(joint.a, joint, place), bs = ends(joint.b, joint, place);
+        if (place && !joint.isWeld() && as.size() < bs.size()) std::swap(as, bs);  // all go to the place
+        const auto isOther = [&](const JointEnd& end) { return end.body != as.front().body; };
         const bool isOneBody =
             std::none_of(as.begin(), as.end(), isOther) && std::none_of(bs.begin(), bs.end(), isOther);
         const bool mayTieWithin = isOneBody || joint.tiesWithin();
@@ -442,17 +553,17 @@ class Planner {
         report.spec = &joint;
         std::map<std::pair<int, int>, int> pairs;  // by bodies: number of joined points
         std::map<int, double> reached;             // by body: distance to the nearest point of the other side [m]
-        for (const PointRef& b : bs) reached.emplace(b.body, HUGE_VAL);
+        for (const JointEnd& b : bs) reached.emplace(b.body, HUGE_VAL);
         int made = 0;
         double nearest = HUGE_VAL;
-        for (const PointRef& a : as) {
+        for (const JointEnd& a : as) {
             std::size_t best = bs.size();
             double bestDistance = HUGE_VAL;
             double& ownReach = reached.emplace(a.body, HUGE_VAL).first->second;
             for (std::size_t i = 0; i < bs.size(); ++i) {
-                const dvec3 d = position(bs[i]) - position(a);
+                const dvec3 d = bs[i].place - a.place;
                 const double distance = std::sqrt(glm::dot(d, d));
-                if (bs[i].body == a.body && (!mayTieWithin || bs[i].point == a.point)) continue;
+                if (bs[i].body == a.body && (!mayTieWithin || bs[i].spot == a.spot)) continue;
                 double& otherReach = reached.at(bs[i].body);
                 otherReach = std::min(otherReach, distance);
                 if (distance < bestDistance) {
@@ -467,10 +578,12 @@ class Planner {
             ++pairs[{a.body, bs[best].body}];
             ++made;
             // Points of two rigid bodies stay two: all that is held of these is found at once.
-            if (merges && !(body(a.body).spec->isRigid() && body(bs[best].body).spec->isRigid()))
-                welds_.unite(global(a), global(bs[best]));
+            const Spot& b = bs[best].spot;
+            if (merges && a.spot.isPoint() && b.isPoint() &&
+                !(body(a.body).spec->isRigid() && body(bs[best].body).spec->isRigid()))
+                welds_.unite(a.spot.nearest(), b.nearest());
             else
-                joints_.push_back({global(a), global(bs[best]), &joint, ofScene, bestDistance});
+                joints_.push_back({a.spot, b, &joint, ofScene, bestDistance});
             if (!joint.isWeld()) continue;
             report.jump = std::max(report.jump, bestDistance);
             bs.erase(bs.begin() + static_cast<std::ptrdiff_t>(best));
@@ -564,7 +677,12 @@ class Planner {
                 .from = a,
                 .to = b,
                 .isSeam = joint.spec->isSeam()},
-               [&] { joint.spec->tie(plan, a, b, joint.distance); });
+               [&] {
+                   if (joint.spec->isMounted())
+                       joint.spec->mount(plan, mountingOf(joint));
+                   else
+                       joint.spec->tie(plan, a, b, joint.distance);
+               });
     }
 
     std::size_t firstGlobalEnd() const {

@@ -215,11 +215,15 @@ const ShapeKind& SolidSpec::kindIn(const ShapeKinds& kinds) const {
     return *kind;
 }
 
+collision::Frame SolidSpec::axes() const {
+    return {glm::mat3_cast(rotationOf(rotation)), position, true};
+}
+
 RigidPiece SolidSpec::piece(const ShapeKinds& kinds) const {
     const ShapeKind& kind = kindIn(kinds);
     const collision::ShapeSizes own = sizesOf(*this, kind);
     RigidPiece piece;
-    piece.at = {glm::mat3_cast(rotationOf(rotation)), position, true};
+    piece.at = axes();
     if (kind.convex) piece.shape = kind.convex(own, thickness);
     piece.mesh = kind.mesh(own);
     return piece;
@@ -228,10 +232,9 @@ RigidPiece SolidSpec::piece(const ShapeKinds& kinds) const {
 std::vector<RigidPiece> SolidSpec::pieces(const SceneSpec& scene) const {
     if (parts.empty()) return {piece(scene.knownShapes())};
     std::vector<RigidPiece> all;
-    const collision::Frame at{glm::mat3_cast(rotationOf(rotation)), position, true};
     for (const SolidSpec& part : parts) {
         all.push_back(part.piece(scene.knownShapes()));
-        all.back().at = at.of(all.back().at);
+        all.back().at = axes().of(all.back().at);
     }
     return all;
 }

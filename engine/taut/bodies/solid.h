@@ -24,6 +24,7 @@ struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, ShapeSpec {
     static fields::Section section(const collision::ShapeKinds& shapes = collision::builtInShapes());
     mechanics::Model build(const SceneSpec& scene) const override;
     bool isRigid() const override { return true; }
+    collision::Frame axes() const override;
     std::vector<RigidPiece> pieces(const SceneSpec& scene) const override;
     std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
     const MeshSource* meshSource() const override { return this; }

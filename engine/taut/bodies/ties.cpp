@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "taut/bodies/joints/mounting.h"
+#include "taut/bodies/private/solid_places.h"
 #include "taut/core/error.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
@@ -31,6 +33,11 @@ std::vector<int> namedPoints(const JointSide& side, const Body& body) {
     return points;
 }
 
+// Whether a body ends at the place of a joint, and not at points of its own.
+bool endsAtPlace(const JointSpec& joint, const Body& body) {
+    return joint.place && (joint.tiesPlaces() || joint.isMounted()) && body.spec->isRigid() && isWhole(pointsOf(joint));
+}
+
 // The ties of the scene to colliders, for one plan.
 class Tying {
   public:
@@ -45,29 +52,61 @@ class Tying {
     }
 
     void tie(const JointSpec& joint, int number) {
+        std::vector<Spot> ends;
         std::vector<int> points;
-        for (const Body* body : plan_.bodies)
+        const auto at = [&](const Body& body, const dvec3& place) {
+            ends.push_back(
+                spotAt(body, place).renumbered([&](int i) { return body.pointOf[static_cast<std::size_t>(i)]; }));
+        };
+        for (const Body* body : plan_.bodies) {
+            if (!names(pointsOf(joint), *body)) continue;
+            if (endsAtPlace(joint, *body)) {
+                at(*body, frameOf(joint, *body).position);
+                continue;
+            }
+            for (const std::string& target : pointsOf(joint).targets)
+                if (const auto named = placeNamed(*body, parseTarget(target).selector)) at(*body, *named);
             for (const int i : namedPoints(pointsOf(joint), *body))
                 points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
-        if (points.empty()) return;
+        }
+        if (points.empty() && ends.empty()) return;
         const std::string& collider = colliderOf(joint);
         sort(points);
         expectHolder(collider, holders_, joint.source);
+        if (!ends.empty() && !joint.tiesPlaces() && !joint.isMounted())
+            fail(joint.source, std::string(joint.title()) + " ties points of bodies, and \"" + pointsOf(joint).text() +
+                                   "\" is a place between them; name points, such as a corner");
         if (joint.isWeld() && joint.place) moveToPlace(joint, points);
-        if (joint.isWeld() && !joint.hasOwnTies()) return lead(collider, std::move(points), joint.source);
+        if (joint.isWeld() && !joint.hasOwnTies() && ends.empty())
+            return lead(collider, std::move(points), joint.source);
+        ends.insert(ends.end(), points.begin(), points.end());
+        if (joint.isMounted() && ends.size() != 1)
+            fail(joint.source, std::string(joint.title()) + " ties a body and a collider at a place, and \"" +
+                                   pointsOf(joint).text() + "\" are " + std::to_string(ends.size()) +
+                                   " points; name a whole body, or one point");
         const std::size_t grips = plan_.grips.size();
-        for (const int point : points) {
+        for (const Spot& end : ends) {
             const std::size_t own = plan_.grips.size();
             const int tie = static_cast<int>(plan_.ties.size());
+            const int point = end.nearest();
             Grip grip = std::move(tieTo(holders_, collider, std::span(&point, 1), plan_.positions).front());
-            if (joint.place) grip.offsets.front() = *joint.place;
+            if (joint.place)
+                grip.offsets.front() = offsetOf(joint, point, grip.holder);
+            else if (!end.isPoint())
+                grip.offsets.front() = inHolder(grip.holder, end.of(plan_.positions));
             addTie(plan_,
                    {.joint = number,
                     .a = point,
                     .collider = grip.holder,
                     .breakForce = joint.breakForce.value_or(HUGE_VAL),
-                    .from = point},
-                   [&] { joint.carry(plan_, std::move(grip)); });
+                    .from = end},
+                   [&] {
+                       if (joint.isMounted())
+                           mount(joint, end, grip);
+                       else
+                           joint.carry(plan_, end, std::move(grip));
+                   });
+            if (joint.isMounted()) plan_.ties.back().offset = grip.offsets.front();
             if (joint.hasOwnTies())
                 for (std::size_t g = own; g < plan_.grips.size(); ++g) plan_.grips[g].tie = tie;
         }
@@ -75,6 +114,43 @@ class Tying {
     }
 
   private:
+    // The place of a joint and the axes that its own are in: of a body that is its first side, else of its collider.
+    collision::Frame frameOf(const JointSpec& joint, const Body& body) const {
+        collision::Frame frame;
+        if (isCollider(joint.a) || !endsAtPlace(joint, body)) {
+            const collision::Pose pose = *holders_.poseOf(holders_.nearest(colliderOf(joint), body.axes.position));
+            frame = {glm::mat3_cast(pose.rotation), pose.position, true};
+        } else {
+            frame = body.axes;
+        }
+        frame.position = frame.toWorld(*joint.place);
+        return frame;
+    }
+    dvec3 inHolder(const std::string& holder, const dvec3& place) const {
+        const collision::Pose pose = *holders_.poseOf(holder);
+        return mechanics::PosePath::rotated(glm::conjugate(pose.rotation), place - pose.position);
+    }
+    // [m] On the holder, of the place to which a point is tied.
+    dvec3 offsetOf(const JointSpec& joint, int point, const std::string& holder) const {
+        const Body& body = *authored(plan_, point).first;
+        return endsAtPlace(joint, body) ? inHolder(holder, frameOf(joint, body).position) : *joint.place;
+    }
+    void mount(const JointSpec& joint, const Spot& end, const Grip& grip) {
+        const Body& body = *authored(plan_, end.nearest()).first;
+        Mounting mounting;
+        mounting.a = [&](const dvec3& place) {
+            if (!body.spec->isRigid()) return end;
+            return spotAt(body, place).renumbered([&](int i) { return body.pointOf[static_cast<std::size_t>(i)]; });
+        };
+        mounting.b = [&](const dvec3& place) { return Constraint::Place{grip.holder, inHolder(grip.holder, place)}; };
+        mounting.at = frameOf(joint, body);
+        // Turns are those of b: as seen from the body, a collider that is a turns the other way.
+        if (isCollider(joint.a)) mounting.at.rotation *= -1.0;
+        mounting.size = 0.5 * sizeOf(body);
+        joint.mount(plan_, mounting);
+        carryBy(plan_, grip.holder, grip.path);
+    }
+
     static void sort(std::vector<int>& points) {
         std::sort(points.begin(), points.end());
         points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -166,12 +242,24 @@ const JointSide& pointsOf(const JointSpec& joint) {
     return isCollider(joint.a) ? joint.b : joint.a;
 }
 
+bool isWhole(const JointSide& side) {
+    return std::all_of(
+        side.targets.begin(), side.targets.end(),
+        [](const auto& target) {
+            const std::string selector = parseTarget(target).selector;
+            return selector.empty() || selector == "all";
+        });
+}
 bool names(const JointSide& side, const Body& body) {
     return std::any_of(
         side.targets.begin(), side.targets.end(), [&](const auto& target) { return names(target, body); });
 }
-int countNamed(const JointSide& side, const Body& body) {
-    return static_cast<int>(namedPoints(side, body).size());
+int countTied(const JointSpec& joint, const JointSide& side, const Body& body) {
+    if (endsAtPlace(joint, body)) return names(side, body) ? 1 : 0;
+    int places = 0;
+    for (const std::string& target : side.targets)
+        if (names(target, body) && placeNamed(body, parseTarget(target).selector)) ++places;
+    return places + static_cast<int>(namedPoints(side, body).size());
 }
 
 void addTies(IslandPlan& plan, const SceneSpec& spec, const Holders& holders) {
@@ -197,7 +285,7 @@ void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const Holde
         for (const std::string& target : pointsOf(joint).targets) {
             const JointSide one(target);
             if (std::all_of(bodies.begin(), bodies.end(),
-                            [&](const Body* body) { return countNamed(one, *body) == 0; }))
+                            [&](const Body* body) { return countTied(joint, one, *body) == 0; }))
                 fail(joint.source, "\"" + target + "\" names no point");
         }
     }

@@ -8,6 +8,8 @@ namespace {
 
 using glm::dvec3;
 
+constexpr double tautFrom = 1.0 - 1e-9;  // of the length of a leash
+
 double sumOf(std::span<const dvec3> a, std::span<const dvec3> b, std::span<const double> over) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += over[k] > 0 ? glm::dot(a[k], b[k]) / over[k] : 0.0;
@@ -80,8 +82,21 @@ void JoinedBodies::respond(std::span<const dvec3> at, std::span<const double> in
     for (std::size_t k = 0; k < pairs_.size(); ++k) moved_[k] = held(k, moved(pairs_[k].a) - moved(pairs_[k].b));
 }
 
+// Leashes only pull: those that a solution would have push go slack, and it is found again.
 bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inverseMass, std::span<const dvec3> values,
                          bool arePlaces, double settled) {
+    isSlack_.assign(pairs_.size(), false);
+    while (solveTaut(at, inverseMass, values, arePlaces, settled)) {
+        bool isAny = false;
+        for (std::size_t k = 0; k < pairs_.size(); ++k)
+            if (pairs_[k].isMost && !isSlack_[k] && tension(k) < 0.0) isSlack_[k] = isAny = true;
+        if (!isAny) return true;
+    }
+    return false;
+}
+
+bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> inverseMass,
+                             std::span<const dvec3> values, bool arePlaces, double settled) {
     // What is redundant, as the third pin of a hinge, agrees only to the second order: a solve goes no further.
     constexpr double exactly = 1e-4;
     constexpr double leastResponse = 1e-10;
@@ -110,6 +125,10 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
             const double size = std::sqrt(glm::dot(between, between));
             along_[k] = size > 0 ? between / size : dvec3(1.0, 0.0, 0.0);
             const double square = glm::dot(left_[k], left_[k]), length = pair.length;
+            if (pair.isMost && (arePlaces ? !(square > length * length)
+                                          : !(size > tautFrom * length) || !(glm::dot(left_[k], between) < 0.0)))
+                isSlack_[k] = true;
+            if (isSlack_[k]) along_[k] = dvec3(0.0);
             left_[k] = arePlaces ? (length * length - square) / (2.0 * length) * along_[k] : held(k, left_[k]);
         }
         ease_[k] = easeOf(pair.a) + easeOf(pair.b);

@@ -61,9 +61,11 @@ std::optional<TargetFault> selectorFaultIn(const BodyEntry& body, const std::str
     if (selector.starts_with('#')) return indexFault(body, selector);
     if (selector.starts_with('(')) return uvFault(body, selector);
     if (selector.ends_with('%')) return percentFault(body, selector);
-    const bool isGroup = selector == "all" || std::find(body.outline.groups.begin(), body.outline.groups.end(),
-                                                        selector) != body.outline.groups.end();
-    if (isGroup || body.isFaulty) return std::nullopt;
+    const auto isGroup = [&](const std::string& name) {
+        return std::find(body.outline.groups.begin(), body.outline.groups.end(), name) != body.outline.groups.end();
+    };
+    if (selector == "all" || isGroup(selector) || body.isFaulty) return std::nullopt;
+    if (!world::commonGroups(selector, isGroup).empty()) return std::nullopt;
     std::vector<std::string> groups = body.outline.groups;
     groups.push_back("all");
     std::string remedy = suggestion(selector, groups);
@@ -105,6 +107,21 @@ std::optional<TargetFault> BodyIndex::pointsFault(const std::string& target) con
     const std::string selector = target.substr(at + 1);
     for (const BodyEntry* body : matches(target))
         if (auto fault = selectorFaultIn(*body, selector)) return fault;
+    return std::nullopt;
+}
+
+std::optional<TargetFault> BodyIndex::tieableFault(const std::string& target) const {
+    if (auto fault = bodiesFault(target)) return fault;
+    const std::size_t at = target.find('@');
+    for (const BodyEntry* body : matches(target)) {
+        const std::vector<std::string>& places = body->outline.places;
+        const bool isWhole = at == std::string::npos && !places.empty();
+        const bool isPlace =
+            at != std::string::npos && std::find(places.begin(), places.end(), target.substr(at + 1)) != places.end();
+        if (isWhole || isPlace) continue;
+        if (at == std::string::npos) return pointsFault(target);
+        if (auto fault = selectorFaultIn(*body, target.substr(at + 1))) return fault;
+    }
     return std::nullopt;
 }
 

@@ -123,7 +123,7 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
                 if (world::isCollider(reference.text))
                     checkCollider(reference, colliders, scene.spec, problems);
                 else
-                    report(reference, bodies.pointsFault(reference.text), problems);
+                    report(reference, bodies.tieableFault(reference.text), problems);
                 break;
             case Role::collider:
                 checkCollider(reference, colliders, scene.spec, problems);

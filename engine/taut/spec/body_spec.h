@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/collision/geometry.h"
 #include "taut/mechanics/model.h"
 #include "taut/spec/finish_spec.h"
 #include "taut/spec/mesh_data.h"
@@ -77,6 +78,7 @@ struct ArraySpec {  // copies of a body along three directions, named NAME.0, NA
 struct BodyOutline {
     double points = 0, springs = 0, volumes = 0;
     std::vector<std::string> groups;  // names of point groups, as its builder gives them
+    std::vector<std::string> places;  // names of places of a rigid body
     bool isGrid = false;              // accepts "(u,v)" and "(u,v,r)"
     bool isRound = false;             // has only the places in the ellipse
     bool isLine = false;              // accepts "50%"
@@ -116,6 +118,8 @@ struct BodySpec {
     virtual mechanics::Model build(const SceneSpec& scene) const = 0;
     // Whether its points keep their distances, so that what presses one presses all.
     virtual bool isRigid() const { return false; }
+    // Its own axes in the scene as it starts; those of the scene if it is not rigid.
+    virtual collision::Frame axes() const { return {}; }
     // Of a rigid body, one for each part of its model.
     virtual std::vector<RigidPiece> pieces(const SceneSpec& scene) const;
     // Whether a surface that goes with its points meets others in their place.

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "taut/fields/private/problems.h"
 #include "taut/ode/method_table.h"
 #include "taut/spec/actions.h"
+#include "taut/spec/targets.h"
 
 namespace taut::world {
 
@@ -28,6 +31,15 @@ void checkJoint(const fields::CheckInput& input, const JointSpec& joint) {
         input.problems.addError(input.at("name"),
                                 fmt::format("names that begin with \"{}\" are those of a player's hands", liveHand),
                                 "give the joint another name");
+    const auto isWhole = [](const std::string& text) {
+        const Target target = parseTarget(text);
+        return target.kind == "collider" || target.selector.empty() || target.selector == "all";
+    };
+    const auto areWhole = [&](const JointSide& side) { return std::ranges::all_of(side.targets, isWhole); };
+    if (joint.place && !areWhole(joint.a) && !areWhole(joint.b))
+        input.problems.addError(input.at("place"),
+                                "place is on a side that is a whole solid or a collider, and both sides name points",
+                                "leave the selector of one out, or leave place out");
     if (joint.isDrawn()) return;
     for (const char* key : {"radius", "turns", "coil_radius"})
         if (input.table.find(key) != nullptr)

@@ -120,11 +120,11 @@ Kind<ForceSpec> forceKind() {
 // Fields of every joint besides its sides.
 template <class Own>
 std::vector<fields::Field> everyJointsRows() {
-    const std::string toCollider = std::string(Own().title()) + " to a collider";
     return fields::FieldList<Own>()
         .vector("place", &JointSpec::place, "m", placeRange,
-                "Where on the collider its ties end, in the collider's own axes.")
-        .only({toCollider})
+                "Where its ties end on a collider or a rigid body that is a side as a whole, solid.NAME: in the own "
+                "axes of "
+                "the first such side.")
         .text("name", &JointSpec::name, fields::Role::none,
               "By which an action releases it, and others of that name with it.")
         .number("break_N", &JointSpec::breakForce, "N", fields::positive,

@@ -19,6 +19,7 @@ namespace taut::world {
 
 struct Grip;
 struct IslandPlan;
+struct Mounting;
 class Spot;
 
 // One side of a joint: one target, or several.
@@ -51,7 +52,9 @@ struct JointSpec {
     JointSide a, b;
     std::string name;                  // several joints may share a name; empty: none
     std::optional<double> breakForce;  // [N] at which a tie lets go
-    std::optional<dvec3> place;        // [m] on the collider, in its own axes; none: as the kind says
+    // [m] In the axes of the first side that is a whole body or a collider, of a body that is not rigid in those of the
+    // scene as it starts; none: as the kind says.
+    std::optional<dvec3> place;
     JointLook look;
     Source source;
 
@@ -75,12 +78,19 @@ struct JointSpec {
     // Whether both sides are rows of edges, whose points are paired by their share of the length, all of them, and
     // whose cells beside it do not touch each other.
     virtual bool isSeam() const { return false; }
-    // Adds to the plan springs or constraints that tie two places on its bodies, `distance` [m] apart: points, but of a
-    // seam.
+    // Whether its ties may end between points: at `place` on a rigid body, or at a place by name. Those of a seam
+    // always may.
+    virtual bool tiesPlaces() const { return false; }
+    // Whether it is one tie at `place` between two bodies, or a body and a collider, which mount() makes and not tie()
+    // and carry().
+    virtual bool isMounted() const { return false; }
+    virtual void mount(IslandPlan& /*plan*/, const Mounting& /*at*/) const {}
+    // Adds to the plan springs or constraints that tie two places on its bodies, `distance` [m] apart: points, if it
+    // does not say otherwise.
     virtual void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const = 0;
-    // The same between a point and a collider. The rigid grip has that point, the present pose of the collider, and the
-    // place there: `place`, or that of the point.
-    virtual void carry(IslandPlan& plan, Grip grip) const = 0;
+    // The same between a place on a body and a collider. The rigid grip has the point nearest to it, the present pose
+    // of the collider, and the place there: `place`, or that of the point.
+    virtual void carry(IslandPlan& plan, const Spot& end, Grip grip) const = 0;
 
     // The same for every kind.
     bool mayLetGo() const { return !name.empty() || breakForce; }

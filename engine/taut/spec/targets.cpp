@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <optional>
 
 #include "taut/core/numbers.h"
@@ -26,6 +27,23 @@ std::vector<int> gridPoints(const mechanics::Model& model, const GridPlace& plac
     for (const int i : model.groups.at("all"))
         if (i == nearest || glm::distance(model.uv[static_cast<std::size_t>(i)], middle) <= radius) points.push_back(i);
     return points;
+}
+
+// What the groups have in common.
+std::vector<int> commonPoints(const mechanics::Model& model, std::string_view selector) {
+    std::optional<std::vector<int>> common;
+    for (const std::string& name :
+         commonGroups(selector, [&](const auto& own) { return model.groups.contains(own); })) {
+        std::vector<int> points = model.groups.at(name), both;
+        std::sort(points.begin(), points.end());
+        if (common) {
+            std::set_intersection(common->begin(), common->end(), points.begin(), points.end(),
+                                  std::back_inserter(both));
+            points = std::move(both);
+        }
+        common = std::move(points);
+    }
+    return common.value_or(std::vector<int>());
 }
 
 }  // namespace
@@ -80,6 +98,21 @@ ColliderTarget parseCollider(std::string_view text) {
     return target;
 }
 
+std::vector<std::string> commonGroups(std::string_view selector,
+                                      const std::function<bool(const std::string&)>& isGroup) {
+    std::vector<std::string> groups;
+    std::string part;
+    while (!selector.empty()) {
+        const std::size_t end = std::min(selector.find('-'), selector.size());
+        const std::string word(selector.substr(0, end));
+        selector.remove_prefix(std::min(end + 1, selector.size()));
+        groups.push_back(part + word);
+        if (!isGroup(groups.back())) return {};
+        if (word.starts_with("part")) part = word + "-";
+    }
+    return groups;
+}
+
 std::vector<int> selectPoints(const mechanics::Model& model, std::string_view selector) {
     if (selector.starts_with('@')) selector.remove_prefix(1);
     if (selector.empty()) selector = "all";
@@ -88,7 +121,7 @@ std::vector<int> selectPoints(const mechanics::Model& model, std::string_view se
     if (const auto place = gridPlace(selector)) return gridPoints(model, *place);
     if (const auto place = ropePlace(selector))
         return onePoint(model, std::floor(*place * (model.pointCount() - 1) + 0.5));
-    return {};
+    return commonPoints(model, selector);
 }
 
 }  // namespace taut::world

@@ -1,6 +1,7 @@
 // What "cloth.flag@top-left" means: which bodies, and which of their points.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,9 +45,15 @@ std::optional<GridPlace> gridPlace(std::string_view selector);
 std::optional<double> ropePlace(std::string_view selector);    // "50%": 0.5
 std::optional<double> pointNumber(std::string_view selector);  // "#12": 12; not negative, but may be too large
 
+// The groups that have the points of "front-top-left" in common; of a compound's part its own, "part0-front-top". Empty
+// if it has not all of them.
+std::vector<std::string> commonGroups(std::string_view selector,
+                                      const std::function<bool(const std::string&)>& isGroup);
+
 // The points of a selector, ascending, or of a group in its own order: a group of the model ("left", "corners", "all"
 // …), "#12" (by index), "(u,v)" (the grid point nearest to that fraction of width and height, from the top left),
-// "(u,v,r)" (besides all within r [m] of that place of the flat cloth), "50%" (along a rope). Empty if it names none.
+// "(u,v,r)" (besides all within r [m] of that place of the flat cloth), "50%" (along a rope), or what several groups
+// have in common, "front-top-left". Empty if it names none.
 std::vector<int> selectPoints(const mechanics::Model& model, std::string_view selector);
 
 }  // namespace taut::world

@@ -130,7 +130,8 @@ void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
             JointInfo& info = tied.emplace_back(infoOf(joint, number));
             for (const Body* body : bodiesOf(w))
                 if (names(pointsOf(joint), *body))
-                    info.pairs.push_back({body->fullName(), colliderOf(joint), countNamed(pointsOf(joint), *body)});
+                    info.pairs.push_back(
+                        {body->fullName(), colliderOf(joint), countTied(joint, pointsOf(joint), *body)});
         }
         w.drawings.push_back(joint.isDrawn() ? std::make_shared<const TieDrawing>(joint, number) : nullptr);
         ++number;

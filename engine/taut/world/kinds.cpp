@@ -10,7 +10,9 @@
 #define TAUT_JOINTS(KIND) \
     KIND(weldKind)        \
     KIND(springKind)      \
-    KIND(rodKind)
+    KIND(rodKind)         \
+    KIND(hingeKind)       \
+    KIND(ballKind)
 #define TAUT_FORCES(KIND) \
     KIND(anchorKind)      \
     KIND(windKind)        \

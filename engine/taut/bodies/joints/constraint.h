@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -53,6 +54,15 @@ class Constraint {
     // The same for v. Afterwards v has no component along the gradients at x.
     virtual bool projectVelocities(const Moment& moment) = 0;
 
+    // Torques between two bodies about an axis that both share, once a step. The axis goes through the first two spots
+    // of a body, the third is beside it; at the start those of both bodies are the same places.
+    struct Drive {
+        std::array<Spot, 3> a, b;    // numbers as in Moment
+        double damping = 0;          // [N m s]
+        double friction = 0;         // [N m] largest torque that slows the turn
+        double speed = 0, most = 0;  // [rad/s] of b against a that a motor seeks, [N m] its largest torque; 0: none
+    };
+    virtual std::vector<Drive> drives() const { return {}; }
     // The motion of its points, if they are one body that moves. The arrays as in Moment.
     virtual std::optional<core::RigidMotion> bodyAt(std::span<const dvec3> /*x*/, std::span<const dvec3> /*v*/,
                                                     std::span<const double> /*inverseMass*/) const {
@@ -63,7 +73,8 @@ class Constraint {
     struct Pair {
         Spot a, b;
         int tie;
-        double length = 0;  // [m]
+        double length = 0;    // [m]
+        bool isMost = false;  // of the length: they may be nearer
     };
     virtual std::vector<Pair> pairs(double /*t*/) { return {}; }
     // Its pairs, if from t [s] on all that it does is to hold each a, a point, in the place of b: in such an order that

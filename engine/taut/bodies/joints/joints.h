@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -19,8 +20,9 @@ struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
     std::string_view title() const override { return "a weld"; }
     double reach() const override { return furthest; }
     bool isWeld() const override { return true; }
+    bool tiesPlaces() const override { return true; }
     void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
-    void carry(IslandPlan& plan, Grip grip) const override;
+    void carry(IslandPlan& plan, const Spot& end, Grip grip) const override;
 };
 
 // Springs; their rest length is the starting distance unless given.
@@ -32,7 +34,7 @@ struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
 
     std::string_view title() const override { return "a spring joint"; }
     void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
-    void carry(IslandPlan& plan, Grip grip) const override;
+    void carry(IslandPlan& plan, const Spot& end, Grip grip) const override;
 };
 
 // Keeps a distance, between points or from a place on a collider, its centre if not given.
@@ -40,8 +42,38 @@ struct RodJoint final : SpecOf<RodJoint, JointSpec> {
     static constexpr std::string_view kindName = "rod";
     std::string_view title() const override { return "a rod"; }
     bool tiesWithin() const override { return true; }
+    bool tiesPlaces() const override { return true; }
     void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
-    void carry(IslandPlan& plan, Grip grip) const override;
+    void carry(IslandPlan& plan, const Spot& end, Grip grip) const override;
+};
+
+// Holds two bodies together at a place. They turn about it by any rotation, or by one that leans their common direction
+// `axis` less than a cone.
+struct BallJoint final : SpecOf<BallJoint, JointSpec> {
+    static constexpr std::string_view kindName = "ball";
+    std::optional<double> cone;  // [rad] largest angle of the axis in both bodies; none: any
+    dvec3 axis{0.0, 1.0, 0.0};   // in the axes of `place`
+
+    std::string_view title() const override { return "a ball joint"; }
+    bool isMounted() const override { return true; }
+    void mount(IslandPlan& plan, const Mounting& at) const override;
+    void tie(IslandPlan&, const Spot&, const Spot&, double) const override {}
+    void carry(IslandPlan&, const Spot&, Grip) const override;
+};
+
+// Holds two bodies together at an axis, about which they turn.
+struct HingeJoint final : SpecOf<HingeJoint, JointSpec> {
+    static constexpr std::string_view kindName = "hinge";
+    dvec3 axis{0.0, 1.0, 0.0};             // in the axes of `place`
+    std::optional<glm::dvec2> limits;      // [rad] of the second body's turn about it since the start
+    double friction = 0, damping = 0;      // [N m], [N m s]
+    double motorSpeed = 0, motorMost = 0;  // [rad/s], [N m]; 0: no motor
+
+    std::string_view title() const override { return "a hinge"; }
+    bool isMounted() const override { return true; }
+    void mount(IslandPlan& plan, const Mounting& at) const override;
+    void tie(IslandPlan&, const Spot&, const Spot&, double) const override {}
+    void carry(IslandPlan&, const Spot&, Grip) const override;
 };
 
 // Draws two edges together, then keeps them together.
@@ -56,7 +88,7 @@ struct SeamJoint final : SpecOf<SeamJoint, JointSpec> {
     bool isWeld() const override { return !(over > 0); }
     bool isSeam() const override { return true; }
     void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
-    void carry(IslandPlan& plan, Grip grip) const override;
+    void carry(IslandPlan& plan, const Spot& end, Grip grip) const override;
 };
 
 // It is not among the kinds of [[joint]]: scenes have [[seam]].

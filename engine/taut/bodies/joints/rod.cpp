@@ -24,21 +24,18 @@ void RodJoint::tie(IslandPlan& plan, const Spot& first, const Spot& second, doub
     changeOnly<Rods>(plan, [&](Rods& rods) { rods.tie(first, second, length, source); });
 }
 
-void RodJoint::carry(IslandPlan& plan, Grip grip) const {
+void RodJoint::carry(IslandPlan& plan, const Spot& end, Grip grip) const {
     const mechanics::PosePath::Frame frame = grip.path.at(0.0);
-    const dvec3 offset = place.value_or(dvec3(0.0)), end = frame.place + frame.arm(offset);
-    changeOnly<Rods>(plan, [&](Rods& rods) {
-        for (const int point : grip.points)
-            rods.tie(point, Constraint::Place{grip.holder, offset},
-                     distance(plan.positions[static_cast<std::size_t>(point)], end), source);
-    });
+    const dvec3 offset = place ? grip.offsets.front() : dvec3(0.0);
+    const double length = distance(end.of(plan.positions), frame.place + frame.arm(offset));
+    changeOnly<Rods>(plan, [&](Rods& rods) { rods.tie(end, Constraint::Place{grip.holder, offset}, length, source); });
     carryBy(plan, grip.holder, grip.path);
 }
 
 Kind<JointSpec> rodKind() {
     return jointKind<RodJoint>(
         "Rods keep the distance that points have as the scene starts, from each other, which may be of one body, or "
-        "from a place on a collider, its centre if not given.");
+        "from a place on a rigid body or on a collider, whose centre it is if not given.");
 }
 
 }  // namespace taut::world

@@ -10,6 +10,7 @@ namespace taut::world {
 namespace {
 
 constexpr double relativeTolerance = 1e-13;  // of a length
+constexpr double tautFrom = 1.0 - 1e-9;      // of the length of a leash
 constexpr double roundingShare = 1e-15;      // of a coordinate
 constexpr int oldPasses = 10;                // along the directions at the start of the step
 constexpr int mostPasses = 40;               // afterwards along the present directions, as in the Gauss-Newton method
@@ -21,16 +22,16 @@ double norm(const dvec3& v) {
 }  // namespace
 
 // A rod that already exists is not made twice.
-void Rods::tie(const Spot& a, const Spot& b, double length, const Source& source) {
+void Rods::tie(const Spot& a, const Spot& b, double length, const Source& source, bool isMost) {
     const Spot first = ends_.of(a, rods_), second = ends_.of(b, rods_);
     for (const Rod& rod : rods_)
         if ((rod.a == first && rod.b == second) || (rod.a == second && rod.b == first)) return;
-    rods_.push_back({first, second, length, source});
+    rods_.push_back({first, second, length, source, isMost});
 }
 
-void Rods::tie(const Spot& a, const Place& b, double length, const Source& source) {
+void Rods::tie(const Spot& a, const Place& b, double length, const Source& source, bool isMost) {
     const Spot first = ends_.of(a, rods_);
-    rods_.push_back({first, ends_.of(b), length, source});
+    rods_.push_back({first, ends_.of(b), length, source, isMost});
 }
 
 double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) const {
@@ -41,8 +42,8 @@ double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) c
     double most = 0;
     for (int r = 0; r < size(); ++r) {
         const Rod& rod = rods_[static_cast<std::size_t>(r)];
-        if (holds(r) && counted(rod.a) && counted(rod.b))
-            most = std::max(most, std::abs(norm(between(rod, x)) - rod.length) / rod.length);
+        const double strain = (norm(between(rod, x)) - rod.length) / rod.length;
+        if (holds(r) && counted(rod.a) && counted(rod.b)) most = std::max(most, rod.isMost ? strain : std::abs(strain));
     }
     return most;
 }
@@ -51,7 +52,7 @@ std::vector<Constraint::Pair> Rods::pairs(double /*t*/) {
     std::vector<Pair> all;
     for (int r = 0; r < size(); ++r) {
         const Rod& rod = rods_[static_cast<std::size_t>(r)];
-        if (holds(r)) all.push_back({rod.a, rod.b, r, rod.length});
+        if (holds(r)) all.push_back({rod.a, rod.b, r, rod.length, rod.isMost});
     }
     return all;
 }
@@ -151,8 +152,7 @@ void Rods::factor(std::span<const dvec3> x, std::span<const double> inverseMass)
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const dvec3 d = between(rods_[static_cast<std::size_t>(order_[i])], x);
         const double length = norm(d);
-        const bool pulls = holds(order_[i]) && length > 0;
-        direction_[i] = pulls ? d / length : dvec3(0.0);
+        direction_[i] = pulls(order_[i]) && length > 0 ? d / length : dvec3(0.0);
     }
     matrix_.clear();
     diagonal_.assign(order_.size(), 0.0);
@@ -179,14 +179,39 @@ void Rods::pull(std::span<dvec3> to, const Moment& moment) const {
     }
 }
 
+// A leash is taut if it is too long, and stays so for a projection. Its velocities count if they go apart.
+void Rods::findTaut(const Moment& moment, bool ofPlaces) {
+    isTaut_.resize(rods_.size());
+    for (std::size_t r = 0; r < rods_.size(); ++r) {
+        const Rod& rod = rods_[r];
+        const dvec3 d = between(rod, moment.x);
+        isTaut_[r] =
+            !rod.isMost || (ofPlaces ? glm::dot(d, d) > rod.length * rod.length
+                                     : norm(d) > tautFrom * rod.length && glm::dot(d, between(rod, moment.v)) > 0.0);
+    }
+}
+
+// Leashes only pull: those that the impulses would have push go slack. Returns whether any did.
+bool Rods::slacken() {
+    bool isAny = false;
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        const auto rod = static_cast<std::size_t>(order_[i]);
+        if (!rods_[rod].isMost || !isTaut_[rod] || !(impulse_[i] < 0.0)) continue;
+        isTaut_[rod] = false;
+        isAny = true;
+    }
+    return isAny;
+}
+
 bool Rods::projectPositions(const Moment& moment) {
     layOut();
+    findTaut(moment, true);
     for (int pass = 0; pass < mostPasses; ++pass) {
         bool isMet = true;
         for (std::size_t i = 0; i < order_.size(); ++i) {
             const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
             const dvec3 d = between(rod, moment.x);
-            const double g = !holds(order_[i]) ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
+            const double g = !pulls(order_[i]) ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
             const double size = norm(rod.a.of(moment.x)) + norm(rod.b.of(moment.x));
             isMet = isMet && std::abs(g) <= relativeTolerance * rod.length + roundingShare * size;
             impulse_[i] = g;
@@ -194,6 +219,10 @@ bool Rods::projectPositions(const Moment& moment) {
         if (isMet) return pass > 0;
         if (pass == 0 || pass >= oldPasses) factor(pass == 0 ? moment.from : moment.x, moment.inverseMass);
         matrix_.solve(std::span(impulse_));
+        if (pass == 0 && slacken()) {
+            pass = -1;
+            continue;
+        }
         pull(moment.x, moment);
     }
     return true;
@@ -201,16 +230,19 @@ bool Rods::projectPositions(const Moment& moment) {
 
 bool Rods::projectVelocities(const Moment& moment) {
     layOut();
-    factor(moment.x, moment.inverseMass);
-    bool isMet = true;
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-        const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
-        impulse_[i] = glm::dot(direction_[i], between(rod, moment.v));
-        const double size = norm(rod.a.of(moment.v)) + norm(rod.b.of(moment.v));
-        isMet = isMet && std::abs(impulse_[i]) <= roundingShare * size;
-    }
-    if (isMet) return false;
-    matrix_.solve(std::span(impulse_));
+    findTaut(moment, false);
+    do {
+        factor(moment.x, moment.inverseMass);
+        bool isMet = true;
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
+            impulse_[i] = glm::dot(direction_[i], between(rod, moment.v));
+            const double size = norm(rod.a.of(moment.v)) + norm(rod.b.of(moment.v));
+            isMet = isMet && std::abs(impulse_[i]) <= roundingShare * size;
+        }
+        if (isMet) return false;
+        matrix_.solve(std::span(impulse_));
+    } while (slacken());
     pull(moment.v, moment);
     return true;
 }

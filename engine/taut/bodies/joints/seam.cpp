@@ -20,7 +20,7 @@ void SeamJoint::tie(IslandPlan& plan, const Spot& first, const Spot& second, dou
     changeOnly<Pins>(plan, [&](Pins& pins) { pins.sew(first, second, {length, over, start}, source); });
 }
 
-void SeamJoint::carry(IslandPlan&, Grip grip) const {
+void SeamJoint::carry(IslandPlan&, const Spot&, Grip grip) const {
     throw core::Error(core::ErrorKind::badContent, at(source) + "a seam sews edges of bodies, and " + grip.holder +
                                                        " is a collider; use a [[joint]]");
 }

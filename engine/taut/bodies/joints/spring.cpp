@@ -10,7 +10,7 @@ void SpringJoint::tie(IslandPlan& plan, const Spot& first, const Spot& second, d
 }
 
 // Springs draw each point to a place on the collider.
-void SpringJoint::carry(IslandPlan& plan, Grip grip) const {
+void SpringJoint::carry(IslandPlan& plan, const Spot&, Grip grip) const {
     grip.rigid = false;
     grip.stiffness.assign(grip.points.size(), stiffness);
     grip.damping.assign(grip.points.size(), stiffness * dampingTime);

@@ -24,10 +24,9 @@ void WeldJoint::tie(IslandPlan& plan, const Spot& first, const Spot& second, dou
         plan.positions[static_cast<std::size_t>(i)] = plan.positions[static_cast<std::size_t>(leader)];
 }
 
-void WeldJoint::carry(IslandPlan& plan, Grip grip) const {
+void WeldJoint::carry(IslandPlan& plan, const Spot& end, Grip grip) const {
     changeOnly<Pins>(plan, [&](Pins& pins) {
-        for (std::size_t i = 0; i < grip.points.size(); ++i)
-            pins.tie(grip.points[i], Constraint::Place{grip.holder, grip.offsets[i]}, source);
+        pins.tie(end, Constraint::Place{grip.holder, grip.offsets.front()}, source);
     });
     carryBy(plan, grip.holder, grip.path);
 }

@@ -47,9 +47,11 @@ std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std
 const Grip* carrierOf(const IslandPlan& plan, int point);
 // Frees the points from the grips of colliders. Returns whether any was tied.
 bool untie(IslandPlan& plan, std::span<const int> points);
-// Whether a side of a joint names points of the body, and how many.
+// Whether a side names bodies as a whole, without points.
+bool isWhole(const JointSide& side);
+// Whether a side of a joint names points of the body, and how many of its points or places the joint ties.
 bool names(const JointSide& side, const Body& body);
-int countNamed(const JointSide& side, const Body& body);
+int countTied(const JointSpec& joint, const JointSide& side, const Body& body);
 
 // The path of a collider during a tick that starts at t0 [s].
 mechanics::PosePath pathOf(const collision::Pose& from, const collision::Pose& to, double t0, double ticksPerSecond);

@@ -36,6 +36,7 @@ std::shared_ptr<const Convex> makeCapsule(const ShapeSizes& sizes, double) {
 SolidShape solidCapsule(const ShapeSizes& sizes, double) {
     return {.positions = {{0.0, -0.5 * sizes.height, 0.0}, {0.0, 0.5 * sizes.height, 0.0}},
             .lines = {{0, 1}},
+            .sides = {{"start", {0}}, {"end", {1}}},
             .properties = core::massPropertiesOfCapsule(sizes.radius, sizes.height)};
 }
 

@@ -8,7 +8,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "taut/bodies/island_plan.h"
@@ -127,6 +129,7 @@ class ConstraintSlot {
         reached_ = x_;
         takeTurns(&Constraint::projectPositions);
         addImpulses(1.0 / h);
+        drive(h);
         Real* predicted = method.predicted(state_);
         const bool isHalfStep = predicted != state_.v.data();
         for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -281,12 +284,12 @@ class ConstraintSlot {
         }
         if (bodies.empty()) return bodies;
         for (Tie& tie : ties_)
-            for (const auto& [a, b, number, length] : tie.constraint->pairs(time_)) {
+            for (const auto& [a, b, number, length, isMost] : tie.constraint->pairs(time_)) {
                 const auto numberOf = [&](int end) {
                     return static_cast<int>(tie.numbers[static_cast<std::size_t>(end)]);
                 };
                 joined_.addPair({a.renumbered(numberOf), b.renumbered(numberOf),
-                                 static_cast<std::size_t>(tie.first + number), length});
+                                 static_cast<std::size_t>(tie.first + number), length, isMost});
             }
         return bodies;
     }
@@ -298,16 +301,7 @@ class ConstraintSlot {
         const std::vector<Tie*> bodies = findJoined(isOfPlaces ? from_ : x_);
         if (joined_.isEmpty()) return;
         std::vector<dvec3>& values = isOfPlaces ? x_ : v_;
-        for (int solves = 0; solves < mostSolves; ++solves) {
-            const std::vector<dvec3>& at = isOfPlaces ? from_ : x_;
-            if (!joined_.solve(at, inverseMass_, values, isOfPlaces, settled)) return;
-            for (std::size_t k = 0; k < joined_.pairs().size(); ++k) {
-                const auto& [a, b, pull, length] = joined_.pairs()[k];
-                const dvec3& impulse = joined_.impulses()[k];
-                a.push(values, inverseMass_, impulse);
-                b.push(values, inverseMass_, -impulse);
-                pull_[pull] += length > 0 ? dvec3(joined_.tension(k), 0.0, 0.0) : impulse;  // of a rod as Rods gives it
-            }
+        const auto makeRigid = [&] {
             for (Tie* tie : bodies) {
                 gather(*tie);
                 std::vector<dvec3> ignored(1);
@@ -315,7 +309,83 @@ class ConstraintSlot {
                 for (std::size_t k = 0; k < tie->constraint->points().size(); ++k)
                     values[tie->numbers[k]] = isOfPlaces ? tie->x[k] : tie->v[k];
             }
+        };
+        // Whether a leash is taut is to be seen of bodies, not of points that have moved by themselves.
+        if (joined_.hasLeash()) makeRigid();
+        for (int solves = 0; solves < mostSolves; ++solves) {
+            const std::vector<dvec3>& at = isOfPlaces ? from_ : x_;
+            if (!joined_.solve(at, inverseMass_, values, isOfPlaces, settled)) return;
+            for (std::size_t k = 0; k < joined_.pairs().size(); ++k) {
+                const auto& [a, b, pull, length, isMost] = joined_.pairs()[k];
+                const dvec3& impulse = joined_.impulses()[k];
+                a.push(values, inverseMass_, impulse);
+                b.push(values, inverseMass_, -impulse);
+                pull_[pull] += length > 0 ? dvec3(joined_.tension(k), 0.0, 0.0) : impulse;  // of a rod as Rods gives it
+            }
+            makeRigid();
         }
+    }
+    // A drive where its bodies are before a step.
+    struct Couple {
+        std::array<Spot, 3> a, b;     // numbers of the slot
+        std::array<dvec3, 2> across;  // [1/m] of a and b, into the turn about the axis
+        // Of b against a, about the axis: (points) ways [m] or velocities [m/s].
+        double turn(std::span<const dvec3> of) const {
+            const auto own = [&](const std::array<Spot, 3>& s, const dvec3& by) {
+                return glm::dot(s[2].of(of) - 0.5 * (s[0].of(of) + s[1].of(of)), by);
+            };
+            return own(b, across[1]) - own(a, across[0]);
+        }
+        void push(std::span<dvec3> values, std::span<const double> inverseMass, double impulse) const {
+            const auto own = [&](const std::array<Spot, 3>& s, const dvec3& p) {
+                s[2].push(values, inverseMass, p);
+                s[0].push(values, inverseMass, -0.5 * p);
+                s[1].push(values, inverseMass, -0.5 * p);
+            };
+            own(a, -impulse * across[0]);
+            own(b, impulse * across[1]);
+        }
+    };
+    Couple coupleOf(const Tie& tie, const Constraint::Drive& drive) const {
+        const auto numberOf = [&](int end) { return static_cast<int>(tie.numbers[static_cast<std::size_t>(end)]); };
+        Couple couple{drive.a, drive.b, {}};
+        for (auto* spots : {&couple.a, &couple.b})
+            for (Spot& spot : *spots) spot = spot.renumbered(numberOf);
+        const auto acrossOf = [&](const std::array<Spot, 3>& s) {
+            const dvec3 low = s[0].of(from_), high = s[1].of(from_), arm = s[2].of(from_) - 0.5 * (low + high);
+            return glm::cross(glm::normalize(high - low), arm) / glm::dot(arm, arm);
+        };
+        couple.across = {acrossOf(couple.a), acrossOf(couple.b)};
+        return couple;
+    }
+    // Torques of hinges during a step of h [s] change where it has led. How easily a hinge turns with all that hangs on
+    // it is what an impulse of 1 N m s does to velocities. Expects places on colliders in from_ as they were.
+    void drive(double h) {
+        for (const Tie& tie : ties_)
+            for (const Constraint::Drive& own : tie.constraint->drives()) {
+                const Couple couple = coupleOf(tie, own);
+                std::vector<dvec3> way(x_.size());
+                for (std::size_t i = 0; i < x_.size(); ++i) way[i] = (x_[i] - from_[i]) / h;
+                const double rate = couple.turn(way), wanted = own.most > 0 ? own.speed - rate : -rate;
+                if (wanted == 0.0) continue;
+                const double unit = wanted > 0 ? 1.0 : -1.0;  // [N m s]
+                const std::vector<dvec3> before = v_;
+                v_.assign(v_.size(), dvec3(0.0));
+                couple.push(v_, inverseMass_, unit);
+                takeTurns(&Constraint::projectVelocities);
+                const double ease = couple.turn(v_) / unit;  // [1/(kg m²)]
+                v_ = before;
+                if (!(ease > 0)) continue;
+                double impulse = -own.damping * h * rate / (1.0 + own.damping * h * ease);
+                const auto seek = [&](double speed, double most) {
+                    impulse += std::clamp((speed - rate) / ease - impulse, -most * h, most * h);
+                };
+                if (own.friction > 0) seek(0.0, own.friction);
+                if (own.most > 0) seek(own.speed, own.most);
+                couple.push(x_, inverseMass_, impulse * h);
+                takeTurns(&Constraint::projectPositions);
+                addImpulses(1.0 / h);
+            }
     }
     void takeTurns(bool (Constraint::*projection)(const Constraint::Moment&)) {
         constexpr int mostRounds = 50;

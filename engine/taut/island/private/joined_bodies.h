@@ -10,6 +10,7 @@
 // their bodies find theirs. No body gains momentum by it.
 #pragma once
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <span>
 #include <vector>
@@ -25,6 +26,7 @@ class JoinedBodies {
         Spot a, b;
         std::size_t pull;  // for the owner
         double length;     // [m] of a rod; 0: both are in one place
+        bool isMost;       // of the length: it is a rod only if it is too long
     };
 
     // points: how many there are.
@@ -33,6 +35,7 @@ class JoinedBodies {
     void addBody(const core::RigidMotion& body, std::span<const std::size_t> points);
     void addPair(const Pair& pair) { pairs_.push_back(pair); }
     bool isEmpty() const;  // no pair holds a body
+    bool hasLeash() const { return std::ranges::any_of(pairs_, &Pair::isMost); }
 
     // at (points) [m] where impulses act; inverseMass (points) [1/kg]. Returns false if all pairs hold to `settled` of
     // values (points), which are places or velocities; else finds impulses.
@@ -49,6 +52,8 @@ class JoinedBodies {
     double tension(std::size_t pair) const { return -glm::dot(p_[pair], along_[pair]); }  // of a rod
 
   private:
+    bool solveTaut(std::span<const glm::dvec3> at, std::span<const double> inverseMass,
+                   std::span<const glm::dvec3> values, bool arePlaces, double settled);
     glm::dvec3 held(std::size_t pair, const glm::dvec3& difference) const;
     void respond(std::span<const glm::dvec3> at, std::span<const double> inverseMass);
 
@@ -58,6 +63,7 @@ class JoinedBodies {
     std::vector<glm::dvec3> p_, left_, way_, moved_;  // (pairs) impulse, what is left, direction, A times it
     std::vector<glm::dvec3> best_;                    // (pairs) the impulses that left least
     std::vector<glm::dvec3> along_;                   // (pairs) unit, of a rod; 0
+    std::vector<bool> isSlack_;                       // (pairs) of a leash: it does not count
     std::vector<double> ease_;                        // (pairs) [1/kg] about what an impulse of 1 does
     std::vector<glm::dvec3> sum_, turn_;              // (bodies) of impulses, and of their moments
     std::vector<glm::dvec3> force_;                   // (points) of impulses

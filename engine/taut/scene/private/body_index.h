@@ -35,7 +35,10 @@ class BodyIndex {
     // For KIND.NAME@SELECTOR. NAME may contain the wildcard *, and ends in .0, .1, … for one copy of an array.
     std::optional<TargetFault> pointsFault(const std::string& target) const;
 
-    // The same, but a missing @SELECTOR means all points.
+    // The same, but a rigid body may be named as a whole, and has places by name.
+    std::optional<TargetFault> tieableFault(const std::string& target) const;
+
+    // Like pointsFault(), but a missing @SELECTOR means all points.
     std::optional<TargetFault> targetFault(const std::string& target) const;
 
     // For KIND.NAME with the same wildcard.

@@ -1,4 +1,5 @@
-// The rods of an island: distances that stay, between two places on bodies, or one on a collider.
+// The rods of an island: distances that stay, between two places on bodies, or one on a collider; and leashes, whose
+// ends may be nearer. A leash is a rod while it would be too long.
 //
 //        n₁          n₂
 //    a ──────▶ b ──────────▶ c      g = (|d|² - L²)/2L,  ∇g = n along the rod, at either end
@@ -21,8 +22,8 @@ namespace taut::world {
 class Rods final : public ConstraintOf<Rods> {
   public:
     // Ties two spots of the plan, or a spot and a place on a collider. [m]
-    void tie(const Spot& a, const Spot& b, double length, const Source& source);
-    void tie(const Spot& a, const Place& b, double length, const Source& source);
+    void tie(const Spot& a, const Spot& b, double length, const Source& source, bool isMost = false);
+    void tie(const Spot& a, const Place& b, double length, const Source& source, bool isMost = false);
 
     std::span<const int> points() const override { return ends_.points; }
     std::span<const Place> places() const override { return ends_.places; }
@@ -40,6 +41,7 @@ class Rods final : public ConstraintOf<Rods> {
         Spot a, b;      // numbers as in Moment
         double length;  // [m]
         Source source;
+        bool isMost;  // of the length
     };
     // Two rods whose ends have a point in common: the matrix has weight · w n_i·n_j in row i and column j < i.
     struct Coupling {
@@ -49,6 +51,9 @@ class Rods final : public ConstraintOf<Rods> {
 
     static dvec3 between(const Rod& rod, std::span<const dvec3> x) { return rod.b.of(x) - rod.a.of(x); }
     void layOut();
+    bool slacken();
+    void findTaut(const Moment& moment, bool ofPlaces);
+    bool pulls(int rod) const { return holds(rod) && isTaut_[static_cast<std::size_t>(rod)]; }
     void factor(std::span<const dvec3> x, std::span<const double> inverseMass);
     void pull(std::span<dvec3> to, const Moment& moment) const;
 
@@ -59,6 +64,7 @@ class Rods final : public ConstraintOf<Rods> {
     std::vector<int> order_;           // (rows) rods
     std::vector<Coupling> couplings_;  // by row
     EnvelopeMatrix matrix_;
+    std::vector<bool> isTaut_;      // (rods) whether it counts, in a projection
     std::vector<double> diagonal_;  // (rows)
     std::vector<dvec3> direction_;  // (rows) n, unit; 0 for broken rods
     std::vector<double> impulse_;   // (rows) g, then the impulse that pulls the ends together

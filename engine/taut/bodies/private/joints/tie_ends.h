@@ -28,6 +28,14 @@ class TieEnds {
             return number;
         });
     }
+    // Expects no places yet.
+    Spot of(const Spot& spot) {
+        struct Ends {
+            Spot a, b;
+        };
+        std::vector<Ends> none;
+        return of(spot, none);
+    }
     Spot of(const Constraint::Place& place) {
         places.push_back(place);
         return static_cast<int>(points.size() + places.size()) - 1;

@@ -295,9 +295,9 @@ TEST(SceneFields, SolidsLandInTheirMembers) {
 
 TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
-    ASSERT_EQ(scene.joints.size(), 4U);
+    ASSERT_EQ(scene.joints.size(), 6U);
     EXPECT_EQ(scene.joints.of<world::SeamJoint>().at(0).over, 2.0);
-    EXPECT_EQ(scene.joints[3].breakForce, 13.0);
+    EXPECT_EQ(scene.joints[5].breakForce, 13.0);
     const world::JointSpec& spring = scene.joints[0];
     EXPECT_EQ(spring.a.targets, std::vector<std::string>{"rope.rail@end"});
     EXPECT_EQ(spring.b.targets, std::vector<std::string>{"net.cradle@b"});
@@ -316,6 +316,15 @@ TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     EXPECT_EQ(scene.joints[1].kind(), "weld");
     EXPECT_EQ(scene.joints[1].reach(), 0.05);
     EXPECT_EQ(scene.joints.of<world::RodJoint>().at(0).place, world::dvec3(0, 1, 2.5));
+    const world::HingeJoint& hinge = scene.joints.of<world::HingeJoint>().at(0);
+    EXPECT_GT(hinge.axis.y, 0.0);
+    EXPECT_NEAR(hinge.limits->x, -0.5 * core::pi, 1e-15);
+    EXPECT_NEAR(hinge.limits->y, core::pi, 1e-15);
+    EXPECT_EQ(hinge.friction, 0.3);
+    EXPECT_EQ(hinge.damping, 0.4);
+    EXPECT_EQ(hinge.motorSpeed, -2.0);
+    EXPECT_EQ(hinge.motorMost, 6.0);
+    EXPECT_NEAR(*scene.joints.of<world::BallJoint>().at(0).cone, 0.5 * core::pi, 1e-15);
     ASSERT_EQ(scene.masses.size(), 1U);
     EXPECT_EQ(scene.masses[0].target, "block.jelly@corners");
     EXPECT_EQ(scene.masses[0].mass, 1.5);

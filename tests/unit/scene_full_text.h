@@ -209,6 +209,24 @@ a = "net.cradle@a"
 b = "collider.ball"
 kind = "rod"
 place = [0, 1, 2.5]
+[[joint]]
+a = "solid.crate"
+b = "solid.pill"
+kind = "hinge"
+place = [0.5, 1, 2]
+axis = [0, 2, 0]
+limits_deg = [-90, 180]
+friction_N_m = 0.3
+damping_N_m_s = 0.4
+motor_rad_per_s = -2
+motor_N_m = 6
+[[joint]]
+a = "solid.stone"
+b = "solid.pill"
+kind = "ball"
+place = [0, 1, 2]
+axis = [1, 0, 0]
+cone_deg = 90
 [[seam]]
 a = "cloth.flag.0@left"
 b = "cloth.flag.1@right"

@@ -403,7 +403,7 @@ target = [0, 1, 0])",
 a = "rope.r@start"
 b = "rope.r@end"
 stiffness_N_per_m = 10)",
-     "7:1: stiffness_N_per_m does not go with a weld ^ it belongs to a spring joint, a spring joint to a collider"},
+     "7:1: stiffness_N_per_m does not go with a weld ^ it belongs to a spring joint"},
     {"a spring joint with a reach", rope, R"([[joint]]
 a = "rope.r@start"
 b = "rope.r@end"

@@ -118,7 +118,7 @@ finish = {{ colour = "#35648f" }}
 )"},
 };
 
-constexpr std::string_view head = R"(# A scene to start from; its keys are told by: taut manual scenes-and-bodies
+constexpr std::string_view head = R"(# A scene to start from; taut manual scenes describes its keys
 schema = 1
 title = "{title}"
 run = {{ fps = 60, seconds = 4.0 }}

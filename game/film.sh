@@ -1,8 +1,7 @@
 #!/bin/sh
 # Builds taut and cuts a minute of film with titles from the shipped scenes: out/film/taut.mp4. `film.sh demo` cuts its
-# first 15 s, out/demo/taut.mp4, and keeps the frames of every shot. `film.sh stills` makes the pictures of scenes in the
-# README and, for the manual, those of fabrics and of a figure that is dressed. TAUT_SIZE=1280x720 makes film and
-# pictures smaller.
+# first 15 s, out/demo/taut.mp4, and keeps the frames of every shot. `film.sh stills` makes pictures for the README and
+# the manual. TAUT_SIZE=1280x720 makes film and pictures smaller.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 case ${1-film} in
@@ -32,22 +31,13 @@ if [ "${1-film}" = stills ]; then
     "$taut" render dress -o "$out/dress-#.png" --at 0,0.6,1.5,4 --set camera.main.fov_deg=15 --size 480x600 \
         --samples 16 -y --quiet
     ffmpeg -v error -y -i "$out/dress-%d.png" -vf tile=4x1 -frames:v 1 -q:v 3 "$root/assets/pictures/dress.jpg"
-    # Scene and moment, twelve of them side by side; the last one as its springs.
-    inputs= n=0
-    for still in bear:3.5 domino:1.45 balloon:1.35 dress:10.9 bridge:2 cradle:1 curtain:1.5 twist:3.8 jelly:1 \
-        ring:2.8 drape:1.7 drape:1.7:--debug; do
-        scene=${still%%:*} rest=${still#*:}
-        moment=${rest%%:*} flag=${rest#"$moment"}
-        # shellcheck disable=SC2086  # a word or none
-        "$taut" render "$scene" -o "$out/tile-$n.png" --at "$moment" --size 480x270 --samples 16 -y --quiet ${flag#:}
-        inputs="$inputs -i $out/tile-$n.png"
-        n=$((n + 1))
+    # Small ones: scene and moment.
+    for still in bear:3.5 domino:1.45 balloon:1.35 bridge:2; do
+        scene=${still%:*} moment=${still#*:}
+        "$taut" render "$scene" -o "$out/$scene.png" --at "$moment" --size 480x270 --samples 16 -y --quiet
+        ffmpeg -v error -y -i "$out/$scene.png" -q:v 2 "$root/assets/pictures/$scene.jpg"
     done
-    # shellcheck disable=SC2086  # many words
-    ffmpeg -v error -y $inputs -filter_complex \
-        "xstack=inputs=12:grid=4x3" -q:v 3 \
-        "$root/assets/pictures/scenes.jpg"
-    echo "Stills: $root/assets/pictures/*-still.jpg, fabrics.jpg, dress.jpg, scenes.jpg"
+    echo "Stills: $root/assets/pictures"
     exit 0
 fi
 

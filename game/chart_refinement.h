@@ -13,7 +13,7 @@ inline constexpr const char* refinementAbout = "ropes, cloths and blocks at rest
 
 // Prints the table and writes CSV, JSON and, if gnuplot runs, the pictures into the folder. `note` stands at the foot
 // of the pictures. Returns the exit code. Throws core::Error(inputOutput) if gnuplot is missing, after writing the
-// rest. `settings` say what to study; it sets stop and progress in them.
+// rest. `settings` select the study; it sets stop and progress in them.
 int chartRefinement(const std::filesystem::path& folder, const study::MachineFacts& machine, const std::string& note,
                     bool isQuiet, study::RefinementSettings settings = {});
 

@@ -37,7 +37,7 @@ class Option {
     Option within(Number least, Number most, const std::string& unit = {}) const;  // unit: for messages
     Option oneOf(const std::vector<std::string>& words) const;
     Option suggests(const std::vector<std::string>& words) const;  // in the help and to a shell; others are allowed
-    // check() returns an empty text if the value is good, else what is wrong with it.
+    // check() returns an empty text if the value is good, else its fault.
     Option check(std::function<std::string(const std::string& text)> check) const;
 
     Option excludes(const Option& other) const;
@@ -50,7 +50,7 @@ class Option {
     CLI::Option* option_;
 };
 
-// What one command takes. Targets must live as long as the return value of the command's `declare`.
+// The arguments of one command. Targets must live as long as the return value of the command's `declare`.
 class Options {
   public:
     explicit Options(CLI::App& app) : app_(app) {}
@@ -63,7 +63,7 @@ class Options {
     template <class Target>
     Option value(const std::string& names, Target& target, const std::string& help);
 
-    // A flag that there was: it stands in no help, and giving it is an error that says what to do instead.
+    // A removed flag: it stands in no help, and its use is an error with a remedy.
     void gone(const std::string& name, const std::string& instead);
 
     // The heading under which the help lists the flags that follow.
@@ -72,10 +72,10 @@ class Options {
     // The end of the help.
     void footer(const std::string& text);
 
-    // All that the program takes, for this and the other commands. To be called by an action.
+    // All that the program takes, for this and the other commands. Call it from an action.
     std::function<CommandTree()> tree() const;
-    // The help of a command, or of the program if empty; throws core::Error(usage) if there is none of that name.
-    // Likewise.
+    // The help of a command, or of the program if empty; throws core::Error(usage) if there is none of that name. Call
+    // it from an action.
     std::function<std::string(const std::string& command)> help() const;
 
   private:
@@ -91,7 +91,7 @@ using Action = std::function<int()>;  // returns the exit code
 struct Command {
     std::string_view name;
     std::string_view help;  // one line
-    // Declares what the command takes. Returns the action that runs if the command is chosen.
+    // Declares the arguments of the command. Returns the action that runs if the command is chosen.
     std::function<Action(Options& options)> declare;
 };
 
@@ -101,7 +101,7 @@ struct Request {
         run,      // action
         text,     // to be printed: help or version
         nothing,  // the line has no word
-        wrong,    // `text` says what is wrong; `command`, "taut render", has the help that may tell more
+        wrong,    // `text` has the fault; `command`, "taut render", has the help
     };
     Kind kind = Kind::nothing;
     Action action;

@@ -1,4 +1,5 @@
-// What a command line takes, as plain values. Manual pages and shell completion are made from it. It knows no command.
+// The arguments of a command line, as plain values. Manual pages and shell completion are made from them. Independent
+// of commands.
 #pragma once
 
 #include <string>
@@ -25,7 +26,7 @@ struct CommandFacts {
 };
 
 struct CommandTree {
-    CommandFacts program;  // what the program takes without a command
+    CommandFacts program;  // arguments of the program without a command
     std::vector<CommandFacts> commands;
 };
 

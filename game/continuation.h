@@ -32,13 +32,13 @@ struct ContinuationFlags {
 
 void addContinuationFlags(Options& options, ContinuationFlags& flags);
 
-// Numbers that tell what states and pictures were made from, so that they are not taken for those of another scene.
+// Numbers that identify the inputs of states and pictures, so that they are not used for another scene.
 struct RunKeys {
     std::function<std::uint64_t(std::int64_t frame)> state;  // of the state from which that frame goes on
     std::uint64_t picture = 0;
     std::vector<scene::UsedFile> files;  // on which the scene depends
 };
-// `look`: what else on the command line changes pictures.
+// `look`: further flags that change pictures.
 RunKeys runKeys(const scene::Loaded& scene, const std::vector<std::uint64_t>& look, const world::World& world);
 
 // The key of the whole run up to that last frame. Its parts share it.
@@ -50,11 +50,11 @@ struct PicturesThere {
     bool areOurs = false;                    // a record says that the frames of this run are its own
 };
 
-// Sets the world to the state from which the run goes on, says so in the options, and returns the records of earlier
-// frames. The state is the last checkpoint at or before: for --from that frame, for --resume the first frame that
-// `pictures` lack, for a part that starts late its first frame. Without a checkpoint the run starts at frame 0. Prints
-// what it does and what it had to skip. Throws core::Error: badContent when the pictures on disk were made with other
-// settings; inputOutput when no state leads to them and they may not be overwritten, or when all states were recorded
+// Sets the world to the state from which the run continues, records it in the options, and returns the records of
+// earlier frames. The state is the last checkpoint at or before: for --from that frame, for --resume the first missing
+// frame of `pictures`, for a part that starts late its first frame. Without a checkpoint the run starts at frame 0.
+// Prints the choice and the skipped checkpoints. Throws core::Error: badContent if the pictures on disk were made with
+// other settings; inputOutput if no state leads to them and they may not be overwritten, or if all states were recorded
 // by other bits.
 pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
                          const PicturesThere& pictures, pipeline::RunOptions& options, world::World& world);

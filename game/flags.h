@@ -37,21 +37,21 @@ struct Size {
 // "1280x720", each side 16 … 16384; throws core::Error(usage).
 Size pictureSize(const std::string& text);
 
-// A check for a flag: empty if its text is a number in least … most, else what is wrong. Unlike Option::within it
-// rejects nan and numbers of hundreds of digits.
+// A check for a flag: empty if its text is a number in least … most, else its fault. Unlike Option::within it rejects
+// nan and numbers of hundreds of digits.
 std::function<std::string(const std::string&)> numberWithin(double least, double most);
 
 class Options;
 
 // --threads; 0: not given.
 void addThreadsFlag(Options& options, int& threads);
-// Adds --threads; the action that is returned does what this one does, on so many.
+// Adds --threads; the returned action does the same as this one, on so many threads.
 std::function<int()> withThreads(Options& options, std::function<int()> action);
 
 // --isa, which sets the instruction set of the kernels before anything asks for it. `isa` holds the given value.
 void addInstructionSetFlag(Options& options, std::string& isa);
 
-// --fps and --seconds, which override what the scene says of its run; 0: not given.
+// --fps and --seconds, which override the run of the scene; 0: not given.
 void addRunFlags(Options& options, double& fps, double& seconds);
 // An override that a flag stands for; messages about it name the flag.
 std::string overrideBy(std::string_view flag, std::string_view key, std::string_view value);

@@ -1,4 +1,4 @@
-// Where the program finds what it reads: assets, shaders and the manual, installed or in the source checkout.
+// The folders of the program's files: assets, shaders and the manual, installed or in the source checkout.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ std::filesystem::path shaderFolder();
 // The pages of the manual: share/taut/manual of the prefix, else game/manual of the checkout; empty if there are none.
 std::filesystem::path manualFolder();
 
-// The engine for pages: share/taut/web of the prefix, else what game/web.sh built in the checkout; empty if there is
+// The engine for pages: share/taut/web of the prefix, else the build of game/web.sh in the checkout; empty if there is
 // none.
 std::filesystem::path webFolder();
 

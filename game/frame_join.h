@@ -37,8 +37,8 @@ struct JoinedMetrics {
 // those. None if the parts have not all written the same columns.
 JoinedMetrics joinedMetrics(const FrameJoin& join);
 
-// Writes the frames into the sink. Returns false, with the sink not finished, if `stop` became true. Throws what the
-// sink throws, and core::Error for a picture that cannot be read.
+// Writes the frames into the sink. Returns false, with the sink not finished, if `stop` became true. Throws as the sink
+// does, and core::Error for a picture that cannot be read.
 bool encodeFrames(const FrameJoin& join, image::FrameSink& sink, bool quiet, const std::atomic<bool>& stop);
 
 }  // namespace taut::game

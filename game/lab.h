@@ -1,5 +1,5 @@
-// What the measuring commands share: checked flags, progress, the folder of results, facts of the machine. It does not
-// know what is measured.
+// The common part of the measuring commands: checked flags, progress, the folder of results, facts of the machine.
+// Independent of the measurements.
 #pragma once
 
 #include <atomic>

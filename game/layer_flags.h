@@ -1,4 +1,4 @@
-// The flags for what a picture has besides colours, and for its exposure: alpha, layers, motion blur. It draws nothing.
+// The flags of layers and exposure of a picture: alpha, layers, motion blur. It draws nothing.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class World;
 
 namespace taut::game {
 
-// A row of the table of layers, with what the command line says of it.
+// A row of the table of layers, with its values on the command line.
 struct LayerFlag {
     render::LayerKind kind;
     bool isGiven = false;
@@ -38,20 +38,20 @@ void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug);
 
 std::vector<LayerFlag> flagsOf(const render::LayerKinds& kinds);
 
-// Throws core::Error(usage) if an output cannot hold what is asked for. `output` and `video` are as on the command
+// Throws core::Error(usage) if an output cannot hold the requested layers. `output` and `video` are as on the command
 // line, or empty.
 void checkLayerFlags(const LayerFlags& flags, const std::string& output, const std::string& video);
 
 // Writes the exposure into the options of a run.
 void expose(const LayerFlags& flags, pipeline::RunOptions& options);
 
-// What changes pictures besides the scene. `debug` and `overlay` are separate flags.
+// Flags that change pictures besides the scene. `debug` and `overlay` are separate flags.
 std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags);
 
 // Kinds of files beside frames: image::FramePattern::beside.
 std::vector<std::string> filesBeside(const LayerFlags& flags);
 
-// What the renderer needs to know. `world` is the first to be shown.
+// The options for the renderer. `world` is the first to be shown.
 pipeline::PictureLayers layersOf(const LayerFlags& flags, const world::World& world);
 
 }  // namespace taut::game

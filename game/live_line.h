@@ -1,5 +1,5 @@
 // One line of progress on standard error. On a terminal it is rewritten in place, otherwise a plain line appears now
-// and then. It does not know what makes progress.
+// and then. Independent of its source.
 #pragma once
 
 #include <chrono>

@@ -46,7 +46,7 @@ class LivePlay {
     // Throws core::Error for a faulty scene, noRenderer without a display.
     explicit LivePlay(PlaySettings settings);
 
-    // Runs until the user ends it, the time is over or `stop` is set. Then writes what is being recorded.
+    // Runs until the user ends it, the time is over or `stop` is set. Then writes the current recording.
     void run(const std::atomic<bool>& stop);
 
   private:

@@ -1,7 +1,7 @@
-// What the program says: results on standard output, everything else on standard error. It knows no command.
+// The output of the program: results on standard output, everything else on standard error. Independent of commands.
 //
-// Nothing here throws. What cannot be written to standard error is dropped, because results must not be lost if nobody
-// listens. areResultsWritten() tells at the end whether standard output has failed.
+// Nothing here throws. Failed writes to standard error are dropped, because results must not be lost if nobody reads
+// it. areResultsWritten() reports at the end whether standard output has failed.
 #pragma once
 
 #include <fmt/format.h>

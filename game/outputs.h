@@ -1,4 +1,4 @@
-// Where a run's pictures go, and whether existing files there may be overwritten. It does not know what is drawn.
+// The places of a run's pictures, and whether existing files there may be overwritten. Independent of drawing.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ void permitOverwriting(const std::vector<image::FramePattern>& patterns, std::in
 // The same for one file.
 void permitOverwritingFile(const std::filesystem::path& existing, Overwrite overwrite);
 
-// What a run of very many pictures will roughly need of disk and time; empty for other runs.
+// An estimate of disk and time for a run of very many pictures; empty for other runs.
 std::string largeRunText(std::int64_t pictures, int width, int height);
 
 // Throws core::Error(inputOutput).

@@ -1,4 +1,4 @@
-// The place of the figures of `taut play`: out of the way of what is pulled. It paints nothing.
+// The place of the figures of `taut play`, clear of the pulled body. It paints nothing.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,8 +14,8 @@ bool holds(const pipeline::PictureBox& box, glm::vec2 at, float margin);
 
 class FiguresPlace {
   public:
-    // covered: what the figures cover in the present picture of that width. hand, body: where the hand and points of
-    // the pulled body are [px]. `seconds` since the last call.
+    // covered: the area of the figures in the present picture of that width. hand, body: places of the hand and of
+    // points of the pulled body [px]. `seconds` since the last call.
     void follow(const pipeline::PictureBox& covered, float width, std::optional<glm::vec2> hand,
                 std::span<const glm::vec2> body, double seconds);
 

@@ -1,5 +1,5 @@
-// What `taut play` writes over its pictures besides the figures: help, what is switched on, and short messages. It
-// knows neither the session nor the window.
+// Texts of `taut play` over its pictures besides the figures: help, switches, and short messages. Independent of the
+// session and the window.
 #pragma once
 
 #include <chrono>
@@ -40,7 +40,7 @@ class PlayScreen {
     void say(std::string text, double seconds = 4.0);
     bool isSaying() const { return Clock::now() < until_; }
 
-    // Shows what is wrong with the scene, in as many lines as needed, until the next call; empty: nothing is wrong.
+    // Shows the errors of the scene, in as many lines as needed, until the next call; empty: none.
     void showFault(std::string text) { fault_ = std::move(text); }
 
     void toggleHelp() { isHelping_ = !isHelping_; }

@@ -15,7 +15,7 @@ namespace taut::game {
 // A duration for people: "0:07", "12:05", "1:02:05".
 std::string clockText(double seconds);
 
-// What of a run never changes.
+// The constants of a run.
 struct ProgressFacts {
     std::int64_t frames = 1;  // to simulate
     double fps = 60.0;        // pictures a second of scene time

@@ -1,4 +1,4 @@
-// Draws single moments of a scene: what `taut render --at` does. It knows no video and keeps no record.
+// Draws single moments of a scene, for `taut render --at`. It writes no video and keeps no record.
 #pragma once
 
 #include "game/render_flags.h"

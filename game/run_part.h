@@ -52,11 +52,11 @@ void noteMissingLocks(const std::vector<pipeline::RunLock>& locks);
 // Begun: frames of the part in the folder are its own.
 enum class PartState { fresh, begun, complete };
 
-// Finds what is done of the part that `renderer` will draw. Removes what is to be replaced, frames that differ from the
-// record of a part that goes on, and what another renderer or version of the program has begun. Removes records of
-// other runs if they may be overwritten or have drawn nothing; a run of another length is another run. Expects the
-// lock. Throws core::Error(inputOutput) if they may not be overwritten, or if no record tells the run of existing
-// frames.
+// Finds the finished frames of the part that `renderer` will draw. Removes frames to be replaced, frames that differ
+// from the record of a part that continues, and frames that another renderer or version of the program has begun.
+// Removes records of other runs if they may be overwritten or have drawn nothing; a run of another length is another
+// run. Expects the lock. Throws core::Error(inputOutput) if they may not be overwritten, or if no record names the run
+// of existing frames.
 PartState claimPart(const RunPart& part, const PartPlace& place, const std::string& renderer);
 
 }  // namespace taut::game

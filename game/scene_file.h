@@ -37,8 +37,8 @@ scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<s
 std::string preparationText(const world::SceneSpec& spec);
 void notePreparation(const world::SceneSpec& spec);
 
-// Throws core::Error(usage) where results cannot be written into the file of a scene: with overrides they would not be
-// of what the file says, and one that builds on others is not all there.
+// Throws core::Error(usage) if results cannot be written into the file of a scene: with overrides they would not fit
+// the file, and a scene that builds on others is only partly there.
 void expectWritable(const std::filesystem::path& file, const world::SceneSpec& spec,
                     const std::vector<std::string>& overrides);
 

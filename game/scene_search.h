@@ -1,5 +1,5 @@
-// What taut plan and taut fit share: they seek values for a scene file, tell what they found, and write it into the
-// file.
+// The common part of taut plan and taut fit: they search values for a scene file, print the results, and write them
+// into the file.
 #pragma once
 
 #include <atomic>

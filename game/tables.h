@@ -1,4 +1,4 @@
-// What commands choose from by name: tables as values, to which another program can add rows.
+// The tables from which commands choose by name: values, to which another program can add rows.
 #pragma once
 
 #include "taut/geometry/private/format_table.h"

@@ -1,4 +1,4 @@
-// What follows from the report of a test run: exit code, commands that accept differences, the page and the files. It
+// The consequences of the report of a test run: exit code, commands that accept differences, the page and the files. It
 // plays nothing.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace taut::game {
 
-// The beginning of the command that records what scenarios do as their goldens.
+// The beginning of the command that records the results of scenarios as their goldens.
 std::string acceptBeginning(const TestFlags& flags);
 
-// Adds to each scenario the command that accepts it, and to the report what is outdated.
+// Adds to each scenario the command that accepts it, and to the report the outdated scenarios.
 void addAcceptance(const std::string& beginning, report::TestReport& report);
 
 int exitCodeOf(report::Verdict verdict);

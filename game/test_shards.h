@@ -35,7 +35,7 @@ std::filesystem::path shardPath(const std::filesystem::path& folder, const Shard
 std::vector<pipeline::RunLock> lockReport(const std::filesystem::path& folder, const TestRun& run,
                                           const std::optional<Shard>& piece);
 
-// The shard stored there, if it is whole and of the same scenarios.
+// The shard stored there, if it is complete and of the same scenarios.
 std::optional<TestShard> storedShard(const std::filesystem::path& folder, const TestRun& run, const Shard& piece);
 
 // The exit code of taut test for it.

@@ -1,4 +1,4 @@
-// What a run of `taut test` covers: the chosen scenarios, their goldens, and how they are played. It plays nothing.
+// The scope of a run of `taut test`: the chosen scenarios, their goldens, and the settings. It plays nothing.
 #pragma once
 
 #include <cstdint>
@@ -30,11 +30,10 @@ struct TestRun {
     pipeline::RunLock lock;          // of the goldens, while they change
 };
 
-// Throws core::Error: usage for flags that do not go together and names that match nothing, and what reading goldens
-// throws.
+// Throws core::Error: usage for contradicting flags and names without a match, and the exceptions of reading goldens.
 TestRun prepare(const TestFlags& flags);
 
-// The names of the scenarios; those that cannot be read come last.
+// The names of the scenarios; unreadable ones come last.
 std::vector<std::string> namesOf(const regression::ReadScenarios& read);
 
 }  // namespace taut::game

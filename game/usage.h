@@ -1,4 +1,4 @@
-// The error of a command line that asks for what is not possible.
+// The error of an invalid command line.
 #pragma once
 
 #include <fmt/format.h>

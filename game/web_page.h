@@ -17,23 +17,23 @@ namespace taut::game {
 // without three.js throws core::Error(inputOutput).
 std::filesystem::path viewerLibrary(const std::string& wish = "");
 
-// `title` heads the page, with `scene` below. Throws core::Error(inputOutput), with what to install, if there is no
-// library.
+// `title` heads the page, with `scene` below. Throws core::Error(inputOutput), with the package to install, if there is
+// no library.
 geometry::WebPage webPage(const std::string& title, const std::string& scene, const std::string& wish);
 
-// The engine for pages, as game/web.sh builds it: `wish`, else $TAUT_WEB, else where it is installed or was built.
-// Throws core::Error(inputOutput), with what to do, if there is none.
+// The engine for pages, as game/web.sh builds it: `wish`, else $TAUT_WEB, else its installation or build. Throws
+// core::Error(inputOutput), with a remedy, if there is none.
 std::filesystem::path webEngine(const std::string& wish = "");
 
 struct LivePageWish {
     std::string viewer, engine;          // folders; empty: wherever they are
     std::vector<std::string> overrides;  // "key=value"
-    std::vector<std::string> sliders;    // keys that ramps may change; empty: those that most scenes are asked about
+    std::vector<std::string> sliders;    // keys that ramps may change; empty: common keys
     bool edits = false;                  // the scene's text is open beside the picture
 };
 
-// The page in which people play with the scene. Throws core::Error(inputOutput) for what is missing or cannot be read,
-// core::Error(usage) for a slider of something that ramps cannot change.
+// The page in which people play with the scene. Throws core::Error(inputOutput) for missing or unreadable files,
+// core::Error(usage) for a slider of a key that ramps cannot change.
 std::string livePage(const std::filesystem::path& file, const scene::Loaded& scene, const LivePageWish& wish);
 
 // The row of web pages, which need no other file; --web asks for them. `page` is written around the film.

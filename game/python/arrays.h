@@ -1,4 +1,4 @@
-// Lists of the engine as NumPy arrays and back. What comes back is looked at before it is used.
+// Lists of the engine as NumPy arrays and back. Arrays from Python are checked before use.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -14,8 +14,8 @@ namespace taut::python {
 pybind11::array arrayOf(std::span<const glm::dvec3> list);
 pybind11::array arrayOf(std::span<const double> list);
 
-// Copies an array of real numbers of just this shape, (n, 3) or (n,). Throws core::Error(usage), which begins with
-// `what`, for anything else.
+// Copies an array of real numbers of just this shape, (n, 3) or (n,). Throws core::Error(usage), which begins with the
+// given name, for anything else.
 void take(const pybind11::handle& value, const std::string& what, std::span<glm::dvec3> into);
 void take(const pybind11::handle& value, const std::string& what, std::span<double> into);
 

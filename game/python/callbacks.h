@@ -16,7 +16,7 @@ namespace taut::python {
 using Held = std::shared_ptr<pybind11::object>;
 Held held(pybind11::object object);
 
-// What a world is about, for its functions and for all who ask it. Changes with the interpreter's lock held.
+// The current task of a world, for its functions and for queries. Changes with the interpreter's lock held.
 struct Activity {
     enum class Phase { still, inSystem, inTick };
     Phase phase = Phase::still;
@@ -30,12 +30,12 @@ struct ForceWishes {
     double dampingRate = 0;  // [1/s]
 };
 
-// force(t, x, v, mass) -> (n, 3), energy(t, x, v, mass) -> (n,) or null. What they raise passes through the engine,
-// with a note of where it was.
+// force(t, x, v, mass) -> (n, 3), energy(t, x, v, mass) -> (n,) or null. Their exceptions pass through the engine, with
+// a note of the place.
 world::CallbackSpec pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy,
                                 const std::shared_ptr<Activity>& activity);
 
-// Adds a line to what an exception of Python prints.
+// Adds a line to the text of an exception of Python.
 void addNote(pybind11::error_already_set& error, const std::string& text);
 
 }  // namespace taut::python

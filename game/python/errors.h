@@ -1,4 +1,4 @@
-// Errors of the engine as exceptions: taut.Error, and taut.Diverged with what is known of it.
+// Errors of the engine as exceptions: taut.Error, and taut.Diverged with its details.
 #pragma once
 
 #include <pybind11/pybind11.h>

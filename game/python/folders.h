@@ -1,4 +1,4 @@
-// Where the module finds what it reads: installed beside it, or in the checkout that it was built from.
+// The folders of the module's files: installed beside it, or in the checkout that it was built from.
 #pragma once
 
 #include <filesystem>

@@ -19,13 +19,13 @@ namespace taut::python {
 
 using pipeline::SavedState, pipeline::SceneSource;
 
-// Its functions expect the interpreter's lock and throw core::Error; those that take long let it go meanwhile.
+// Its functions expect the interpreter's lock and throw core::Error; long ones release it meanwhile.
 class LiveWorld {
   public:
     // pybind11 asks for room where an object of Python, such as World.__new__ gives, holds no world when it is used.
     static void* operator new(std::size_t size);
     LiveWorld(SceneSource source, int threads);
-    // From what save() gave, with the scene read again.
+    // From the bytes of save(), with the scene read again.
     static std::shared_ptr<LiveWorld> from(const std::string& bytes);
 
     // To be asked, between two ticks or by a system. Refuses forces and energies, of whoever asks them, and other
@@ -33,7 +33,7 @@ class LiveWorld {
     const world::World& asked() const;
     const world::SceneSpec& spec() const { return world_.spec(); }
     const std::vector<std::string>& warnings() const { return warnings_; }  // of the scene
-    // What a target names. Refuses one that names nothing.
+    // The bodies and points of a target. Refuses a target without any.
     world::Selection select(const std::string& target) const;
     void requireBodies(const std::string& target) const;  // KIND.NAME
 
@@ -52,7 +52,7 @@ class LiveWorld {
 
     image::Image draw(world::PictureSpec picture, bool debug);
 
-    // What Python's collector has to know, and lets go of.
+    // References for Python's garbage collector, and their release.
     const std::vector<Held>& functions() const { return functions_; }
 
   private:

@@ -1,4 +1,4 @@
-// Draws a world into arrays: a renderer that is made when first asked for, and made anew where the picture is another.
+// Draws a world into arrays: a renderer that is made at first use, and again for another picture.
 #pragma once
 
 #include <memory>

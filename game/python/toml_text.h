@@ -1,4 +1,4 @@
-// Values of Python as TOML, for what scenes are set to and what is applied to them.
+// Values of Python as TOML, for overrides and actions.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,11 +8,12 @@
 
 namespace taut::python {
 
-// Of a bool, a number, a text, a sequence or an array of such, a dict of such. Throws core::Error(usage), which names
-// `what`, for anything else and for what is nested too deeply.
+// Of a bool, a number, a text, a sequence or an array of these, a dict of these. Throws core::Error(usage), which names
+// the subject, for anything else and for too deep nesting.
 std::string tomlOf(const pybind11::handle& value, const std::string& what);
 
-// What `set=` may be: a text "cloth.flag.cells=[72,48]", a sequence of such, or a dict {"cloth.flag.cells": [72, 48]}.
+// The argument `set=`: a text "cloth.flag.cells=[72,48]", a sequence of these, or a dict {"cloth.flag.cells": [72,
+// 48]}.
 std::vector<std::string> overridesOf(const pybind11::handle& set);
 
 }  // namespace taut::python

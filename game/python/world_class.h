@@ -1,4 +1,4 @@
-// The class taut.World, and what it gives.
+// The class taut.World, and the classes of its results.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,4 +1,4 @@
-// What JavaScript holds: something that answers calls by name, with arguments and answers as JSON.
+// An object for JavaScript: it answers calls by name, with arguments and answers as JSON.
 #pragma once
 
 #include <functional>

@@ -19,7 +19,7 @@ SceneSource sourceIn(const Json& with);
 // Reads it in the working folder. Throws core::Error.
 scene::Loaded read(const SceneSource& source);
 
-// What is measured, by the names of claims, else by those of metrics.csv, and energies [J].
+// All metrics, by the names of claims, else by those of metrics.csv, and energies [J].
 Json measuresOf(const world::Metrics& metrics);
 Json divergenceOf(const world::Divergence& divergence);
 

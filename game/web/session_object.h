@@ -1,4 +1,4 @@
-// A scene that a page plays: with a hand for the mouse, pictures between ticks, and a record of what was done.
+// A scene that a page plays: with a hand for the mouse, pictures between ticks, and a record of the actions.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -40,7 +40,7 @@ class SessionObject : public Object {
     live::Ray rayOf(const Json& with) const;
     view::Camera cameraOf(const Json& with) const;
 
-    // What the page has of a part.
+    // The data of a part in the page.
     struct Shown {
         std::shared_ptr<const view::Topology> topology;
         std::shared_ptr<const view::Geometry> geometry;

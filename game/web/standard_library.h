@@ -1,4 +1,4 @@
-// What the standard library of emscripten 3.1.6 (libc++ 13) lacks of C++20. It comes before all other headers.
+// C++20 parts that the standard library of emscripten 3.1.6 (libc++ 13) lacks. Include it before all other headers.
 #pragma once
 
 #include <cerrno>

@@ -8,7 +8,7 @@ namespace taut::web {
 // With text, name, overrides and ticks: the bytes of a tape, valid until the next call.
 Json recordedTape(const Json& with);
 
-// With bytes: plays what the tape was made of and tells how many ticks it has, and the first difference, if any.
+// With bytes: plays the scene of the tape and returns its number of ticks, and the first difference, if any.
 Json replayedTape(const Json& with);
 
 }  // namespace taut::web

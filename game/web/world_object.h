@@ -38,7 +38,7 @@ class WorldObject : public Object {
     std::optional<check::Watcher> watcher_;  // where the scene has claims
     std::optional<world::Divergence> divergence_;
 
-    // What the last call told of.
+    // The results of the last call.
     world::PointsNow points_;
     std::vector<glm::dvec3> positions_;
     std::string text_;

@@ -1,4 +1,4 @@
-// Doubts about bodies that touch, found before the first tick: what a scene asks for and hardly means.
+// Warnings about bodies with `touch`, found before the first tick: settings that are probably mistakes.
 #pragma once
 
 #include <map>

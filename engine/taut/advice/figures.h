@@ -1,4 +1,4 @@
-// What the files of a scene's figures hold.
+// Contents of the files of a scene's figures.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct SceneSpec;
 // Figures that nothing moves.
 std::vector<core::Finding> figureDoubts(const SceneSpec& scene);
 
-// A text for each figure: its size, the names of its animations and joints, and what of its file is not read.
+// A text for each figure: its size, the names of its animations and joints, and the ignored parts of its file.
 std::vector<std::string> figureNotes(const SceneSpec& scene);
 
 }  // namespace taut::world

@@ -1,5 +1,5 @@
-// The language of checks: a claim such as "max_strain(cloth.*) < 0.1" as a text, and what a world says to it. It knows
-// no files; whether a scene has the bodies that a claim names is for others to ask.
+// The language of checks: a claim such as "max_strain(cloth.*) < 0.1" as a text, and its evaluation in a world.
+// Independent of files; the caller checks that a scene has the named bodies.
 #pragma once
 
 #include <cstddef>
@@ -47,13 +47,13 @@ struct Call {
     std::vector<Mention> targets;
 };
 
-// What became of a claim at one moment: of its comparison that fails by most, or is nearest to it.
+// The result of a claim at one moment: of the comparison that fails by most, or is nearest to failing.
 struct Outcome {
     bool holds = false;
     double value = 0;
     std::string relation;  // of value to bound: "<"
     double bound = 0;
-    std::string unit;     // of both; empty if it has none
+    std::string unit;     // of the two sides; empty without a unit
     double margin = 0;    // how far the value is inside the bound; negative if it fails, not a number if either is none
     std::string subject;  // "max_strain(cloth.*)": the part of the claim that has the value
 };
@@ -61,7 +61,7 @@ struct Outcome {
 struct Claim;
 class Now;
 
-// What targets name in a world, and the surfaces of two of them, each found once as long as no body comes or goes.
+// Targets in a world, and the surfaces of two of them, each cached while no body comes or goes.
 struct Selections {
     std::map<std::string, world::Selection> of;
     std::map<std::pair<std::string, std::string>, std::shared_ptr<world::BodySurfaces>> surfaces;

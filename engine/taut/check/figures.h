@@ -22,7 +22,7 @@ class Figures {
     // (columns) the expressions; one of three components has a column for each, "….x".
     const std::vector<std::string>& names() const { return names_; }
 
-    // (columns) at a published tick; not a number as long as what an expression speaks of is not there.
+    // (columns) at a published tick; not a number while a target of an expression is missing.
     std::vector<double> of(const world::World& world);
 
   private:

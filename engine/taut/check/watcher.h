@@ -19,7 +19,7 @@ namespace taut::check {
 // An outcome with its moment.
 struct Sighting {
     std::int64_t tick = 0;
-    std::int64_t frame = 0;  // the first that shows it or what follows
+    std::int64_t frame = 0;  // the first tick that shows it or its consequence
     double time = 0;         // [s]
     Outcome outcome;
     std::string where;  // see Check::where

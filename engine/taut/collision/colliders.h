@@ -103,11 +103,11 @@ class Colliders {
     // A copy of the colliders that moves independently; the forms are shared.
     Colliders clone() const;
 
-    // Sets the pose at the start and the end of the coming step. It holds until the next call, so a collider that stops
-    // needs one more call, with the same pose twice. A still collider needs no call. Between the two poses the position
-    // moves straight and the rotation turns the short way. If any corner would be faster than 100 m/s, the collider
-    // counts as having jumped: for this step it stands still at its end, has no speed, and passes through what lay
-    // between. Expects a number below size(); throws core::Error(badContent) for a pose that is not finite.
+    // Sets the pose at the start and the end of the next step. It holds until the next call, so a collider that stops
+    // needs one more call, with the same pose twice. A collider at rest needs no call. Between the two poses the
+    // position moves straight and the rotation turns the short way. If any corner would be faster than 100 m/s, the
+    // collider counts as having jumped: for this step it rests at its end, has no speed, and passes through everything
+    // in between. Expects a number below size(); throws core::Error(badContent) for a pose that is not finite.
     void move(int collider, const Pose& from, const Pose& to);
 
     // Brings the points of one body out of all colliders at the end of a step of length h [s]. Swept: a point that
@@ -150,16 +150,16 @@ class Colliders {
     };
     Near nearest(const glm::dvec3& position, double reach) const;
 
-    // Appends what points go through, and colliders whose surface is less than their reach from where they end, at
-    // their end-of-step poses, in their order; for each, the points in theirs. Of a mesh the nearest place alone. What
-    // a point has met, the surface is a plane where it did. thickness [m]: what goes there meets a surface that is so
-    // near. seconds: that it took, in which colliders move as in their steps of h [s]. It costs least where points that
-    // follow each other are near each other.
+    // Appends the surfaces that points pass through, and colliders whose surface is nearer than their reach to their
+    // end, at their end-of-step poses, in their order; for each, the points in theirs. Of a mesh only the nearest
+    // place. At a point's contact the surface is the plane there. thickness [m]: contact distance. seconds: duration of
+    // the paths, in which colliders move as in their steps of h [s]. It costs least if consecutive points are near each
+    // other.
     struct Ways {
         std::span<const int> points;                  // numbers in the lists
         std::span<const glm::dvec3> from, to;         // [m]
         double reach;                                 // [m]
-        double ahead = 0;                             // [s] the reach is longer by what a point goes in this time
+        double ahead = 0;                             // [s] the reach is longer by the motion of a point in this time
         std::span<const glm::dvec3> velocities = {};  // [m/s] not needed without
     };
     struct Surface {

@@ -51,7 +51,7 @@ class Convex {
     virtual SupportingFace faceTowards(const dvec3& direction) const = 0;
     // The whole shape's distance as a formula, if it has one.
     virtual ClosedShape closed() const { return {}; }
-    // What points meet; by default closed(). Expects a shape that is not rounded, or is a sphere or a capsule.
+    // The form for points; by default closed(). Expects a shape that is not rounded, or is a sphere or a capsule.
     virtual std::shared_ptr<const Form> form() const;
     // The place of the core that is furthest in a direction [m].
     dvec3 support(const dvec3& direction) const;
@@ -100,10 +100,10 @@ struct Manifold {
     std::span<const Place> places() const { return {of.data(), static_cast<std::size_t>(count)}; }
 };
 
-// A pure function of both poses: places whose gap is below `reach` [m]. Bullet's GJK and EPA find the normal and the
-// nearest place. The supporting faces of both sides, clipped against each other, give the others. Exact to rounding for
-// cores that are apart; of cores that overlap, the depth is good to 1e-5 of the size. No manifold is kept from call to
-// call.
+// A pure function of the two poses: places whose gap is below `reach` [m]. Bullet's GJK and EPA find the normal and the
+// nearest place. The supporting faces of the two sides, clipped against each other, give the others. Exact to rounding
+// for cores that are apart; of cores that overlap, the depth is good to 1e-5 of the size. No manifold is kept from call
+// to call.
 Manifold manifoldOf(const Convex& a, const Frame& atA, const Convex& b, const Frame& atB, double reach);
 
 }  // namespace taut::collision

@@ -1,4 +1,4 @@
-// Edges and faces of deformable bodies near a convex shape whose distance is a formula: what comes near between points.
+// Edges and faces of deformable bodies near a convex shape whose distance is a formula: contact between points.
 //
 //     a ------x------ b      an edge: the place x inside of it where the distance is least
 //           (   )

@@ -19,7 +19,7 @@ class Form {
     virtual ~Form() = default;
 
     // The signed distance from p [m], and the direction in which it grows fastest. It must not exceed the distance from
-    // p to the surface: the default sweep() moves points by it.
+    // p to the surface: the default sweep() moves points by the result.
     virtual Nearest nearest(const dvec3& p) const = 0;
 
     // Whether a path ends, or passes, too near to the surface. `touch` then gets the half-space in which the path has
@@ -40,7 +40,7 @@ class Form {
     // The closed form that loops over arrays of points may use for a convex form; none: points are tested one by one.
     virtual ClosedShape closed() const { return {}; }
 
-    // What finds the nearest places of a mesh, for loops over many points; nullptr: points are tested one by one.
+    // The finder of the nearest places of a mesh, for loops over many points; nullptr: points are tested one by one.
     virtual const FootFinder* feet() const { return nullptr; }
 
     // Its corners and sharp edges; none: the points of the bodies that touch it suffice.

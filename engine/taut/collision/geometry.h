@@ -52,7 +52,7 @@ struct Path {
     dvec3 from;        // [m]
     dvec3 to;          // [m]
     double thickness;  // [m] distance to keep
-    double skin;       // [m] what rounding makes of a distance: nearer than thickness + skin counts as touching
+    double skin;       // [m] rounding error of a distance: nearer than thickness + skin counts as touching
 };
 
 // The half-space normal · p >= offset in which the path has to end.

@@ -21,8 +21,8 @@ struct Outline {
     };
     std::vector<dvec3> vertices;  // [m] ends of edges, and wings
     std::vector<Edge> edges;
-    std::vector<int> corners;  // vertices without those that are only wings, ascending
-    bool isConvex = false;     // what it is of
+    std::vector<int> corners;  // vertices, without vertices of wings only, ascending
+    bool isConvex = false;     // its source
 };
 
 // Triangles that bound a solid: the edges that stand out of it. An open surface: all sharp edges, and the border.

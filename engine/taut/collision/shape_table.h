@@ -1,6 +1,5 @@
-// All shapes by name, of colliders, of solids and of the parts of their compounds. The table is a value: a program may
-// add shapes of its own. A new shape of the engine is one file in shapes/, with what its row says, and one line in
-// shape_table.cpp.
+// All shapes by name, for colliders, solids and parts of compounds. The table is a value: a program may add shapes of
+// its own. A new shape of the engine is one file in shapes/, with its row, and one line in shape_table.cpp.
 #pragma once
 
 #include <array>
@@ -35,7 +34,7 @@ struct ShapeSizes {
     std::vector<std::uint32_t> triangles;  // (3 · triangles) counter-clockwise seen from outside
     double edge = 0.0;                     // rounding of edges, for the eye
     bool stands = false;                   // with its lower side on a ground
-    std::map<std::string, double, std::less<>> own;  // what a shape adds to these, by its key
+    std::map<std::string, double, std::less<>> own;  // additional keys of a shape
 };
 
 // A size that only this shape has, beyond the fields of all colliders.
@@ -51,7 +50,7 @@ struct OwnSize {
 struct SolidShape {
     std::vector<dvec3> positions;  // [m] without the rounding
     std::vector<std::array<int, 3>> triangles{};
-    std::vector<std::array<int, 2>> lines{};          // of what is thin without its rounding
+    std::vector<std::array<int, 2>> lines{};          // for shapes that are thin without their rounding
     double sag = 0;                                   // [m] how far round sides are outside of the triangles at most
     std::map<std::string, std::vector<int>> sides{};  // points by name, "top"
     // Of the whole shape; none: of the triangles, which have to be closed then.
@@ -72,8 +71,8 @@ struct ShapeKind {
     std::vector<OwnSize> own{};
     Extent extent = Extent::bounded;
 
-    // These throw core::Error(badContent) for sizes that make no shape. What points of bodies meet; none: the form of
-    // the convex shape.
+    // These throw core::Error(badContent) for sizes that make no shape. The form for points of bodies; none: the form
+    // of the convex shape.
     std::function<std::shared_ptr<const Form>(const ShapeSizes& sizes)> form{};
     // As it touches other convex shapes, its edges rounded by so much [m]; none: it is not convex.
     std::function<std::shared_ptr<const Convex>(const ShapeSizes& sizes, double rounding)> convex{};

@@ -1,4 +1,4 @@
-// A bounding box whose sides lie along the axes. It knows nothing of what is inside.
+// An axis-aligned bounding box. Independent of its contents.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,4 @@
-// What goes wrong for a reason the user can mend: an exception with a kind and findings.
+// Errors that the user can correct: an exception with a kind and findings.
 #pragma once
 
 #include <stdexcept>
@@ -23,7 +23,7 @@ class Error : public std::runtime_error {
   public:
     Error(ErrorKind kind, const std::string& message) : Error(kind, at({}) + message) {}
     Error(ErrorKind kind, Finding finding) : Error(kind, std::vector{std::move(finding)}) {}
-    // what() is all of them as printed, one below the other. Expects one at least.
+    // The message has all findings as printed, one below the other. Expects at least one.
     Error(ErrorKind kind, std::vector<Finding> findings);
     ErrorKind kind() const { return kind_; }
     const std::vector<Finding>& findings() const { return findings_; }
@@ -38,5 +38,5 @@ class Error : public std::runtime_error {
 
 }  // namespace taut::core
 
-// Checks what the caller promised; stays on in every build because it stands outside hot loops.
+// Checks a precondition of the caller; stays on in every build because it is used outside hot loops.
 #define TAUT_EXPECTS(condition) ((condition) ? void() : ::taut::core::failCheck(#condition, __FILE__, __LINE__))

@@ -13,8 +13,7 @@ std::string filePartName(const std::filesystem::path& file, std::size_t offset, 
                          std::string_view ending);
 bool isFilePart(const std::filesystem::path& name);
 
-// What a file of this name, or such a part, holds. Throws as fileContent() does, and core::Error(badContent) for a part
-// that its file has not.
+// Content of a file, or of a part of it. Throws as fileContent() does, and core::Error(badContent) for a missing part.
 inline constexpr std::uint64_t mostPart = std::uint64_t{64} << 20U;  // [bytes] more is no picture of a surface
 std::string filePartContent(const std::filesystem::path& name, std::uint64_t maxBytes = mostPart);
 

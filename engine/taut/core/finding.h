@@ -1,4 +1,4 @@
-// What is wrong with a file or a run, or may be, and where it was written.
+// An error or warning about a file or a run, with its place.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Finding {
     Severity severity = Severity::error;
     Source source{};  // without a file where no place is known; without a line where it is all of the file, or a flag
     std::string text{};
-    std::string remedy{};   // what to write instead, unless the text has it
+    std::string remedy{};   // the correct text, unless `text` has it
     std::string excerpt{};  // the line of the file, and a caret below it
     bool operator==(const Finding&) const = default;
 };

@@ -10,7 +10,7 @@ namespace taut::core {
 // The finite number that is all of the text, apart from blanks around it.
 std::optional<double> numberIn(std::string_view text);
 
-// What stands between the commas of a line, without blanks around it; of an empty line one empty cell.
+// The cells between the commas of a line, without surrounding blanks; one empty cell for an empty line.
 std::vector<std::string_view> cellsOf(std::string_view line);
 
 }  // namespace taut::core

@@ -16,7 +16,7 @@ struct RigidMotion {
     glm::dvec3 velocityAt(const glm::dvec3& x) const { return velocity + glm::cross(spin, x - centre); }
 };
 
-// Masses of the points of a rigid body [kg], of which those that do not move (0) are so heavy that it turns about them.
+// Masses of the points of a rigid body [kg], in which fixed points (mass 0) are so heavy that it turns about them.
 // Returns the mass of the others; 0: it is fixed.
 inline double massesOf(std::span<const double> inverseMass, std::vector<double>& masses) {
     constexpr double heldOver = 1e9;

@@ -1,5 +1,5 @@
 // Special members of large values, compiled once. Otherwise every file that copies or destroys a struct of maps, texts
-// and lists compiles them again, with what they need of the standard library: a quarter of all functions.
+// and lists compiles them again, with their parts of the standard library: a quarter of all functions.
 #pragma once
 
 // In the struct. It is no aggregate then.
@@ -16,7 +16,7 @@
     Type::Type() = default;      \
     TAUT_VALUE_COPIES(Type)
 
-// Likewise for a struct that defines its default constructor itself.
+// The same for a struct that defines its default constructor itself.
 #define TAUT_VALUE_COPIES(Type)                   \
     Type::~Type() = default;                      \
     Type::Type(const Type&) = default;            \
@@ -24,7 +24,7 @@
     Type& Type::operator=(const Type&) = default; \
     Type& Type::operator=(Type&&) noexcept = default
 
-// Likewise of a base with virtual functions, which declares them itself: a destructor, and copies for its kinds.
+// The same for a base with virtual functions, which declares them itself: a destructor, and copies for its kinds.
 #define TAUT_BASE_MEMBERS(Type)                   \
     Type::Type() = default;                       \
     Type::Type(const Type&) = default;            \

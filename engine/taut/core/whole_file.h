@@ -1,5 +1,5 @@
-// Files that are there whole or not at all: written under a temporary name and renamed at the end.
-// It knows nothing of what is in them.
+// Files that are complete or absent: written under a temporary name and renamed at the end. Independent of their
+// contents.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ void prepareFolderOf(const std::filesystem::path& path);
 // of that name from before is untouched.
 class WholeFile {
   public:
-    // Makes the temporary file anew, also where a killed process has left one; waits at most so long for another that
+    // Creates the temporary file, replacing one of a killed process; waits at most this long for another process that
     // is writing it. Throws core::Error(inputOutput).
     explicit WholeFile(std::filesystem::path path, std::chrono::milliseconds patience = {});
     ~WholeFile();
@@ -55,8 +55,8 @@ void writeWholeFile(const std::filesystem::path& path, std::string_view content)
 // Whether there is anything of that name; false where that cannot be known.
 bool isThere(const std::filesystem::path& path);
 
-// What a file or a pipe holds. Throws core::Error: inputOutput when it is missing, unreadable, a folder or a device, or
-// when nothing comes for as long as `patience`; badContent when there is more than maxBytes, before more is taken.
+// Content of a file or a pipe. Throws core::Error: inputOutput if it is missing, unreadable, a folder or a device, or
+// if nothing arrives within `patience`; badContent for more than maxBytes, before it reads more.
 inline constexpr std::uint64_t mostText = std::uint64_t{16} << 20U;  // [bytes] more is no text that people wrote
 std::string fileContent(const std::filesystem::path& path, std::uint64_t maxBytes = mostText,
                         std::chrono::milliseconds patience = std::chrono::seconds(10));

@@ -1,7 +1,7 @@
-// Entities and their components: who exists, and what each has. It knows no component type.
+// Entities and their components. Independent of component types.
 //
-// An entity is a cloth, a rope, a collider, a camera; never a point. Pools are plain arrays that stay in the order of
-// adding, so that iteration is the same in every run, with an index by entity beside them (a sparse set).
+// An entity is a cloth, a rope, a collider, a camera; never a point. Pools are plain arrays in the order of insertion,
+// so that iteration is the same in every run, with an index by entity beside them (a sparse set).
 #pragma once
 
 #include <cstddef>
@@ -52,7 +52,7 @@ class Registry {
     }
 
     // Calls f(entity, c, more…) for every entity that has all these components, in the order in which the first was
-    // added. f may create and destroy entities: it sees those that existed and still exist.
+    // added. f may create and destroy entities: the loop visits the entities that existed at its start and still exist.
     template <class C, class... More, class F>
     void each(F&& f) {
         const Pool<C>* pool = findPool<C>();

@@ -1,5 +1,5 @@
-// The field table. A row says what a key of a scene file is called, what it means, what it may hold and where its value
-// goes. The validator, the JSON schema and the manual are made from this one table. It knows nothing of TOML.
+// The field table. A row has the name of a key of a scene file, its description, its values and its destination. The
+// validator, the JSON schema and the manual are made from this table. Independent of TOML.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ enum class FieldKind {
     texts,           // a list of texts
     oneOrMoreTexts,  // a text, or a list of texts
     wholes,          // a list of whole numbers
-    numbers,         // a number, a list of numbers or a colour: what another field may hold
+    numbers,         // a number, a list of numbers or a colour: a value of another field
     table,           // fields of its own
     tables,          // a list of tables
 };
@@ -50,7 +50,7 @@ inline constexpr Range positive{smallest, 1e12};
 inline constexpr Range notNegative{0.0, 1e12};
 inline constexpr Range share{0.0, 1.0};
 
-// What a text refers to, which is checked when the whole scene is known; or what a number stands for.
+// The target of a reference in a text, checked after the entire scene is read; or the meaning of a number.
 enum class Role {
     none,
     material,     // [material.NAME]
@@ -73,7 +73,7 @@ enum class Role {
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
                            std::vector<std::string>>;  // lists of whole numbers are numbers too
 
-// What a number affects if it may change while a scene runs.
+// The effect of a number that may change while a scene runs.
 enum class Affects { picture, forces, colliders, springs };  // springs: of bodies and their materials
 
 struct Section;
@@ -93,7 +93,7 @@ struct Field {
     std::string inPlaceOf;          // another key of the section, beside which it does not stand; empty: none
     std::string goesWith;           // another key, which in a layer above takes this one out; empty: none
     Role role = Role::none;
-    std::optional<Affects> ramp;  // what it affects, if a ramp may change it
+    std::optional<Affects> ramp;  // its effect, if a ramp may change it
     std::string help;
 
     std::function<void(void*, const Value&)> write;  // into the section's struct
@@ -140,8 +140,8 @@ struct Section {
     // then the fields of all forms. The manual uses them, and the message about a key that stands in the wrong place.
     std::vector<Section> forms;
 
-    // Checks what no single field can check. It is called after the fields are read, even if some were wrong, and may
-    // change the struct.
+    // Checks combinations of fields. It is called after the fields are read, even if some were wrong, and may change
+    // the struct.
     std::function<void(const CheckInput&, void*)> check;
 
     const Field* find(const std::string& key) const;

@@ -1,5 +1,5 @@
-// Builds the rows of the field table. Each field is one call with a pointer to its member. A row keeps how many bytes
-// that is into the struct; how members are written and read is said once for each type, in field_list.cpp.
+// Builds the rows of the field table. Each field is one call with a pointer to its member. A row keeps the member's
+// offset in the struct; field_list.cpp writes and reads members, once per type.
 #pragma once
 
 #include <algorithm>
@@ -154,7 +154,7 @@ class FieldList {
         bind<std::vector<int>>(add(key, FieldKind::wholes, "", range, help), offsetOf(member));
         return *this;
     }
-    // What another field may hold.
+    // The value of another field.
     FieldList& numbers(const char* key, std::vector<double> Spec::*member, const char* help) {
         bind<std::vector<double>>(add(key, FieldKind::numbers, "", anyNumber, help), offsetOf(member));
         return *this;

@@ -39,7 +39,7 @@ struct Node {
     std::string textAt(std::string_view key) const;  // empty if it has no such text
     Member* find(std::string_view key);
 
-    // What is inside under that key; null: nothing.
+    // The member with that key; null: none.
     const Node* at(std::string_view key) const;
     Node* at(std::string_view key);
     const Node* along(const KeyPath& path) const;
@@ -53,7 +53,7 @@ struct Member {
     Node value;
 };
 
-// What a value is, for messages: "7", "\"red\"", "a list of 3", …
+// A description of a value for messages: "7", "\"red\"", "a list of 3", …
 std::string description(const Node& node);
 
 }  // namespace taut::fields

@@ -63,7 +63,7 @@ struct Part {
     std::vector<std::vector<dvec3>> targets;  // (morph targets) (vertices) displacements
 };
 
-// What is drawn with one material. Several drawn vertices may stand at one vertex: at seams and sharp edges.
+// Triangles drawn with one material. Several drawn vertices may stand at one vertex: at seams and sharp edges.
 struct Piece {
     std::vector<int> vertices;             // (drawn vertices) of the figure
     std::vector<int> smooth;               // (drawn vertices) those with the same number share a normal

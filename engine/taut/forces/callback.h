@@ -32,8 +32,7 @@ struct CallbackSpec {
     // Writes the potential energy of every point into e (points) [J]. Without it the force has none.
     std::function<void(const CallbackPoints& points, std::span<double> e)> energy{};
 
-    // What the steps have to allow for at every point: how steeply the force rises with distance, and how fast it
-    // damps.
+    // Upper bounds for the step at every point: how steeply the force rises with distance, and how fast it damps.
     double stiffness = 0.0;    // [N/m]
     double dampingRate = 0.0;  // [1/s]
 };

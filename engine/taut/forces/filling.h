@@ -19,7 +19,7 @@ struct FillingSpec final : SpecOf<FillingSpec, ForceSpec> {
     std::vector<std::string> in;      // bodies, e.g. "cloth.ball"
     double pressure = 0;              // [Pa] more than outside, at the first volume
     mechanics::FillingKeeps keeps{};  // the pressure
-    double bulkModulus = 1e6;         // [Pa] of what keeps its volume
+    double bulkModulus = 1e6;         // [Pa] for a kept volume
 
     static fields::Section section();
     std::shared_ptr<const Force> make(const SceneSpec& scene) const override;

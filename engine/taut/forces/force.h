@@ -58,10 +58,10 @@ class Force {
 // Whether both save the same values.
 bool hasSameBytes(const Force& a, const Force& b);
 
-// Implements what is the same for every force. `Own` must have
+// The common part of all forces. `Own` must have
 //   template <class Real> std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan&) const;
-// Forces that change while they act override the rest: visit() for all that a ramp or the force itself changes, the
-// others for changes after which no method has to start again.
+// Forces that change while they act override the rest: visit() for all values that a ramp or the force itself changes,
+// the others for changes without a restart of the method.
 template <class Own>
 class ForceOf : public Force {
   public:

@@ -1,5 +1,5 @@
-// Passes every n-th frame on and measures what is lost between them: how far a program that moves vertices evenly from
-// one to the next has them from where they were. It knows no format.
+// Passes every n-th frame on and measures the loss between them: the error of linear interpolation of vertices.
+// Independent of formats.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ class EveryNth : public GeometrySink {
     std::vector<view::FrameView> between_;  // since
     LostMotion lost_;
     double sum_ = 0.0;        // of squares [m²]
-    std::int64_t count_ = 0;  // of what is summed
+    std::int64_t count_ = 0;  // number of summands
 };
 
 }  // namespace taut::geometry

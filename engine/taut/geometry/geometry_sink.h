@@ -18,7 +18,7 @@ struct GeometryOptions {
     bool isCompact = false;          // GLB for taut's own pages: moves of 16 bits, normals of the first frame alone
     int digits = 5;                  // behind the point, in formats of text; 1 … 9
     std::string generator = "taut";  // named in the file
-    // Of what is wanted, by its full name: "cloth.flag", "collider.ball", "ground"; null: everything.
+    // Selects parts by their full names: "cloth.flag", "collider.ball", "ground"; null: everything.
     std::function<bool(const std::string& name)> isWanted{};
 };
 
@@ -43,12 +43,12 @@ class GeometrySink {
   public:
     virtual ~GeometrySink() = default;
 
-    // Takes what a frame shows; frames come in ascending order. Throws core::Error: inputOutput, a full disk included;
-    // badContent where the format cannot hold it; TopologyChanged.
+    // Writes a frame; frames come in ascending order. Throws core::Error: inputOutput, a full disk included; badContent
+    // if the format cannot hold it; TopologyChanged.
     virtual void write(const view::FrameView& view) = 0;
 
-    // Gives the file its name; expects a frame, and none after it. Without it none comes into being, and what was there
-    // stays. Throws core::Error(inputOutput).
+    // Gives the file its name; expects at least one frame, and none afterwards. Without it no file is created, and an
+    // old one stays. Throws core::Error(inputOutput).
     virtual void finish() = 0;
 };
 

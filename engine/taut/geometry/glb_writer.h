@@ -1,6 +1,6 @@
-// A film as one glTF 2.0 binary file, .glb: what the web, Blender and VTK read. Every frame is a morph target of what
-// changes shape, with keys between which programs move evenly; what is rigid moves as a node. Time begins at the first
-// frame. It holds one topology for all frames, and at most 4 GB.
+// A film as one glTF 2.0 binary file, .glb, for the web, Blender and VTK. Every frame is a morph target of deforming
+// meshes, with linearly interpolated keys; rigid parts move as nodes. Time begins at the first frame. It has one
+// topology for all frames, and at most 4 GB.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// A film as USD text, .usda: what Houdini, Omniverse, Unreal and Blender read. Time codes are the numbers of frames.
-// Meshes have points and normals at every frame that changes them, and other triangles from when something tears.
+// A film as USD text, .usda, for Houdini, Omniverse, Unreal and Blender. Time codes are frame numbers. Meshes have
+// points and normals at every frame that changes them, and new triangles after a tear.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// A film as one page for browsers: the GLB of it, packed, as text, between two halves of a page that somebody else has
-// written. It does not know what the page does with it.
+// A film as one page for browsers: its GLB, packed, as text, between two halves of a given page. Independent of the
+// behaviour of the page.
 #pragma once
 
 #include <cstdint>

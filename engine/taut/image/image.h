@@ -14,17 +14,17 @@ inline constexpr std::uint16_t farDepth = 65535;  // where there is nothing
 // Of a picture, beside its colours: one number of 16 bits a pixel, or three of 8. The other array is empty.
 struct Layer {
     std::string name;                   // "depth"
-    std::string comment{};              // what the numbers are, for the files
+    std::string comment{};              // meaning of the numbers, for the files
     std::vector<std::uint16_t> grey{};  // (height × width)
     std::vector<std::uint8_t> rgb{};    // (height × width × 3)
 };
 
-// 8-bit sRGB, three channels, rows from top to bottom. What lies beside the colours is empty where nobody asked for it.
+// 8-bit sRGB, three channels, rows from top to bottom. Layers beside the colours are empty unless requested.
 struct Image {
     int width = 0;
     int height = 0;
     std::vector<std::uint8_t> rgb;      // (height × width × 3)
-    std::vector<std::uint8_t> alpha{};  // (height × width) straight: colours are not multiplied by it; empty: opaque
+    std::vector<std::uint8_t> alpha{};  // (height × width) straight, not premultiplied; empty: opaque
     std::vector<Layer> layers{};
 
     // nullptr when there is none of that name.

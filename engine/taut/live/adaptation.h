@@ -1,5 +1,5 @@
-// Which of several levels of drawing there is time for, found while pictures are drawn. It knows neither what a level
-// looks like nor a clock: it is told how long things took.
+// Finds the finest level of drawing that is fast enough, while pictures are drawn. Independent of the levels and of
+// clocks: the caller passes durations.
 #pragma once
 
 #include <vector>

@@ -5,8 +5,8 @@
 
 namespace taut::live {
 
-// `share` 0 is `before`, 1 is `now`. What has no counterpart in `before` (a new body, a cloth that tore) is taken from
-// `now`, as labels are. Debug marks are blended if both have the same number.
+// `share` 0 is `before`, 1 is `now`. Parts without a counterpart in `before` (a new body, a torn cloth) come from
+// `now`, and so do labels. Debug marks are blended if both have the same number.
 view::FrameView between(const view::FrameView& before, const view::FrameView& now, double share);
 
 }  // namespace taut::live

@@ -1,5 +1,5 @@
-// Turns the motion of a mouse into actions of a timeline: grab, move and release, in whole ticks and round numbers, so
-// that a file can say exactly what was done. It knows neither the mouse nor the world.
+// Turns the motion of a mouse into actions of a timeline: grab, move and release, in ticks and round numbers, so that a
+// file can reproduce them exactly. Independent of the mouse and the world.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ class MouseHand {
     const std::string& id() const { return id_; }
     bool isHolding() const { return isHolding_; }
 
-    // What the hand does next. grab() takes the target "cloth.curtain@#12" and the points within `radius` [m] of it, by
-    // springs of `strength` [N/m] in total with that damping ratio; `place` [m] is the target's place.
-    // It pulls with `maxForce` [N] at most, and with any force at 0.
+    // The next action of the hand. grab() takes the target "cloth.curtain@#12" and the points within `radius` [m] of
+    // it, by springs of `strength` [N/m] in total with that damping ratio; `place` [m] is the target's place. It pulls
+    // with at most `maxForce` [N]; 0: no limit.
     void grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place,
               double maxForce = 0.0);
     void leadTo(glm::dvec3 place);  // ways of less than 2 mm are ignored

@@ -1,5 +1,5 @@
-// What lies under the mouse: rays through a picture, and the point of a body that a hand would grab. It knows neither
-// the mouse nor the world.
+// Finds the point under the mouse: rays through a picture, and the point of a body for a hand. Independent of the mouse
+// and the world.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,5 +1,5 @@
-// Writes what the user did since the start of a run as a scenario file that does the same. It knows neither the world
-// nor where the file goes.
+// Writes the actions of the user since the start of a run as a scenario file that repeats them. Independent of the
+// world and of files.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace taut::live {
 
 struct Recording {
     std::string scene;                   // that was played, as the file names it: a path beside it, or a shipped one
-    std::vector<std::string> overrides;  // "solver.dt=1e-4": what was changed besides
+    std::vector<std::string> overrides;  // "solver.dt=1e-4": further overrides
     world::RunSpec run;
     double ticksPerSecond = 60.0;
     int ticksPerFrame = 1;

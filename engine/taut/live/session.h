@@ -25,8 +25,8 @@ class Session {
   public:
     // Builds the world, with hands allowed anywhere. Throws core::Error(badContent).
     Session(world::SceneSpec spec, int threads);
-    // The same at the moment where `from` is, with what its hand does and has done: of a scene that leads there too.
-    // Throws core::Error(badContent) where that state does not fit it.
+    // A session at the time of `from`, with its hand and its past actions, of a scene that leads there too. Throws
+    // core::Error(badContent) if that state does not fit it.
     Session(world::SceneSpec spec, int threads, const Session& from);
     ~Session();
     Session(const Session&) = delete;
@@ -52,11 +52,11 @@ class Session {
     const world::Specs<world::ActionSpec>& deeds() const;  // of the hand since the start
     // The points that may be grabbed, at their present places: free points only, unless `withHeld`.
     std::vector<BodyPoints> bodies(bool withHeld = false) const;
-    // [N] that a hand in a window pulls this body with at most, so that it slips from what it cannot move instead of
-    // stretching it: `weights` times the weight on earth of the free points of all that hangs together with it.
+    // [N] largest force of a hand in a window on this body, so that it slips from heavy bodies instead of stretching
+    // them: `weights` times the weight on earth of the free points of all connected bodies.
     static constexpr double weights = 2.0;
     double handForce(const std::string& body) const;
-    // The hand takes a point, as a window's does: with the scene's springs, what is near it too, and that force.
+    // The hand takes a point, as that of a window: with the scene's springs, with nearby points, and with that force.
     void grab(const PickedPoint& point);
 
     // An action at the start of the next tick, before the hand's, which is kept as one of its deeds. It has to begin at
@@ -69,8 +69,8 @@ class Session {
     // The action errors since the last call.
     std::vector<std::string> takeFaults();
 
-    // Goes on to the next frame and returns what happened since the start. It plays at least one tick if the hand did
-    // something after the last tick. The caller sets `scene` and `overrides`. Do not call it after a divergence.
+    // Advances to the next frame and returns the actions since the start. It plays at least one tick if the hand acted
+    // after the last tick. The caller sets `scene` and `overrides`. Do not call it after a divergence.
     Recording record();
 
   private:

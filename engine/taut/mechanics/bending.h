@@ -11,10 +11,10 @@
 
 namespace taut::mechanics {
 
-// From what is measured: the rigidity of a sheet that is bent to a cylinder across the warp (u), across the weft (v),
-// and at 45° between them, 4 B₄₅ = B_u + B_v + 2 B_1 + 4 D_k. B_1 is 0 where D_k > 0 is left then; else it is half way
-// to its limit -√(B_u B_v). Without a bias it is that of an isotropic sheet with the mean √(B_u B_v). None where no
-// energy is positive: at or below leastBias(). Expects warp, weft >= 0.
+// From measured values: the rigidity of a sheet that is bent to a cylinder across the warp (u), across the weft (v),
+// and at 45° between them, 4 B₄₅ = B_u + B_v + 2 B_1 + 4 D_k. B_1 is 0 if D_k > 0 then; otherwise it is half way to its
+// limit -√(B_u B_v). Without a bias it is that of an isotropic sheet with the mean √(B_u B_v). None if no energy is
+// positive: at or below leastBias(). Expects warp, weft >= 0.
 std::optional<BendingRigidity> orthotropicRigidity(double warp, double weft, std::optional<double> bias);
 double leastBias(double warp, double weft);  // (√B_u - √B_v)²/4 [N m]
 // Of the sheet bent to a cylinder along a line at an angle [rad] to u [N m].

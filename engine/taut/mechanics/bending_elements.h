@@ -27,7 +27,7 @@ namespace taut::mechanics {
 struct BendingElement {
     std::vector<int> points;
     std::vector<glm::dvec3> weights;  // (points) of uu, vv, uv [1/m²]; they sum to 0
-    glm::dmat3 held{0.0};             // columns uu, vv, uv [1/m]: of held directions; they turn with what holds them
+    glm::dmat3 held{0.0};             // columns uu, vv, uv [1/m]: of held directions; they turn with their carrier
     bool isOfRope = false;
     std::array<int, 3> corners{};  // of a triangle, in its order
     glm::dvec3 rest{0.0};          // of uu, vv, uv [1/m]; of a flat patch 0

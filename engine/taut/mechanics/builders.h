@@ -69,15 +69,13 @@ struct ClothShape {
     double grain = 0.0;  // [rad] from `across` to the warp, towards `down`
     bool isRound = false;
 };
-// Points row by row from the top left. A round cloth has the cells of which the middle lies in the ellipse that fits
-// into the size; points of no cell are held, in no group, and weigh a billionth of a cell.
-// Structural springs on the boundary are halved when lumping is weighted.
-// A cell of a by b (not square): k_s b/a along its side a, so that stretch stays per metre.
-// A grain of whole quarter turns changes warp and weft. Any other turns the rigidity as it is (FreeformBending, without
-// friction), and the stretch as nearly as springs along the grid and its diagonals can pull: exactly at 45° in square
-// cells, but for what would have to push elsewhere.
-// Groups: left, right, top, bottom, the four corners (top-left, …), corners, edges, all.
-// Expects at least one cell, and a size above zero, each way.
+// Points row by row from the top left. A round cloth has the cells with their middle inside the ellipse that fits into
+// the size; points of no cell are held, in no group, and weigh a billionth of a cell. Structural springs on the
+// boundary are halved when lumping is weighted. A cell of a by b (not square): k_s b/a along its side a, so that
+// stretch stays per metre. A grain of entire quarter turns exchanges warp and weft. Any other turns the rigidity
+// exactly (FreeformBending, without friction), and the stretch as nearly as springs along the grid and its diagonals
+// can pull: exactly at 45° in square cells, except where springs would have to push. Groups: left, right, top, bottom,
+// the four corners (top-left, …), corners, edges, all. Expects at least one cell, and a size above zero, each way.
 Model buildCloth(const ClothShape& shape);
 std::vector<std::string> clothGroups(bool isRound = false);  // of a round one neither corners
 
@@ -90,19 +88,19 @@ struct MeshClothShape {
     std::vector<std::array<glm::dvec2, 3>> cornerUv;
     ClothMaterial material;
     std::map<std::string, std::vector<int>> groups;  // more of them, vertices ascending
-    std::vector<int> numbers;                        // (vertices) what messages call them; empty: from 1
+    std::vector<int> numbers;                        // (vertices) their names in messages; empty: from 1
 };
-// What is wrong with a mesh, and the triangle concerned, from 0; -1: none in particular.
+// The fault of a mesh, and its triangle, from 0; -1: none in particular.
 struct MeshFault : core::Error {
     MeshFault(const std::string& what, int of) : Error(core::ErrorKind::badContent, what), triangle(of) {}
     int triangle;
 };
-// Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch in an isotropic sheet, and along φ from the warp
-// 4/3 (warp cos⁴φ + weft sin⁴φ + 4 shear sin²φ cos²φ) in any other; bend springs across inner edges. Groups: boundary,
-// all, and top, bottom, left, right: the points within 1 % of the size of that extreme; top-left, top-right,
-// bottom-left, bottom-right: the one point furthest into that corner, width and height counted alike; and the groups of
-// the shape that have other names. A rigidity resists bending away from the shape as it is. Throws MeshFault, which
-// says what is wrong and what helps: no triangle, an edge of three triangles, a zero area, no direction of the warp.
+// Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch in an isotropic sheet, and along φ from the warp 4/3
+// (warp cos⁴φ + weft sin⁴φ + 4 shear sin²φ cos²φ) in any other; bend springs across inner edges. Groups: boundary, all,
+// and top, bottom, left, right: the points within 1 % of the size of that extreme; top-left, top-right, bottom-left,
+// bottom-right: the one point furthest into that corner, width and height counted alike; and the groups of the shape
+// that have other names. A rigidity resists bending away from the initial shape. Throws MeshFault with a remedy: no
+// triangle, an edge of three triangles, a zero area, no direction of the warp.
 Model buildMeshCloth(const MeshClothShape& shape);
 std::vector<std::string> meshClothGroups();
 

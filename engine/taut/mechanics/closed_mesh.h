@@ -1,4 +1,4 @@
-// What a mesh needs to have an inside.
+// Conditions for the inside of a mesh.
 #pragma once
 
 #include <array>

@@ -15,7 +15,7 @@ struct DashpotRun {
     int offset;       // > 0: dashpot i joins points i and i + offset
     int stride;       // of x and v
     const Real* x;    // planes at the run's first point [m]
-    Real* v;          // likewise, changed [m/s]
+    Real* v;          // as x, changed [m/s]
     const Real* w;    // (points) at the run's first [1/kg]
     const Real* g;    // (n) [kg]
     bool isForwards;  // else from the last to the first

@@ -1,4 +1,4 @@
-// The dashpots of an island, one after the other, for methods that split them off. It knows no method.
+// The dashpots of an island, one after the other, for methods that split them off. Independent of methods.
 //
 // One dashpot between a and b at fixed positions damps u, the difference of their velocities along the unit vector n:
 //   u' = -c (w_a + w_b) u.
@@ -10,7 +10,7 @@
 //
 // A sweep is a composition of such maps (Lie and Trotter splitting). By itself it is of order 1. Each map is its own
 // adjoint, so the same sweep in the opposite order is the adjoint of the first one. before() and after() are such a
-// pair, of half a step each, and what is symmetric between them makes the whole symmetric, of order 2 (Strang 1968).
+// pair, of half a step each, and a symmetric map between them makes the step symmetric, of order 2 (Strang 1968).
 //
 // Two limits remain, of accuracy:
 // - One sweep carries an impulse along a row in the order of the sweep. Where y is large, chains of dashpots, each

@@ -59,7 +59,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     void removeGenerators(std::size_t from = 0);  // this one and those after it
 
     // Both take effect when the method is started again. They expect as many points or springs as before, and springs
-    // between the same points. setPoints() ends what lead() began.
+    // between the same points. setPoints() ends the motions of lead().
     void setPoints(std::span<const PointMass> points);
     void setSprings(std::span<const Spring> springs);
     // Takes over stiffness and rest length of these springs only, from the next evaluation on. Expects springs as
@@ -91,7 +91,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     void shareOut(double t, Real* v) override {
         if (shareOut_) shareOut_(t, v);
     }
-    // What constraints do with velocities that a kick has changed, see ode::SplitSystem.
+    // The effect of constraints on velocities after a kick, see ode::SplitSystem.
     void setShareOut(std::function<void(double t, Real* v)> shareOut) { shareOut_ = std::move(shareOut); }
     double largestPairRate() { return sweep_.largestPairRate(network(), inverseMass_.data()); }
 
@@ -120,7 +120,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     };
     // The scratch of one chunk's sweep.
     struct Lane {
-        Window window;   // after the sweep: what the chunk spills into the next
+        Window window;   // after the sweep: contributions of the chunk to the next
         Window waiting;  // forces of the first blocks, which wait for the spill of the chunk before
         int blocksWaiting = 0;
         // Where single springs are many: points of the window point by point, as PackedSpringArgs has them.
@@ -147,7 +147,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     std::vector<std::unique_ptr<ForceGenerator<Real>>> generators_;
     struct KinematicPoints {
         LedPoints led;
-        std::vector<glm::dvec3> x, v;  // (points of led) what path wrote last
+        std::vector<glm::dvec3> x, v;  // (points of led) last positions of path
     };
     std::vector<KinematicPoints> kinematic_;
     bool isExternalFilled_ = false;  // in this evaluation, by generators that need the whole island

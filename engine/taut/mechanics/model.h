@@ -93,7 +93,7 @@ struct BendingRigidity {
 // Dry friction between the threads of a grid that is flat at rest: each of its folds is also a spring on the curvature
 // κ that slips (a Jenkin element), with the moment K_p (κ - κ_s) between ± K_p yield.
 struct BendingFriction {
-    Bending stuck;          // what it is while nothing slips: K_p along and across, neither `both` nor `twist`
+    Bending stuck;          // rigidity without slip: K_p along and across, neither `both` nor `twist`
     double yield = 0;       // [1/m] > 0
     glm::dvec2 cell{1.0};   // [m] sides of a cell, along a row and across
     glm::dvec3 front{0.0};  // unit normal at rest, row × column
@@ -101,8 +101,8 @@ struct BendingFriction {
     bool isEmpty() const { return stuck.isEmpty(); }
 };
 
-// Resistance to bending of what is not a flat grid or a straight rope: of the triangles of a mesh, of a ring, of a rope
-// that is curved at rest. bending_elements.h makes elements of it.
+// Bending resistance other than of flat grids and straight ropes: of the triangles of a mesh, of a ring, of a rope that
+// is curved at rest. bending_elements.h makes elements of it.
 struct FreeformBending {
     BendingRigidity rigidity;      // of a rope only `along`, EI [N m²]
     std::vector<glm::dvec3> rest;  // (points) [m] places at rest; empty: nothing bends
@@ -114,7 +114,7 @@ struct FreeformBending {
     bool isEmpty() const { return rest.empty(); }
 };
 
-// What of a rigid body touches others as one surface: all of it, or one of the shapes that it is made of.
+// A part of a rigid body that touches others as one surface: all of it, or one of its shapes.
 struct RigidPart {
     int first = 0, last = 0;  // points
     double thickness = 0;     // [m] that it keeps from others beyond its points and triangles

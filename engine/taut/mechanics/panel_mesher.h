@@ -30,7 +30,7 @@ struct PanelMesh {
     int outlinePoints = 0;  // of all rings
 };
 
-// What is wrong with an outline, and where: a corner, or the side from it to the next. -1: nowhere in particular.
+// A fault of an outline and its place: a corner, or the side from it to the next. -1: nowhere in particular.
 struct PanelFault : core::Error {
     PanelFault(const std::string& what, int ring_, int corner_)
         : Error(core::ErrorKind::badContent, what), ring(ring_), corner(corner_) {}

@@ -13,7 +13,7 @@ struct ProductRun {
     const Real* q[3];  // (n)
     const Real* beta;  // (n)
     const Real* u;     // planes at the run's first point a
-    Real* out;         // likewise
+    Real* out;         // planes at a
 };
 
 }  // namespace taut::mechanics

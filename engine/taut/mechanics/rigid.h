@@ -18,7 +18,7 @@ using glm::dmat3;
 using glm::dvec3;
 
 struct RigidShape {
-    std::vector<dvec3> positions;  // [m] of what touches, in the body's own axes
+    std::vector<dvec3> positions;  // [m] of contact surfaces, in the body's own axes
     std::vector<std::array<int, 3>> triangles;
     std::vector<std::array<int, 2>> lines;           // a capsule's
     std::vector<RigidPart> parts;                    // of these positions
@@ -46,10 +46,10 @@ std::vector<dvec3> withFacesOutward(std::span<const dvec3> positions, std::span<
 // body's axes, nearly.
 dmat3 rotationBetween(const std::array<dvec3, 3>& rest, const std::array<dvec3, 3>& now);
 
-// Moves x to the rigid placement of `rest` that has the same sums of m x and of m from × x: so what held the points
-// together added no momentum (Σ m Δ = 0) and no angular momentum (Σ m from × Δ = 0). After a step of leap-frog this is
-// the discrete rigid body of Moser and Veselov 1991, which is symplectic and keeps angular momentum; McLachlan and
-// Zanna 2005 show that it is SHAKE for any set of points. All arrays (points).
+// Moves x to the rigid placement of `rest` that has the same sums of m x and of m from × x: so the constraint forces
+// added no momentum (Σ m Δ = 0) and no angular momentum (Σ m from × Δ = 0). After a step of leap-frog this is the
+// discrete rigid body of Moser and Veselov 1991, which is symplectic and keeps angular momentum; McLachlan and Zanna
+// 2005 show that it is SHAKE for any set of points. All arrays (points).
 void placeRigidly(std::span<const double> masses, std::span<const dvec3> rest, std::span<const dvec3> from,
                   std::span<dvec3> x);
 // Makes v [m/s] the velocities of a rigid motion with the same momentum and angular momentum.

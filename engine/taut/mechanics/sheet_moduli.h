@@ -1,4 +1,4 @@
-// What a sheet of springs resists stretching with, as a continuum.
+// Stretch moduli of a sheet of springs as a continuum.
 #pragma once
 
 #include "taut/mechanics/model.h"
@@ -19,9 +19,9 @@ struct SheetStiffness {
     StripModuli at(double angle) const;  // [rad] from the warp. {0, 0} where the sheet does not resist.
 };
 
-// The mean over a body, of its springs but those of bending, strained alike everywhere: Σ k L² n⊗n⊗n⊗n / area, where n
-// is a spring's direction in the material, from Model::grain on. Exact for grids, but for what one with a grain between
-// multiples of 45° couples besides; an upper bound for a mesh, whose points give way. A mesh that is not laid flat by
+// The mean over a body, of its springs except bending springs, strained alike everywhere: Σ k L² n⊗n⊗n⊗n / area, where
+// n is a spring's direction in the material, from Model::grain on. Exact for grids, except for additional couplings of
+// a grain between multiples of 45°; an upper bound for a mesh, whose points give way. A mesh that is not laid flat by
 // its texture coordinates has springs in all directions alike. All 0 for a body without an area.
 SheetStiffness sheetStiffness(const Model& model);
 

@@ -27,8 +27,8 @@ struct SpringBundleArgs {
     int stride;        // of x and v
     int windowStride;  // of f
     const Real* x;     // planes at the runs' first point a [m]
-    const Real* v;     // likewise [m/s]
-    Real* f;           // likewise, added to [N]
+    const Real* v;     // planes at a [m/s]
+    Real* f;           // planes at a, added to [N]
 };
 
 // n springs between any points.
@@ -39,7 +39,7 @@ struct SpringListArgs {
     int windowStride;
     int windowFirst;         // point at the window's start
     const Real* x;           // planes from point 0
-    const Real* v;           // likewise
+    const Real* v;           // planes from point 0
     Real* f;                 // planes of the window
     const int* a;            // (n)
     const int* b;            // (n)
@@ -72,7 +72,7 @@ struct PackArgs {
     int n;
     int stride;
     const Real* x;  // planes
-    const Real* v;  // likewise
+    const Real* v;  // planes
     Real* state;
     Real* f;
 };

@@ -1,4 +1,4 @@
-// A method that integrates y' = f(t, y) from t to t + h, whatever y stands for.
+// A method that integrates y' = f(t, y) from t to t + h, for any y.
 #pragma once
 
 #include "taut/ode/system.h"

@@ -1,4 +1,4 @@
-// What an implicit method asks of a second-order system besides accelerations: masses, and products with the
+// The interface of implicit methods to a second-order system besides accelerations: masses, and products with the
 // derivatives of its forces.
 #pragma once
 

@@ -27,7 +27,7 @@ struct State {
     Layout layout;
     core::AlignedArray<Real> x;                    // positions at t
     core::AlignedArray<Real> v;                    // velocities as the method stores them (leap-frog: at t - h/2)
-    std::vector<core::AlignedArray<Real>> memory;  // what else the method keeps, sized by start()
+    std::vector<core::AlignedArray<Real>> memory;  // further arrays of the method, sized by start()
 };
 
 // Settings of methods that solve equations, or split them; other methods do not use them.
@@ -38,14 +38,14 @@ struct MethodOptions {
     bool splits = false;       // leap-frog: the system's split part
 };
 
-// What a method found in the velocities that a step wrote; unknown if it did not look.
+// The check of the velocities that a step wrote; unknown without a check.
 enum class Speeds { unknown, within, beyond };
 
 // A point that a contact holds: along a unit normal or, if `normal` is zero, in all directions.
 struct Support {
     int point = 0;
     std::array<double, 3> normal{};  // (planes)
-    std::array<double, 3> rub{};     // (planes) [m/s] what friction changes of its velocity, across the normal
+    std::array<double, 3> rub{};     // (planes) [m/s] change of its velocity by friction, across the normal
     double impulse = 0;              // [m/s] per mass, along it: found by the method
 };
 
@@ -83,8 +83,8 @@ class Method {
 
     virtual Work work() const { return work_; }  // since it was made
 
-    // Asks step() to look for velocities that are not below the limit [m/s] in a plane, or are no numbers; and returns
-    // what the last step found. Kinematic points are not looked at.
+    // Makes step() look for velocities that are not below the limit [m/s] in a plane, or are NaN; returns the result of
+    // the last step. Kinematic points are skipped.
     void watch(Real speedLimit) { speedLimit_ = speedLimit; }
     Speeds speeds() const { return speeds_; }
 
@@ -122,8 +122,7 @@ class MethodMakers {
     std::tuple<SecondOrder<float>, SecondOrder<double>> second_;
 };
 
-// A row of the table of methods: what a user should know before choosing it, its limits, and how it is made. The texts
-// are not copied.
+// A row of the table of methods: its description for users, its limits, and its factory. The texts are not copied.
 struct MethodInfo {
     std::string_view name;   // as scenes write it
     std::string_view title;  // as texts write it
@@ -133,7 +132,7 @@ struct MethodInfo {
     bool symplectic;
     bool reversible;
     std::string_view limit;    // largest stable z = ω h in words, for a damping ratio ζ
-    std::string_view caution;  // what its limit does not promise; empty when it does
+    std::string_view caution;  // exceptions of its limit; empty: none
     // Largest stable h [s]; 0 if every h is unstable, infinite if every h is stable.
     double (*largestStep)(const FastestMode& mode);
     // The h [s] that "auto" may choose: the largest stable one. Methods that let undamped motion grow at every step

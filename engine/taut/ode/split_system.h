@@ -1,4 +1,4 @@
-// What a method asks of a system whose strong damping it splits off.
+// The interface of split methods to a system with strong damping.
 #pragma once
 
 namespace taut::ode {
@@ -16,8 +16,8 @@ class SplitSystem {
     // part for h/2 in the opposite order. However strong the dashpots are, they add no energy.
     virtual void dampBefore(double h, const Real* x, Real* v) = 0;
     virtual void dampBetween(const Real* x, Real* v) = 0;
-    // After the kick at t [s], before the dashpots: constraints share out what it gave to the points that they tie.
-    // Else dashpots would damp a motion that there is not, and what is tied would not rest where forces balance.
+    // After the kick at t [s], before the dashpots: constraints distribute it over the tied points. Otherwise dashpots
+    // would damp a motion that does not exist, and tied points would not rest at the balance of forces.
     virtual void shareOut(double /*t*/, Real* /*v*/) {}
     virtual void dampAfter(const Real* x, Real* v) = 0;
 };

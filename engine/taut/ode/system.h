@@ -1,4 +1,4 @@
-// What a method integrates: systems of ordinary differential equations over flat arrays, without a word of physics.
+// The interface of methods to a system of ordinary differential equations over flat arrays, independent of physics.
 #pragma once
 
 #include <cstddef>
@@ -51,9 +51,9 @@ class SecondOrderSystem {
     // Overwrites positions and velocities of kinematic points with those at t; either may be null. Such
     // points have no acceleration. Methods call it for every time at which they ask for accelerations.
     virtual void prescribe(double, Real*, Real*) {}
-    // What implicit methods also need from the same system; nullptr if it does not offer it.
+    // The interface for implicit methods to the same system; nullptr if it is not offered.
     virtual ImplicitSystem<Real>* implicitPart() { return nullptr; }
-    // What methods that split off the stiff part also need; nullptr if it does not offer it.
+    // The interface for methods that split off the stiff part; nullptr if it is not offered.
     virtual SplitSystem<Real>* splitPart() { return nullptr; }
 };
 

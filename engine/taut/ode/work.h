@@ -1,11 +1,11 @@
-// What a method counts while it runs. It knows no method.
+// Work counters of a method.
 #pragma once
 
 #include <cstdint>
 
 namespace taut::ode {
 
-// What a run has cost so far.
+// The cost of a run so far.
 struct Work {
     std::int64_t evaluations = 0;  // of the acceleration, those to start and to synchronise included
     std::int64_t iterations = 0;   // of a solver: one product with the stiffness each

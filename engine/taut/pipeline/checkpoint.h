@@ -49,8 +49,8 @@ class CheckpointFolder {
     std::vector<std::int64_t> framesThere() const;  // ascending
 
     // The last checkpoint at or before a frame that has its records and the state key that `keyOf` gives for its frame.
-    // Checkpoints that cannot be used are skipped, each with its reason; of those with other bits only the last one is
-    // told.
+    // Unusable checkpoints are skipped, each with its reason; of checkpoints with other bits only the last one is
+    // reported.
     std::optional<Checkpoint> latest(std::int64_t frame, const std::function<std::uint64_t(std::int64_t)>& keyOf,
                                      std::uint64_t maxBytes, std::vector<PassedOver>& refused) const;
 

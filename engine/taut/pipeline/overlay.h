@@ -1,5 +1,5 @@
-// The figures of a run in a corner of its pictures: time, step and limit, strain, and the energies as a small graph. It
-// knows neither the world nor GL. What it paints depends only on the moments that were added.
+// The figures of a run in a corner of its pictures: time, step and limit, strain, and the energies as a small graph.
+// Independent of the world and of GL. The painting depends only on the moments that were added.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ class World;
 
 namespace taut::pipeline {
 
-// The smallest step of all islands, and what else is known from the start.
+// The smallest step of all islands, and other constants of the run.
 struct SmallestStep {
     double step = 0.0;          // [s]
     double limit = 0.0;         // [s] largest stable; infinite: none
     bool bodiesTouch = false;   // each other, or themselves
-    bool followsState = false;  // the step is chosen anew as the state changes, below the limit of each state
+    bool followsState = false;  // the step follows the state, below the limit of each state
 };
 // "0.196, limit 0.217 ms"; without a limit where the step follows the state.
 std::string stepText(const SmallestStep& step);

@@ -1,5 +1,5 @@
-// Paints plates, lines and text over a finished picture. Colours are mixed in linear light. It knows neither what they
-// mean nor GL.
+// Paints plates, lines and text over a finished picture. Colours are mixed in linear light. Independent of their
+// meaning and of GL.
 #pragma once
 
 #include <array>

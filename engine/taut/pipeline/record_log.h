@@ -25,7 +25,7 @@ struct FrameRecord {
     std::vector<double> figures{};  // RunOptions::figures; NaN: not measured
 };
 
-// What else is measured in each frame: the number of figures, and a key made of their names.
+// Further metrics of each frame: the number of figures, and a key made of their names.
 struct FigureColumns {
     std::size_t count = 0;
     std::uint64_t key = 0;

@@ -1,5 +1,5 @@
-// Plays a scene from its start and passes its pictures on. It connects world, renderer and files, and returns what was
-// measured. It knows neither scene files nor the command line.
+// Plays a scene from its start and passes its pictures on. It connects world, renderer and files, and returns the
+// measurements. Independent of scene files and the command line.
 #pragma once
 
 #include <atomic>
@@ -57,7 +57,7 @@ struct RunOptions {
 // The world as it is now, as the picture of a run shows it: with marks, an open shutter and a lens as asked for.
 view::FrameView shownNow(const world::World& world, const RunOptions& options);
 
-// Is told about progress; every function may be empty. Several threads call them, but never two the same function at
+// Callbacks for progress; every function may be empty. Several threads call them, but never two the same function at
 // the same time, and frames ascend.
 struct RunListener {
     std::function<void(const FrameRecord&)> frameSimulated{};  // before its picture is drawn
@@ -77,8 +77,8 @@ struct RunResult {
 
 // Plays frames startFrame … lastFrame. If `draw` and `sink` are given, the frames from firstFrame on are drawn and
 // written while the next ones are simulated; without them nothing is drawn. `draw` is called on this thread. The run
-// ends early if the state diverges or `stop` becomes true; it then finishes everything it has begun. The sink is
-// finished unless there is an exception. Rethrows what a stage throws. `records` are those of the frames before
+// ends early if the state diverges or `stop` becomes true; it then finishes all frames in progress. The sink is
+// finished unless there is an exception. Rethrows exceptions of a stage. `records` are those of the frames before
 // startFrame; 0 needs none.
 RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
                const RunListener& listener, const std::atomic<bool>& stop, std::optional<RecordLog> records = {});

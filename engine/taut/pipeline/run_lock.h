@@ -1,4 +1,4 @@
-// Keeps two runs from writing into one folder at the same time. It knows nothing of what they write.
+// Keeps two runs from writing into one folder at the same time. Independent of their files.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ struct RunParty {
     std::string name;                  // for the message to another run: "taut render flag, process 4711"
 };
 
-// Locks a folder, or one part ("60-119") of what a run writes there, until it is destroyed or its process ends, in
-// whatever way. Meanwhile a file `.taut-lock` or `.taut-lock_60-119` lies in the folder. A file that a killed process
-// left behind locks nothing.
+// Locks a folder, or one part ("60-119") of the files of a run in it, until it is destroyed or its process ends, in any
+// way. Meanwhile a file `.taut-lock` or `.taut-lock_60-119` lies in the folder. A file that a killed process left
+// behind locks nothing.
 class RunLock {
   public:
     RunLock() = default;  // holds nothing

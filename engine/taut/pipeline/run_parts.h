@@ -18,7 +18,7 @@ namespace taut::pipeline {
 struct PartRecord {
     std::filesystem::path path;  // "out/run_120-239.json"
     std::string fault;           // why it is no record; empty: it is one
-    std::string files;           // image::FramePattern::name() of what it drew
+    std::string files;           // image::FramePattern::name() of its pictures
     std::string key;             // of the whole run; empty in records that have none
     std::string ended;           // "complete", "interrupted", "diverged"; "begun" while it is at work
     std::string scene, program;  // file, and version

@@ -27,7 +27,7 @@ struct PictureLayers {
     std::vector<std::shared_ptr<const render::Layer>> layers{};
 };
 
-// What the user asked for, besides the scene itself.
+// The settings of the user, besides the scene itself.
 struct RunRequest {
     std::string output;                  // as given on the command line; empty: none
     std::vector<std::string> overrides;  // "key=value"
@@ -44,7 +44,7 @@ struct RunRequest {
 // Receives the text piece by piece.
 using Write = std::function<void(std::string_view)>;
 
-// Writes everything that tells what was computed, how, and on which machine; state hashes have 16 hexadecimal digits.
+// Writes the inputs, the settings and the machine of a run; state hashes have 16 hexadecimal digits.
 void writeRunJson(const Write& write, const world::SceneSpec& spec, const world::World& world,
                   const RunRequest& request, const Machine& machine,
                   const std::optional<render::RendererInfo>& renderer, const RunResult& result);

@@ -1,5 +1,5 @@
-// The state of a world as bytes that say what they are, for programs that hold worlds: sealed as checkpoints are, and
-// read as carefully. They hold the state, where its scene is read from and by what it was made; no code.
+// The state of a world as self-describing bytes, for programs that hold worlds: sealed like checkpoints, and read as
+// carefully. They hold the state, the source of its scene and the version that made it; no code.
 #pragma once
 
 #include <cstdint>
@@ -28,17 +28,17 @@ struct SavedState {
     SceneSource source;
     std::uint64_t key = 0;  // scene::StateKeys of its tick
     std::int64_t tick = 0;
-    std::vector<std::string> ramps;  // keys of those that apply() began
+    std::vector<std::string> ramps;  // keys of the actions that apply() began
     std::vector<scene::UsedFile> files;
     std::vector<std::byte> world;  // World::save()
     int bits = world::resultBits;
 };
 
 std::string toBytes(const SavedState& state);
-// Throws core::Error(badContent) for what is something else, damaged or of results that are not these.
+// Throws core::Error(badContent) for other or damaged bytes, or other results bits.
 SavedState fromBytes(std::string_view bytes);
 
-// What scene::LoadOptions::stateIn asks for: of a file with such bytes.
+// For scene::LoadOptions::stateIn: the state in a file with such bytes.
 world::StartState stateIn(const std::filesystem::path& file);
 
 }  // namespace taut::pipeline

@@ -22,8 +22,7 @@ struct TestDrawing {
 TestDrawing drawTest(render::Renderer& renderer, int times);
 
 // A renderer of the first backend that gives a context and passes the test. If none does, it throws
-// core::Error(noRenderer), which says what happened with each. Expects at least one backend; options.backend is not
-// used.
+// core::Error(noRenderer) with the reason of each. Expects at least one backend; options.backend is not used.
 std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions options,
                                                   const std::vector<render::Backend>& backends);
 

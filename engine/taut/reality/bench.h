@@ -1,4 +1,4 @@
-// What the rows of the reality study share: scenes that are kept, plays that are timed, lines of the table.
+// The common part of the rows of the reality study: kept scenes, timed plays, lines of the table.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ inline constexpr double g = 9.81;  // [m/s²]
 // A number as TOML has it, to its last bit.
 std::string number(double value);
 
-// A straight rope that hangs on to its start, or whatever `more` says of it instead.
+// A straight rope held at its start, unless `more` overrides it.
 struct LineScene {
     int cells = 0;
     double length = 0.1;           // [m]

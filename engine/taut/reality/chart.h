@@ -9,10 +9,10 @@
 
 namespace taut::reality {
 
-// Height over width of heavy cantilevers over Γ, with those that others have. `notes` stand at the foot.
+// Height over width of heavy cantilevers over Γ, with the results of other programs. `notes` stand at the foot.
 report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<PeerDroop>& peers,
                          const std::vector<std::string>& notes);
-// Drape coefficients over the weight of the cloth, a colour a fabric, beside what was measured.
+// Drape coefficients over the weight of the cloth, a colour per fabric, beside the measurements.
 report::Chart drapeChart(const std::vector<DrapeBand>& bands, const std::vector<std::string>& notes);
 
 }  // namespace taut::reality

@@ -17,7 +17,7 @@ namespace taut::reality {
 
 class Bench;
 
-// A quantity that is known, and what the engine has for it.
+// A known quantity, and the result of the engine.
 struct Line {
     std::string row;       // "R1"
     std::string quantity;  // "H/W at Γ = 10, warp"
@@ -63,7 +63,7 @@ struct Comparison {
     std::vector<Line> lines;
     std::vector<std::pair<std::string, std::string>> scenes;  // name and text, in the order of playing
     std::vector<DroopCurve> droops;                           // with settings.draws
-    std::vector<PeerDroop> peers;                             // what stands beside them, if anything
+    std::vector<PeerDroop> peers;                             // results of other programs, may be empty
     std::vector<DrapeBand> drapes;                            // further weights with settings.draws
     bool isInterrupted = false;
 
@@ -72,9 +72,9 @@ struct Comparison {
 
 struct Settings {
     std::vector<std::string> rows;                      // none: all
-    bool isLong = false;                                // the dear ones too; those that `rows` names are always played
+    bool isLong = false;                                // adds the expensive rows; rows in `rows` are always played
     int cells = 0;                                      // along the length instead of each row's own; 0: those
-    bool draws = true;                                  // plays what the chart shows besides
+    bool draws = true;                                  // plays further scenes for the chart
     std::vector<std::filesystem::path> assetFolders{};  // with models
     const std::atomic<bool>* stop = nullptr;
     std::function<void(double done, const std::string& doing)> progress{};

@@ -1,5 +1,5 @@
-// Euler's elastica, heavy or not, by shooting from its free end: what bent strips and rods are held against. It knows
-// neither grids nor the engine's forces.
+// Euler's elastica, heavy or not, by shooting from its free end: the theory of bent strips and rods. Independent of
+// grids and of the engine's forces.
 #pragma once
 
 namespace taut::reality {

@@ -1,4 +1,4 @@
-// What other programs have for the strips of row R1, as they measured it: read from CSV. It runs none of them.
+// Results of other programs for the strips of row R1, as measured: read from CSV. It runs none of them.
 #pragma once
 
 #include <string>

@@ -14,7 +14,7 @@ void holdColumn(Bench& bench);
 void holdCreases(Bench& bench);
 // Cloth over a disc.
 void holdDrape(Bench& bench);
-// Where what was at rest gives way.
+// Loss of stability of rest states.
 void holdStanding(Bench& bench);
 void holdLateral(Bench& bench);
 void holdStickSlip(Bench& bench);

@@ -1,4 +1,4 @@
-// What taut and theory say, as text: CSV for programs, a table for people, a page for browsers.
+// Results of taut and of theory as text: CSV for programs, a table for people, a page for browsers.
 #pragma once
 
 #include <string>

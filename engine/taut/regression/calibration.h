@@ -1,5 +1,5 @@
-// Measures what the tolerance of golden pictures lets through: pictures of the same state that differ by noise, which
-// it should, and those with a mistake in them, which it must not. It changes no golden.
+// Measures the tolerance of golden pictures: pictures of the same state that differ by noise, which must pass, and
+// pictures with a deliberate error, which must not. It changes no golden.
 #pragma once
 
 #include <atomic>

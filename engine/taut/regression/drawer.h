@@ -36,10 +36,10 @@ class Drawer {
     Drawer(const Drawer&) = delete;
     Drawer& operator=(const Drawer&) = delete;
 
-    // Throws core::Error(noRenderer) when nothing here can draw, and what Renderer::draw throws.
+    // Throws core::Error(noRenderer) if there is no renderer, and the exceptions of Renderer::draw.
     image::Image draw(const view::FrameView& view, const world::PictureSpec& picture, world::ivec2 size);
 
-    // What drew the last picture: "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6, osmesa".
+    // The renderer of the last picture: "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6, osmesa".
     const std::string& renderer() const { return renderer_; }
 
   private:

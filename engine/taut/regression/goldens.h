@@ -1,4 +1,4 @@
-// Changes goldens: what a scenario did becomes what it has to do, with the reason. It judges nothing.
+// Changes goldens: the results of a scenario become its goldens, with the reason. It judges nothing.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace taut::regression {
 
-// Writes the chain and the pictures of the scenario that are missing or differ from their goldens, drops those that it
-// asks for no more, and gives each that changes the reason; what agrees stays as it is, to the last byte but for the
+// Writes the chain and the pictures of the scenario that are missing or differ from their goldens, drops the ones that
+// it no longer needs, and gives each change the reason; equal files stay the same to the last byte, except for the
 // number of bits. Returns a line for each change. Throws core::Error(inputOutput). Expects a scenario that was played
 // to its end with saved states.
 std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& played, const GoldenFolder& folder,

@@ -1,4 +1,4 @@
-// Holds what a scenario did against its goldens. It plays nothing and writes nothing.
+// Compares the results of a scenario with its goldens. It plays nothing and writes nothing.
 #pragma once
 
 #include "taut/regression/manifest.h"
@@ -8,19 +8,19 @@
 
 namespace taut::regression {
 
-// What scenarios are held against.
+// The goldens and rules for scenarios.
 struct Goldens {
     const GoldenFolder& folder;
     const Manifest& manifest;
-    int bits = world::resultBits;  // of what was played
+    int bits = world::resultBits;  // of the results
 };
 
-// Whether the scenario has goldens of other bits: they tell nothing of what it does.
+// Whether the scenario has goldens of other bits: they cannot be compared.
 bool isOutdated(const Scenario& scenario, const Goldens& goldens);
 
-// The pictures of the result are PNG files as bytes. A scenario that asks for no pictures, has checks and was never
-// recorded passes by its checks, unless goldens are required of each. Of one that is outdated the checks are judged;
-// what differs stands in the pictures' figures and fails nothing.
+// The pictures of the result are PNG files as bytes. A scenario without pictures, with checks, that was never recorded
+// passes by its checks, unless goldens are required of each. Of an outdated one the checks are judged; differences are
+// in the pictures' figures and fail nothing.
 report::TestScenario judged(const Scenario& scenario, const Played& played, const Goldens& goldens,
                             bool requiresGoldens);
 
@@ -31,7 +31,7 @@ report::TestScenario unfinished(const Scenario& scenario, const Played& played);
 report::TestScenario brokenScenario(const Scenario& scenario, const std::string& fault);
 report::TestScenario unreadScenario(const UnreadScenario& scenario);
 
-// What has a golden and is asked for by no scenario of that name any more: "000120".
+// Goldens that no scenario of that name uses any more: "000120".
 std::vector<std::string> leftOver(const Scenario& scenario, const Manifest& manifest);
 
 // When a picture is right: "at most 0.11 % of its pixels are off by …".

@@ -1,6 +1,5 @@
-// What is known of the goldens: which pictures and state chains are kept, why each is as it is, and what made it. One
-// file for all scenarios of a folder of goldens. It knows neither how a scenario is played nor how goldens are
-// compared.
+// The manifest of the goldens: the recorded pictures and state chains, the reason of each, and the machine that made
+// it. One file for all scenarios of a folder of goldens. Independent of playing scenarios and comparing goldens.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +16,7 @@ namespace taut::regression {
 struct GoldenPicture {
     std::string why;
     std::string stateHash;  // of the chain where it was drawn, 16 hexadecimal digits
-    std::string renderer;   // what drew it, as Drawer::renderer()
+    std::string renderer;   // its renderer, as Drawer::renderer()
 };
 
 // The chain of state hashes of a whole run.
@@ -25,7 +24,7 @@ struct GoldenState {
     std::string why;
     std::string lastHash;  // 16 hexadecimal digits
     std::int64_t ticks = 0;
-    std::string program, compiler, simd;  // what computed it
+    std::string program, compiler, simd;  // its program
 };
 
 struct GoldenScenario {
@@ -40,8 +39,8 @@ struct Manifest {
     std::map<std::string, GoldenScenario> scenarios;
 };
 
-// Whether two pictures come from one and the same renderer, by what Drawer::renderer() says: its version, the library
-// that gave the context and what the processor can do change no more than rounding.
+// Whether two pictures come from one and the same renderer, by Drawer::renderer(): its version, the library that gave
+// the context and the features of the processor change no more than rounding.
 bool isSameRenderer(const std::string& a, const std::string& b);
 std::string nameOfRenderer(const std::string& renderer);  // "llvmpipe"
 
@@ -59,8 +58,8 @@ struct GoldenFolder {
     std::filesystem::path text(const std::string& scenario) const;                             // NAME/scenario.toml
 };
 
-// Without a file an empty manifest; throws
-// core::Error: inputOutput when it cannot be read, badContent when it is no manifest, with what is wrong in it.
+// Without a file an empty manifest; throws core::Error: inputOutput if it cannot be read, badContent with the fault if
+// it is no manifest.
 Manifest readManifest(const GoldenFolder& folder);
 
 // The same for a text; file is used in messages.

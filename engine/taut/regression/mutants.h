@@ -1,5 +1,4 @@
-// Small mistakes put into a scene or its picture on purpose: what the tests of states and pictures have to find. It
-// plays nothing.
+// Small deliberate errors in a scene or its picture: the tests of states and pictures must find them. It plays nothing.
 #pragma once
 
 #include <functional>

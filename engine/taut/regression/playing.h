@@ -1,4 +1,4 @@
-// Plays one scenario from its start to its end and keeps what is tested: the state of every tick as hashes, what became
+// Plays one scenario from its start to its end and keeps the results: the state of every tick as hashes, the verdicts
 // of its checks, and the golden pictures as this build draws them. It compares nothing.
 #pragma once
 
@@ -24,7 +24,7 @@ struct PlayedPicture {
     GoldenRequest request;
     double time = 0;                    // [s]
     std::uint64_t stateHash = 0;        // of the chain at this frame
-    view::FrameView view;               // what was drawn
+    view::FrameView view;               // the picture drawn
     image::Image picture;               // empty: not drawn, see fault
     std::vector<std::byte> savedState;  // of a restart picture, when asked for: World::save() at this frame
     std::string fault;                  // why it could not be drawn
@@ -50,7 +50,7 @@ struct PlayOptions {
     std::function<std::optional<std::vector<std::byte>>(const GoldenRequest&)> storedState{};
 };
 
-// Throws core::Error(badContent) for a scene that cannot be built, noRenderer, and what drawing throws.
+// Throws core::Error(badContent) for a scene that cannot be built, noRenderer, and the exceptions of drawing.
 Played playScenario(const Scenario& scenario, Drawer& drawer, const PlayOptions& options,
                     const std::atomic<bool>& stop);
 

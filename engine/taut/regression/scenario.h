@@ -19,7 +19,7 @@ struct GoldenRequest {
     std::string camera;  // empty: that of [picture]
     world::ivec2 size{640, 360};
 
-    // "000120", "000060-debug", "000060-side-debug": what names it in the manifest and on disk.
+    // "000120", "000060-debug", "000060-side-debug": its name in the manifest and on disk.
     std::string key() const;
 };
 
@@ -34,8 +34,8 @@ struct Scenario {
 // All "*.toml" in a folder, by name. Throws core::Error(inputOutput) for a folder without any.
 std::vector<std::filesystem::path> scenarioFilesIn(const std::filesystem::path& folder);
 
-// The scenario files named: of a folder all "*.toml" in it, by name. Throws core::Error: inputOutput for what is not
-// there or a folder without any, usage when two have the same name.
+// The named scenario files: of a folder all "*.toml" in it, by name. Throws core::Error: inputOutput for a missing file
+// or a folder without any, usage if two have the same name.
 std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesystem::path>& named);
 
 // A file that is no scenario, or one with faults.
@@ -50,7 +50,7 @@ struct ReadScenarios {
     std::vector<UnreadScenario> unread;
 };
 
-// Reads all of them, whatever is wrong with some.
+// Reads all of them, even if some are faulty.
 ReadScenarios readScenarios(const std::vector<std::filesystem::path>& files, const scene::LoadOptions& options);
 
 // The goldens that a scene asks for, by frame; throws core::Error(badContent) when two have the same name, or one names

@@ -1,4 +1,4 @@
-// The text that a scenario is made of, kept beside its goldens so that a failure can show what was changed in it.
+// The source text of a scenario, kept beside its goldens so that a failure can show its changes.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace taut::regression {
 // The scenario's file and the one that it builds on, as they are now. Throws core::Error(inputOutput).
 std::string scenarioText(const Scenario& scenario);
 
-// What has changed in it since its goldens were accepted; empty if nothing has, or their text was not kept.
+// Its changes since its goldens were accepted; empty if there are none, or their text was not kept.
 std::vector<report::TextChange> changedText(const Scenario& scenario, const GoldenFolder& folder);
 
 // Keeps the text; true if another one was kept or none.

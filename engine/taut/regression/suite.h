@@ -19,14 +19,14 @@ struct SuiteOptions {
     DrawingOptions drawing;
     GoldenFolder goldens;
     bool requiresGoldens = false;  // checks alone do not pass
-    int bits = world::resultBits;  // of what is played
+    int bits = world::resultBits;  // of the results
     // Called as scenarios end, one at a time.
     std::function<void(int done, const report::TestScenario& scenario)> scenarioDone{};
 };
 
-// In the order of the scenarios; `renderer` becomes what drew. A scenario that cannot be built fails alone; throws
-// core::Error(noRenderer) when pictures are asked for and nothing can draw. After `stop` those not begun are left
-// out.
+// In the order of the scenarios; `renderer` becomes the one in use. A scenario that cannot be built fails alone; throws
+// core::Error(noRenderer) if pictures are needed and there is no renderer. After `stop` scenarios that have not begun
+// are left out.
 std::vector<report::TestScenario> runSuite(const std::vector<Scenario>& scenarios, const SuiteOptions& options,
                                            const Manifest& manifest, std::string& renderer,
                                            const std::atomic<bool>& stop);

@@ -1,5 +1,5 @@
-// What a run's state was at every tick, as hashes: of the whole chain, of each body, and of each point if asked for. It
-// knows nothing of pictures and tolerances; hashes agree or they do not.
+// The state of a run at every tick, as hashes: of the entire chain, of each body, and optionally of each point.
+// Independent of pictures and tolerances; hashes agree or they do not.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace taut::regression {
 struct TapeOrigin {
     std::string program, compiler, simd;   // as in run.json
     std::string scene;                     // the file that was played; empty in a tape that belongs to a scenario
-    std::string text;                      // what that file said
+    std::string text;                      // content of that file
     std::vector<std::string> overrides;    // "key=value"
     std::vector<scene::UsedFile> files{};  // that it depends on; none in one that belongs to a scenario
     int bits = world::resultBits;          // generation of results
@@ -55,7 +55,7 @@ Tape blankTape();
 // Adds the moment that the world is at, which follows the last one on the tape; of a world after its start the rates.
 void addTick(Tape& tape, world::World& world, bool withPoints);
 
-// Throw core::Error: inputOutput, or badContent for what is no tape, a damaged one, or one of another version.
+// Throw core::Error: inputOutput, or badContent for other files, a damaged tape, or one of another version.
 void writeTape(const std::filesystem::path& path, const Tape& tape);
 Tape readTape(const std::filesystem::path& path);
 

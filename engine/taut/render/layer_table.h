@@ -23,7 +23,7 @@ using Gl = GladGLContext;
 class LayerPass;
 class ShaderFolder;
 
-// What a record says about a layer: names and values, in that order.
+// Facts about a layer for the record: names and values, in that order.
 using LayerFact = std::variant<double, std::int64_t, std::string, std::vector<double>>;
 using LayerFacts = std::vector<std::pair<std::string, LayerFact>>;
 

@@ -28,7 +28,7 @@ struct RendererOptions {
     int height = 720;
     int samples = 4;         // of anti-aliasing, for each pixel: 1, 4, 8 or 16; the last two draw it 2 and 4 times
     int shadowSize = 2048;   // [texels] edge of the shadow map; a multiple of 128
-    bool shadows = true;     // false: to see what a picture without them looks like
+    bool shadows = true;     // false: for a picture without them
     bool occlusion = true;   // false: things do not darken the ground around them
     bool keepsStill = true;  // false: nothing is kept from picture to picture, to compare
     bool alpha = false;      // no sky, and of the ground its shadows alone; the picture has alpha then

@@ -1,5 +1,5 @@
-// A picture of numbers as plain data: panels with curves, maps, arrows and marks on linear or logarithmic axes. It
-// knows neither what the numbers mean nor how they are drawn.
+// A chart as plain data: panels with curves, maps, arrows and marks on linear or logarithmic axes. Independent of the
+// meaning of the numbers and of drawing.
 #pragma once
 
 #include <limits>
@@ -81,7 +81,7 @@ struct Label {
     double angle = 0;        // [degrees] turned anticlockwise
 };
 
-// A mark in a strip along the upper edge for what has no place on the axes, such as a run that failed.
+// A mark in a strip along the upper edge for results without a place on the axes, such as a run that failed.
 struct EdgeMark {
     double x = 0;
     int row = 0;    // from the top; each series has its own row

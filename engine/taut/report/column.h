@@ -70,7 +70,7 @@ TextTable tableOf(const Columns<Row>& columns, const Rows& rows, In text) {
     return table;
 }
 
-// A list of objects, of whatever library for JSON.
+// A list of objects, of any library for JSON.
 template <class Json, class Row, class Rows>
 Json jsonOf(const Columns<Row>& columns, const Rows& rows) {
     const TextTable table = tableOf(columns, rows, In::json);

@@ -1,4 +1,4 @@
-// Draws charts with the program gnuplot. It knows nothing of what they show.
+// Draws charts with the program gnuplot. Independent of their meaning.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@ enum class Format { svg, png };
 // The script that makes gnuplot draw the chart to its standard output, data included.
 std::string gnuplotScript(const Chart& chart, Format format);
 
-// Writes stem.svg and stem.png, each whole or not at all. Throws core::Error(inputOutput): gnuplot is not installed
-// (with the name of the package), failed (with what it said), or the files cannot be written.
+// Writes stem.svg and stem.png, each completely or not at all. Throws core::Error(inputOutput): gnuplot is not
+// installed (with the name of the package), failed (with its message), or the files cannot be written.
 void writeChart(const Chart& chart, const std::filesystem::path& stem);
 
 // "gnuplot 5.4 patchlevel 4"; empty when it does not run.
 std::string gnuplotVersion();
 
-// What a person reads when gnuplot is missing.
+// The message if gnuplot is missing.
 std::string gnuplotMissing();
 
 }  // namespace taut::report

@@ -7,8 +7,8 @@
 
 namespace taut::report {
 
-// A suite for each scenario with a case for the run, each check, the state and each picture. What only lacks its golden
-// is a failure of type "missing"; what is outdated was skipped.
+// A suite for each scenario with a case for the run, each check, the state and each picture. A missing golden is a
+// failure of type "missing"; an outdated one was skipped.
 std::string junitXml(const TestReport& report);
 
 }  // namespace taut::report

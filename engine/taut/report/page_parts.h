@@ -1,4 +1,4 @@
-// The style and the script of the page of test results, of assets/report: what never changes in it.
+// The style and the script of the page of test results, of assets/report: its constant part.
 #pragma once
 
 #include <string_view>

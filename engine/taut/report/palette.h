@@ -1,5 +1,5 @@
-// Colours and marks of series: told apart by colour-blind people, in grey, and the same in every chart. It knows names,
-// not what they stand for.
+// Colours and marks of series: distinct for colour-blind people, in grey, and the same in every chart. It uses names,
+// not their meaning.
 #pragma once
 
 #include <string_view>

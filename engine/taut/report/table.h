@@ -1,4 +1,4 @@
-// Tables as text: CSV for programs and columns for people. It knows nothing of what is in them.
+// Tables as text: CSV for programs and columns for people. Independent of their contents.
 #pragma once
 
 #include <string>

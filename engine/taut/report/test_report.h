@@ -1,5 +1,5 @@
-// What a run of tests found, as plain data for the console, the page and the JUnit file. It knows neither how scenarios
-// are played nor how they are judged.
+// The results of a run of tests, as plain data for the console, the page and the JUnit file. Independent of playing and
+// judging scenarios.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct TestCheck {
     std::string when;    // "2.317 s, frame 139": where it failed first, or came nearest to failing
     std::string where;   // "cloth.flag, point 12"; empty: nowhere in particular
     std::string source;  // "flag.toml:31"
-    std::string reason;  // one line that says what is wrong; empty when it passed
+    std::string reason;  // a line with the failure; empty when it passed
 };
 
 // The chain of state hashes.
@@ -35,7 +35,7 @@ struct TestState {
     std::string reason;    // empty when it passed
     std::string why;       // the manifest's reason for the golden
     std::string madeBy;    // the program that recorded the golden
-    std::string word{};    // what became of it, in the table; empty: as the verdict says
+    std::string word{};    // its result in the table; empty: the verdict
     int bits = 0;          // of the goldens, where outdated
 };
 
@@ -69,7 +69,7 @@ struct TestScenario {
     double sceneSeconds = 0;  // [s] of the scene
     double framesPerSecond = 60;
     std::vector<TextChange> changes;  // of its text since its goldens were accepted
-    std::string accept;               // the command that accepts what differs; empty: nothing to accept
+    std::string accept;               // the command that accepts the differences; empty: nothing to accept
 };
 
 // How far apart two pictures of the same thing are, or of the same thing with a mistake in it.
@@ -92,8 +92,7 @@ struct TestReport {
     std::string renderer;   // of the pictures drawn now
     std::string tolerance;  // in words
     std::vector<std::string> notes;
-    std::vector<std::string>
-        outdated;  // what there is to say of outdated scenarios, once for all of one number of bits
+    std::vector<std::string> outdated;  // messages about outdated scenarios, one for each number of bits
     std::vector<TestScenario> scenarios;
     std::vector<CalibrationRow> calibration;
     double seconds = 0;  // [s] of wall time
@@ -101,7 +100,7 @@ struct TestReport {
 
 std::string nameOf(Verdict verdict);  // "passed"
 
-// What stands before the command that accepts it: "Where this is meant", and that its checks come first if one fails.
+// Text before the command that accepts it: "Where this is meant", and that its checks come first if one fails.
 std::string acceptHeading(const TestScenario& scenario);
 
 // Of all scenarios and the calibration.
@@ -110,8 +109,8 @@ Verdict verdictOf(const TestReport& report);
 // A line a scenario: name, checks, state, pictures, time.
 std::string testTable(const TestReport& report);
 
-// Everything that went wrong, a paragraph a scenario, with the command that accepts it, and what is outdated; empty
-// when nothing did.
+// All failures, a paragraph per scenario, with the command that accepts it, and outdated scenarios; empty if there are
+// none.
 std::string testFailures(const TestReport& report);
 
 // "3 scenarios: 1 failed, 2 passed, 12.3 s".

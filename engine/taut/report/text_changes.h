@@ -9,7 +9,7 @@ namespace taut::report {
 
 struct TextChange {
     char sign = ' ';  // '-' was there, '+' is there now, ' ' is there still, '~' lines in between are left out
-    int line = 0;     // from 1, of the text that it stands in; of what is there still in the one of now
+    int line = 0;     // from 1, of the text of this line; of a kept line in the new text
     std::string text;
 };
 

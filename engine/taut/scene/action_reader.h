@@ -32,8 +32,7 @@ class ActionReader {
     std::unique_ptr<world::ActionSpec> read(const std::string& table, double t, const std::string& label,
                                             const world::SceneSpec& spec) const;
 
-    // What World::restore() needs to know of an applied ramp. Throws core::Error(badContent) for a key that may not
-    // change.
+    // Data of an applied ramp for World::restore(). Throws core::Error(badContent) for a key that may not change.
     world::RampAction ramp(const std::string& key, const world::SceneSpec& spec) const;
 
     // All that ramps may change in the scene, in the order of the manual.

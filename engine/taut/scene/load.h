@@ -28,7 +28,7 @@ struct LoadOptions {
     std::function<std::string(const std::filesystem::path& picture, bool isAround)> pictureFault{};
     // Reads a file with a kept state. Throws core::Error. Null: scenes that begin with one are refused.
     std::function<world::StartState(const std::filesystem::path& file)> stateIn{};
-    // From what a scene may be made; null: the kinds of the engine.
+    // Kinds that a scene may use; null: the kinds of the engine.
     std::shared_ptr<const world::Kinds> kinds{};
     // The most memory that a scene may take [bytes]; 0: half of the machine's.
     double memoryLimit = 0;

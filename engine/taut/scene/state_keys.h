@@ -1,5 +1,5 @@
-// Numbers that identify what a state and its picture were made from, so that a stored state is not taken for one of
-// another scene. It knows which parts of a file affect the state, but not how the state is computed.
+// Numbers that identify the inputs of a state and its picture, so that a stored state is not used for another scene. It
+// uses the parts of a file that affect the state, and is independent of the computation of the state.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ class StateKeys {
     // For a whole document with overrides applied, and the spec read from it.
     StateKeys(const Node& root, const world::SceneSpec& spec);
 
-    // Key of the state at a tick: everything in the scene except what only pictures show, and the actions of earlier
-    // ticks. It leaves out that a world chooses its steps with later actions in mind.
+    // Key of the state at a tick: everything in the scene except the parts for pictures only, and the actions of
+    // earlier ticks. It leaves out that a world chooses its steps with later actions in mind.
     std::uint64_t stateAt(std::int64_t tick) const;
 
-    // Key of what only pictures show: camera, light, finish, labels, …
+    // Key of the parts for pictures only: camera, light, finish, labels, …
     std::uint64_t picture() const { return picture_; }
 
   private:

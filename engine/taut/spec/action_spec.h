@@ -1,5 +1,5 @@
-// What happens in a scene at a moment: the timeline as plain data, whatever the kinds of its actions. It knows neither
-// files nor the kinds, which are in actions/. A hand at a mouse makes the same actions.
+// Actions of a scene: the timeline as plain data, for any kinds of actions. Independent of files and of the kinds,
+// which are in actions/. A hand at a mouse makes the same actions.
 //
 // To add a kind: derive from SpecOf<Own, ActionSpec>, give it a `kindName` and perform(), and add its rows to a table
 // of kinds (actionKind() in common_rows.h, Kinds::actions); tests/unit/world_own_action_test.cpp does.
@@ -28,14 +28,14 @@ struct ActionSpec {
     virtual std::string_view kind() const = 0;  // "push"
     virtual std::unique_ptr<ActionSpec> copy() const = 0;
 
-    // Does it now, with what a world offers, such as apply() of other actions. Throws core::Error(badContent), with the
-    // source, if it finds nothing to act on.
+    // Performs it now, with the services of a world, such as apply() of other actions. Throws core::Error(badContent),
+    // with the source, if it has no target.
     virtual void perform(World& world) const = 0;
     // How long it goes on after t [s], finite. A timeline performs it at every tick up to then.
     virtual double lasts() const { return 0.0; }
 
-    // Calls visit with this action and with all actions that it applies. The choice of the step uses this, and bodies
-    // to be spawned are made ready by it.
+    // Calls visit with this action and with all actions that it applies. The choice of the step and the preparation of
+    // spawned bodies use this.
     using Visit = std::function<void(const ActionSpec&)>;
     virtual void foresee(const Visit& visit) const { visit(*this); }
 };

@@ -1,4 +1,4 @@
-// The actions of the engine as plain data. actions/ says what they do, action_spec.h when.
+// The actions of the engine as plain data. actions/ has their effects, action_spec.h their times.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -78,7 +78,7 @@ struct FreeAction final : SpecOf<FreeAction, PointsAction> {
     void perform(World& world) const override;
 };
 
-// Cuts the springs of bodies: all springs, or those that cross …
+// Cuts the springs of bodies: all springs, or the springs that cross …
 struct CutAction final : SpecOf<CutAction, ActionSpec> {
     static constexpr std::string_view kindName = "cut";
     void perform(World& world) const override;

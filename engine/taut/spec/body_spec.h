@@ -1,4 +1,4 @@
-// What every body has, and what its kind says of it. The kinds are in bodies/.
+// The common data of bodies, and the interface to their kinds. The kinds are in bodies/.
 #pragma once
 
 #include <algorithm>
@@ -74,7 +74,7 @@ struct ArraySpec {  // copies of a body along three directions, named NAME.0, NA
     dvec3 stepX{0.0}, stepY{0.0}, stepZ{0.0};  // [m] from one copy to the next
 };
 
-// What is known of a body before it is built. Counts are doubles, as they may be far beyond any integer.
+// Data of a body before it is built. Counts are doubles, as they may be far beyond any integer.
 struct BodyOutline {
     double points = 0, springs = 0, volumes = 0;
     std::vector<std::string> groups;  // names of point groups, as its builder gives them
@@ -116,7 +116,7 @@ struct BodySpec {
 
     // At rest and free; for arrays, one copy. Throws core::Error(badContent) with file, line and column.
     virtual mechanics::Model build(const SceneSpec& scene) const = 0;
-    // Whether its points keep their distances, so that what presses one presses all.
+    // Whether its points keep their distances, so that a force on one acts on all.
     virtual bool isRigid() const { return false; }
     // Its own axes in the scene as it starts; those of the scene if it is not rigid.
     virtual collision::Frame axes() const { return {}; }
@@ -143,7 +143,7 @@ struct BodySpec {
     // The mesh file from which it is made, or null.
     virtual const MeshSource* meshSource() const { return nullptr; }
     MeshSource* meshSource() { return const_cast<MeshSource*>(std::as_const(*this).meshSource()); }
-    // Itself, and what it is made of: each has a mesh file and a look.
+    // Itself and its parts: each has a mesh file and a look.
     virtual std::vector<const BodySpec*> shapes() const { return {this}; }
     std::vector<BodySpec*> shapes() {
         std::vector<BodySpec*> all;

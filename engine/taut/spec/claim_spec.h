@@ -1,4 +1,4 @@
-// What a scene asks of a run: accuracy, claims about the state, numbers to fit, pictures to compare.
+// Requirements of a scene on a run: accuracy, claims about the state, numbers to fit, pictures to compare.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class Check;
 
 namespace taut::world {
 
-struct NeedSpec {                       // what "accurate enough" means for the scene
+struct NeedSpec {                       // required accuracy of the scene
     std::optional<double> rmsPosition;  // [m]
     std::optional<double> rmsPercent;   // [% of the bounding box]
     std::optional<double> rmsPixels;    // [px at the output size]
@@ -33,7 +33,7 @@ struct CheckSpec {
     std::optional<double> from, upTo;            // [s] all through this span, ends included
 };
 
-// What was measured of a quantity, such as "lowest(cloth.strip)": one value at a moment, or a curve.
+// A measurement of a quantity, such as "lowest(cloth.strip)": one value at a moment, or a curve.
 struct FitTarget {
     TAUT_VALUE(FitTarget);
     struct Point {
@@ -49,7 +49,7 @@ struct FitTarget {
     std::vector<Point> points;  // set by the loader, by time
 };
 
-// Numbers of the scene that are sought, so that it does what was measured.
+// Numbers of the scene to fit to the measurements.
 struct FitSpec {
     TAUT_VALUE(FitSpec);
     std::vector<std::string> keys;  // dotted paths, as of --set

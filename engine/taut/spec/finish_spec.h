@@ -30,7 +30,7 @@ struct FinishSpec {
     double hem = 0.001;         // [m] thickness of a cloth at its free edges
     int smooth = 0;             // times that a cloth or a rope is drawn twice as fine
     std::string skin;           // path of a mesh that is drawn in place of a cloth or a block; empty: none
-    std::shared_ptr<const MeshData> skinData;  // what the file holds; null: none
+    std::shared_ptr<const MeshData> skinData;  // content of the file; null: none
     std::string texture;                       // path, resolved by the loader
 };
 

@@ -51,7 +51,7 @@ struct JointLook {
 struct JointSpec {
     JointSide a, b;
     std::string name;                  // several joints may share a name; empty: none
-    std::optional<double> breakForce;  // [N] at which a tie lets go
+    std::optional<double> breakForce;  // [N] at which a tie breaks
     // [m] In the axes of the first side that is a whole body or a collider, of a body that is not rigid in those of the
     // scene as it starts; none: as the kind says.
     std::optional<dvec3> place;

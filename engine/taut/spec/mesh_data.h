@@ -1,4 +1,4 @@
-// What a mesh file holds.
+// Contents of a mesh file.
 #pragma once
 
 #include <array>
@@ -25,20 +25,20 @@ struct MeshData {
     // Numbers in the file: vertices count from 1, triangles have the line of their face.
     std::vector<int> numbers, lines;
 
-    // Of a glTF file: what moves these vertices, which stand here as the file has them at rest.
+    // Of a glTF file: the animation of these vertices, which are here in the rest pose of the file.
     std::shared_ptr<const figure::Figure> figure;  // null: nothing
     std::uint64_t hash = 0;                        // of all bytes that were read
     std::vector<std::string> files;                // paths of further files that it names
-    std::vector<std::string> notes;                // what it has that is not read
+    std::vector<std::string> notes;                // ignored parts of the file
 };
 
 // The mesh file of a body or a collider.
 struct MeshSource {
     std::string mesh;                          // path, resolved by the loader; empty: none
-    std::shared_ptr<const MeshData> meshData;  // what the file holds, or what was made of an outline; null: none
+    std::shared_ptr<const MeshData> meshData;  // content of the file, or mesh of an outline; null: none
 };
 
-// "cannot use this mesh: file:line: error: what is wrong", with the line of the triangle concerned, if there is one.
+// "cannot use this mesh: file:line: error: fault", with the line of the triangle, if there is one.
 std::string meshFaultText(const MeshSource& source, const std::string& what, int triangle);
 
 }  // namespace taut::world

@@ -1,4 +1,4 @@
-// What a picture shows besides bodies: cameras, light, background, labels.
+// Parts of a picture besides bodies: cameras, light, background, labels.
 #pragma once
 
 #include <optional>

@@ -11,7 +11,7 @@
 
 namespace taut::world {
 
-// What World::save() gave in an earlier run.
+// The bytes of World::save() of an earlier run.
 struct StartState {
     std::int64_t tick = 0;  // the run goes on from it
     std::vector<std::byte> bytes;
@@ -21,7 +21,7 @@ struct RunSpec {
     double fps = 60.0;                               // pictures a second of scene time
     double seconds = 5.0;                            // length
     std::string start{};                             // path of a kept state, resolved by the loader; empty: none
-    std::shared_ptr<const StartState> startState{};  // what the file holds; null: all is as it is authored
+    std::shared_ptr<const StartState> startState{};  // content of the file; null: the initial state of the scene
     Source startSource{};
 };
 

@@ -1,4 +1,4 @@
-// What colliders, solids and the parts of their compounds have in common: a shape of the table of shapes.
+// The common part of colliders, solids and the parts of their compounds: a shape of the table of shapes.
 #pragma once
 
 #include <map>

@@ -26,7 +26,7 @@ struct SolverSpec {
     std::optional<double> dt;  // [s] largest step; none: found from the stability bound ("auto")
     double safety = 0.9;       // share of the stability limit that "auto" uses
     Precision precision = Precision::single_;
-    Dashpots dashpots = Dashpots::automatic;  // automatic: the faster of both; extrapolated if dt is given
+    Dashpots dashpots = Dashpots::automatic;  // automatic: the faster of the two; extrapolated if dt is given
     int newtonSteps = 1;                      // of implicit Euler: most linear solves in a step
     double cgTolerance = 1e-5;  // of implicit methods: residual over right-hand side at which a solve ends
     int cgIterations = 1000;    // of implicit methods: most iterations in a solve

@@ -1,5 +1,5 @@
-// What a scene asks for, as plain data with defaults. The loader fills it, the world is built from it; it knows
-// neither files nor pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
+// Description of a scene, as plain data with defaults. The loader fills it, the world is built from it; independent of
+// files and pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
 //
 // The loader refuses values out of range (scene::manual() lists every range). Code that fills a scene must keep to the
 // same ranges and words, because the world does not check them again. It does check that targets and materials exist.
@@ -37,12 +37,12 @@ struct WorldSpec {
 
 // For bodies that touch each other or themselves.
 struct ContactSpec {
-    double friction = 0.3;          // Coulomb's μ between two bodies, times the factors of both [-]
-    double restitution = 0.0;       // 0 … 1: speed after two bodies bounce / before, times the factors of both [-]
+    double friction = 0.3;          // Coulomb's μ between two bodies, times the factors of the two [-]
+    double restitution = 0.0;       // 0 … 1: speed after two bodies bounce / before, times the factors of the two [-]
     std::optional<int> detections;  // of possible contact pairs, in a tick; none: chosen from the speeds
 };
 
-// What hands may do during a run. Steps allow for the timeline's own grabs without it.
+// Limits of hands during a run. Steps allow for the timeline's own grabs without it.
 struct HandSpec {
     bool anywhere = false;      // a hand may grab any point of any body, and every step allows for it
     double strength = 200.0;    // [N/m] largest of a hand

@@ -1,5 +1,5 @@
 // A list of structs of several kinds with one base, such as the bodies of a scene. It is a value: a copy of the list
-// copies its items. Also here: what makes a struct a kind that such lists and scene files know.
+// copies its items. Also here: the requirements on a struct to be a kind for such lists and scene files.
 //
 // To add a kind: derive from SpecOf<Own, Base>, and add bodyKind<Own>(), forceKind<Own>() or actionKind<Own>(rows)
 // (common_rows.h) to a table of kinds.
@@ -135,7 +135,7 @@ class Specs {
     std::vector<std::unique_ptr<Base>> all_;
 };
 
-// Implements what is the same for every kind.
+// The common part of all kinds.
 template <class Own, class Base>
 struct SpecOf : Base {
     std::string_view kind() const final { return Own::kindName; }
@@ -144,7 +144,7 @@ struct SpecOf : Base {
     }
 };
 
-// What a scene file needs to know of a kind: its section, and a fresh struct for its fields.
+// Data of a kind for scene files: its section, and a new struct for its fields.
 template <class Base>
 struct Kind {
     std::string name;

@@ -1,4 +1,4 @@
-// What "cloth.flag@top-left" means: which bodies, and which of their points.
+// Parts of a target such as "cloth.flag@top-left": bodies, and points of them.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,8 @@ struct Target {
 // Splits KIND.NAME@SELECTOR. Parts may be empty if the text is malformed; the loader has checked it.
 Target parseTarget(std::string_view text);
 
-// A collider or, of a figure, what can carry points: a joint (collider.hero.Hand, collider.hero."Right hand") or the
-// face of a number (collider.hero#12), as hold_on makes it of collider.hero.
+// A collider or, of a figure, a part that can carry points: a joint (collider.hero.Hand, collider.hero."Right hand") or
+// the face of a number (collider.hero#12), as hold_on makes it of collider.hero.
 struct ColliderTarget {
     std::string collider;  // "collider.hero"
     std::string joint;     // empty: none

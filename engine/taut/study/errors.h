@@ -29,7 +29,7 @@ inline double maxDifference(std::span<const double> a, std::span<const double> b
     return std::sqrt(largest);
 }
 
-// What of a state is still worth comparing when its points are not: how large it is, and how low it hangs.
+// Quantities of a state that can be compared if its points cannot: its size, and its lowest height.
 struct StateSize {
     double extent = 0;  // [m] diagonal of the bounding box
     double height = 0;  // [m] mean y

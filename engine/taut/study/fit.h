@@ -1,5 +1,5 @@
-// Seeks the numbers of a scene with which it does what was measured, by least squares over whole runs: from the numbers
-// of the scene, and from others between the bounds while the targets are not met. It knows no files.
+// Fits the numbers of a scene to measurements, by least squares over entire runs: from the numbers of the scene, and
+// from others between the bounds while the targets are not met. Independent of files.
 #pragma once
 
 #include <atomic>
@@ -64,8 +64,8 @@ struct Fit {
     bool isMet() const;  // and the values are the only ones
 };
 
-// Expects what the loader accepts. Throws core::Error: badContent where there is no [fit], diverged where the scene
-// does not run as it is, interrupted.
+// Expects input that the loader accepts. Throws core::Error: badContent without [fit], diverged if the unchanged scene
+// does not run, interrupted.
 Fit makeFit(const world::SceneSpec& spec, const FitSettings& settings);
 
 }  // namespace taut::study

@@ -11,7 +11,7 @@ namespace taut::study {
 // Trials, numbers, targets and the verdict.
 std::string fitSummary(const Fit& fit);
 
-// In a few sentences: whether the targets are met, what cannot be told apart, what a bound holds.
+// In a few sentences: whether the targets are met, numbers that cannot be told apart, numbers at a bound.
 std::string fitVerdict(const Fit& fit);
 
 std::string fitJson(const Fit& fit, const MachineFacts& machine);

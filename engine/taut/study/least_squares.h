@@ -1,5 +1,5 @@
-// Least squares of a few unknowns within bounds, of a function that is dear, known by its values alone and smooth only
-// down to some noise (Levenberg 1944, Marquardt 1963). It knows no scenes.
+// Least squares of a few unknowns within bounds, of an expensive function without derivatives, smooth only down to some
+// noise (Levenberg 1944, Marquardt 1963). Independent of scenes.
 #pragma once
 
 #include <functional>
@@ -14,13 +14,13 @@ struct LeastSquares {
     // may be computed side by side.
     std::function<std::vector<Vector>(const std::vector<Vector>& points)> residuals;
     Vector start, low, high;   // (unknowns) of like size: a step of 1 is a large one
-    double difference = 0.02;  // to either side, for derivatives; well above what noise and rounding change
+    double difference = 0.02;  // to either side, for derivatives; well above the effect of noise and rounding
     int most = 300;            // points in all
 };
 
-// Residuals hardly change along a direction if they do so by less than a hundredth of what each unknown changes by
-// itself (a correlation of 0.9999, beyond which differences of runs are too rough), or if the standard deviation along
-// it is above 1.
+// Residuals hardly change along a direction if their change is less than a hundredth of the change along each unknown
+// (a correlation of 0.9999, beyond which differences of runs are too rough), or if the standard deviation along it is
+// above 1.
 struct Minimum {
     Vector x;                        // (unknowns)
     Vector residuals;                // there; none: there are none at the start

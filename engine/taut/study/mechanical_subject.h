@@ -1,4 +1,4 @@
-// Point masses and springs as a subject: a model, gravity, and what theory says about it. It knows no scene files.
+// Point masses and springs as a subject: a model, gravity, and its theory. Independent of scene files.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,4 @@
-// From what a scene needs to the cheapest way to model and compute it, with the evidence.
-// It writes nothing.
+// From the need of a scene to the cheapest way to model and compute it, with the evidence. It writes nothing.
 #pragma once
 
 #include <atomic>
@@ -17,12 +16,12 @@
 namespace taut::study {
 
 struct PlanSettings {
-    double effort = 2e10;  // all runs together: evaluations times springs and points, and what takes as long
+    double effort = 2e10;  // all runs together: evaluations times springs and points, and equivalent work
     std::function<void(const StudyProgress&)> progress;
     const std::atomic<bool>* stop = nullptr;
 };
 
-// What leaving out a force generator changes.
+// The effect of leaving out a force generator.
 struct GeneratorTrial {
     std::string name;
     double change = 0;  // [m] RMS; infinite when the motion diverges without it

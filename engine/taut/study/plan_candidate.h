@@ -17,7 +17,7 @@ struct SceneSpec;
 
 namespace taut::study {
 
-// What can be left out of a scene.
+// Parts of a scene that can be left out.
 struct Generator {
     std::string name;                    // "wind breeze", "drag", "bend springs", …
     std::vector<std::string_view> keys;  // of the numbers that are all zero without it, see scene::eachNumber
@@ -27,7 +27,7 @@ struct Generator {
 
 using Generators = std::vector<Generator>;
 
-// Those that the scene has itself: fabrics of the library stay as they are.
+// Generators of the scene itself: fabrics of the library are not changed.
 Generators generatorsOf(const world::SceneSpec& spec);
 
 // Which bodies may be built of more or fewer cells, and why the others may not.
@@ -48,11 +48,11 @@ struct Candidate {
     int substeps = 0;  // of the island that needs most, as it starts; 0: as many as dt = "auto" finds
 };
 
-// What an evaluation of an island's forces, and what goes with it, costs: its springs and points, and what takes as
-// long as so many of them.
+// The cost of an evaluation of an island's forces and its overhead: its springs and points, and the equivalent of other
+// work.
 double costOf(const world::IslandInfo& island);
 
-// What dt = "auto" finds for a scene.
+// The result of dt = "auto" for a scene.
 struct StepFacts {
     int leastSubsteps = 1;   // of the island that needs most, as it starts
     double limit = 0;        // [s] its largest stable step wherever it goes: of a dt by hand

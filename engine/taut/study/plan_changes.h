@@ -1,4 +1,4 @@
-// What of a scene file has to change for a plan to come true.
+// The changes of a scene file for a plan.
 #pragma once
 
 #include <vector>

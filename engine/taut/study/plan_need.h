@@ -1,4 +1,4 @@
-// What "accurate enough" means for a scene, in metres and seconds. It runs nothing.
+// The required accuracy of a scene, in metres and seconds. It runs nothing.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ struct SceneSpec;
 
 namespace taut::study {
 
-// What percents and pixels are turned into metres with.
+// Scales that convert percents and pixels to metres.
 struct Scales {
     double extent = 0;          // [m] diagonal of the box that all points stay in
     double metresPerPixel = 0;  // [m] where a pixel shows least; 0: nothing is before the camera
@@ -27,7 +27,7 @@ struct Need {
 // Throws core::Error(badContent) where [need] is missing, says nothing of accuracy, or contradicts the scene.
 void checkNeed(const world::SceneSpec& spec);
 
-// The strictest of what is asked for. Expects a need that checkNeed accepts.
+// The strictest of the requirements. Expects a need that checkNeed accepts.
 Need resolvedNeed(const world::SceneSpec& spec, const Scales& scales);
 
 // "2 mm", "35 µm"

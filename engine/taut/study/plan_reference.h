@@ -1,5 +1,5 @@
-// What candidates are compared with: the motion at a resolution and a step so fine that its own error is known to be
-// small, and the errors of the resolutions on the way there.
+// The reference of candidates: the motion at a resolution and a step so fine that its own error is known to be small,
+// and the errors of the coarser resolutions.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace taut::study {
 
-// What all runs of a plan have in common.
+// The common part of all runs of a plan.
 struct PlanContext {
     const world::SceneSpec& spec;
     const PlanSettings& settings;
@@ -25,9 +25,9 @@ struct PlanContext {
     mutable std::atomic<bool> isCutShort = false;  // something was not run, or not to its end, for the effort
 
     void tell(const std::string& doing, double done) const;  // throws core::Error when it is to stop
-    // Runs a model of the scene within the effort that is left, and counts what it takes. Not beyond `most` cost.
+    // Runs a model of the scene within the remaining effort, and counts its cost. Not beyond `most` cost.
     PlanRun run(const world::SceneSpec& model, double most = HUGE_VAL) const;
-    // Of a share of the effort, less what was spent.
+    // The rest of a share of the effort.
     double left(double share = 1.0) const {
         return share * settings.effort - static_cast<double>(spent.load(std::memory_order_relaxed));
     }
@@ -40,8 +40,8 @@ inline constexpr double leastShareOfReference = 5;
 [[noreturn]] void failForEffort(const PlanContext& context);
 
 // The motion at a resolution, in double precision with all generators: by Fehlberg's method of order 8, which controls
-// its own error. Where there is something to touch, contact is of order 1 whatever the method: there by RK4, and where
-// explicit steps are far too dear by another, at ever shorter steps until halving them tells no more.
+// its own error. Contact is of order 1 for any method: with contact by RK4, and where explicit steps are far too
+// expensive by another method, at ever shorter steps until halving them changes no more.
 struct ExactRun {
     PlanRun run;
     double error = HUGE_VAL;  // [m] of its steps, estimated from coarser ones
@@ -49,17 +49,17 @@ struct ExactRun {
 };
 // Spends no more than that share of the effort, beyond the first two runs.
 ExactRun exactRun(const PlanContext& context, int count, double share);
-// What its first two runs would take of the effort.
+// The share of its first two runs in the effort.
 double exactEffort(const PlanContext& context, int count);
 
-// A candidate has to be near both, the finest run and what it tends to (Richardson): then it is as near to all that
-// lies in between, wherever there the truth is. The reference's own error so counts for a candidate in the direction
-// that it has, and for one that errs in another direction not at all.
+// A candidate has to be near the finest run and near its limit (Richardson): then it is as near to everything in
+// between, wherever the truth is. So the reference's own error counts for a candidate in its own direction, and not at
+// all for one that errs in another direction.
 struct PlanReference {
     PlanRun run, limit;               // at the finest resolution; extrapolated from it and the one before
     int count = 0;                    // of the finest
     double error = 0;                 // [m] of the finest: how far it is from its limit, and that of its steps
-    double unknown = 0;               // [m] of that, what has no direction: of its steps, and a share of the rest
+    double unknown = 0;               // [m] its part without direction: of its steps, and a share of the rest
     double order = PlanTrial::unset;  // measured over three resolutions
     std::string method;               // of its steps, in words
     std::map<int, PlanRun> runs;      // by count

@@ -1,5 +1,5 @@
-// A candidate's run: where its material goes, what that costs. Different resolutions are looked at at the same places
-// of the material, by interpolation between points, so that they can be compared.
+// A candidate's run: the motion of its material, and the cost. Different resolutions are compared at the same places of
+// the material, by interpolation between points.
 #pragma once
 
 #include <cmath>
@@ -34,9 +34,9 @@ struct PlanRun {
     bool isTooDear = false;  // stopped because it cost more than asked for
     std::vector<Sight> at;   // (samples)
     ode::Work work;          // the start's too
-    double cost = 0;    // evaluations of the forces, products of a solver counted as such, times what one costs, see
-                        // costOf(); without the start's, which are made once however long the run
-    double effort = 0;  // the same with the start's, and with what a call and building the world cost besides
+    double cost = 0;    // evaluations of the forces, products of a solver counted as such, times the cost of one, see
+                        // costOf(); without those of the start, which are made once for any length of the run
+    double effort = 0;  // the same with the start, calls and building the world
     double startEffort = 0;  // of that, of building the world
     double springs = 0;
     double seconds = 0;  // of wall time, on one thread
@@ -53,7 +53,7 @@ struct RunLimits {
     bool withScales = false;
 };
 
-// As a user runs the model: steps follow the state where dt is "auto". Never throws for what the scene does: a
+// As a user runs the model: steps follow the state where dt is "auto". Never throws for errors of the scene: a
 // divergence is a failure.
 PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const PlanGrid& grid,
              const RunLimits& limits = {});

@@ -10,7 +10,7 @@ namespace taut::study {
 void searchCandidates(const PlanContext& context, const PlanReference& reference, std::optional<int> least,
                       const std::vector<Generators>& without, Plan& plan);
 
-// Sets aside what was chosen, as it did not stand the verification, for the next cheapest that meets the need, if any.
+// Discards the choice, which failed the verification, for the next cheapest that meets the need, if any.
 void rejectChosen(Plan& plan);
 
 // Says of each trial why it was not chosen.

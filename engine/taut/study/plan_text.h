@@ -8,7 +8,7 @@
 
 namespace taut::study {
 
-// Need, evidence and result; the last lines say what to change.
+// Need, evidence and result; the last lines have the changes to make.
 std::string planSummary(const Plan& plan);
 
 // Everything in it, with the machine.

@@ -1,6 +1,6 @@
-// What a run is compared with: theory where there is a solution, else a method of order 8 that controls its own error,
-// at two tolerances. Where points touch anything, contact is of order 1 whatever the method: there it is RK4 at a much
-// smaller step, checked against itself at twice that.
+// The reference of a run: theory if there is a solution, else a method of order 8 that controls its own error, at two
+// tolerances. Contact is of order 1 for any method: with contact it is RK4 at a much smaller step, checked against
+// itself at twice that.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace taut::study {
 struct Reference {
     std::vector<Observation> at;  // (samples)
     bool isExact = false;
-    bool isControlled = false;    // by Fehlberg's method; of what is computed the other is RK4 at two steps
+    bool isControlled = false;    // by Fehlberg's method; other computed references are RK4 at two steps
     double tolerance = 0;         // [unit/s] of the finer run, where controlled
     double step = 0;              // [s] of the finer run, where not controlled
     double difference = 0;        // RMS over the window between the two runs

@@ -34,7 +34,7 @@ struct RefinementRun {
 
 struct RefinementFacts {
     const RefinementBody* body = nullptr;
-    double reference = 0;           // [m] what errors are measured against
+    double reference = 0;           // [m] scale of the errors
     std::vector<double> strongest;  // (treatments) largest |error|
 };
 

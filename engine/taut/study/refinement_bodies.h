@@ -1,5 +1,5 @@
-// The bodies of the refinement study: how each is built at any resolution, what is read off when it hangs at rest, and
-// what theory says of that. It knows neither which resolutions are compared nor how.
+// The bodies of the refinement study: the builder of each at any resolution, its measured quantity at rest, and the
+// theory. Independent of the compared resolutions.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace taut::study {
 
-// What a point and a spring at the edge of a body stand for. Weighted: their share of the material. Naive: m = M/n for
+// The share of a point and a spring at the edge of a body. Weighted: their share of the material. Naive: m = M/n for
 // every point, and the full stiffness for every spring.
 struct Lumped {
     bool isMassNaive = false;

@@ -12,9 +12,8 @@ struct SceneSpec;
 
 namespace taut::study {
 
-// The largest step is a tick of the scene, and its times are whole ticks. The duration is what the scene says, at most
-// two seconds. Throws what the world throws.
-// Throws core::Error(badContent) when no point of it is free.
+// The largest step is a tick of the scene, and its times are integer ticks. The duration is that of the scene, at most
+// two seconds. Throws exceptions of the world, and core::Error(badContent) if no point of it is free.
 std::unique_ptr<Subject> makeSceneSubject(const world::SceneSpec& spec, const std::string& name);
 
 }  // namespace taut::study

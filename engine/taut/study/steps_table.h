@@ -1,4 +1,4 @@
-// The slides' tables for their two equations: how many steps each method needs, and what equal work buys.
+// The slides' tables for their two equations: the steps that each method needs, and the effect of equal work.
 #pragma once
 
 #include <string>

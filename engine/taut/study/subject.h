@@ -1,5 +1,5 @@
-// What is studied: something that any method can integrate from the same start, looked at at fixed times. It knows
-// neither what is measured nor how that is shown.
+// The subject of a study: a problem that any method can integrate from the same start, sampled at fixed times.
+// Independent of measurements and charts.
 #pragma once
 
 #include <limits>
@@ -38,7 +38,7 @@ struct RunPlan {
     long long steps() const { return stepsPerSample * grid.samples; }
 };
 
-// What a sample time shows.
+// The state at a sample time.
 struct Observation {
     std::vector<double> values;  // (points × dimensions) positions of the free points [m], or y
     double energy = std::numeric_limits<double>::quiet_NaN();   // [J], velocities synchronised
@@ -84,13 +84,13 @@ class Subject {
     // The largest stable step [s] as the method's own bound has it: 0 for none, infinite without limit.
     virtual double stepLimit(const ode::MethodInfo& method) const = 0;
 
-    // What theory says at a time; none: a reference has to be computed.
+    // The theory at a time; none: a reference has to be computed.
     virtual std::optional<Observation> exact(double t) const;
 
-    // [s] between two pictures: what the time of a run is held against.
+    // [s] between two pictures: the scale for the time of a run.
     virtual double frame() const { return 1.0 / 60; }
 
-    // What lowers the order that can be measured, in words; empty when nothing does.
+    // Causes of a lower measurable order, in words; empty: none.
     virtual std::string caution() const { return ""; }
 };
 

@@ -1,5 +1,5 @@
-// The largest step that each method stands in a scene, found by trying, beside what bounds and theory say. It draws
-// and writes nothing.
+// The largest stable step of each method in a scene, found by trial, beside bounds and theory. It draws and writes
+// nothing.
 #pragma once
 
 #include <atomic>
@@ -55,7 +55,7 @@ struct MethodThreshold {
     PredictedSteps predicted;
     std::string limitedBy;  // body that went first just above, or "energy"
     int runs = 0;
-    std::string note;  // what a reader must know; may be empty
+    std::string note;  // notes for the reader; may be empty
 };
 
 struct SceneThresholds {
@@ -72,13 +72,13 @@ struct SceneThresholds {
 
 struct ThresholdSettings {
     std::vector<std::string> methods;                    // empty: all
-    double seconds = 0;                                  // [s] of motion; 0: what the scene says, at most 0.5
+    double seconds = 0;                                  // [s] of motion; 0: the length of the scene, at most 0.5
     std::function<void(const AtlasProgress&)> progress;  // from one thread at a time
     const std::atomic<bool>* stop = nullptr;
 };
 
-// Bisects until the steps that stand and fail are 1 % apart. Double precision, all bodies by the same method; every
-// coordinate of the start is moved by up to 1e-9 m, so that no symmetry hides a mode. Throws what the world throws.
+// Bisects until the stable and unstable steps are 1 % apart. Double precision, all bodies by the same method; every
+// coordinate of the start is moved by up to 1e-9 m, so that no symmetry hides a mode. Throws exceptions of the world.
 SceneThresholds findThresholds(const world::SceneSpec& spec, const std::string& name,
                                const ThresholdSettings& settings);
 

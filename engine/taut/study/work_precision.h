@@ -1,4 +1,4 @@
-// Every method at every step: how far off it is and what it costs. It draws and writes nothing.
+// The error and cost of every method at every step. It draws and writes nothing.
 #pragma once
 
 #include <atomic>
@@ -61,10 +61,10 @@ struct WorkPrecision {
     int window = 0;  // samples within the horizon
     Reference reference;
     double frame = 1.0 / 60;           // [s] between two pictures
-    bool hasContacts = false;          // in the reference: what diverges may touch anything
+    bool hasContacts = false;          // in the reference: diverging runs may touch anything
     std::vector<MethodFacts> methods;  // in the order of the table
     std::vector<RunPoint> points;      // by method, precision, falling step
-    std::vector<std::string> remarks;  // what a reader must know
+    std::vector<std::string> remarks;  // notes for the reader
     bool isInterrupted = false;
 };
 

@@ -10,7 +10,7 @@
 
 namespace taut::study {
 
-// What the study ran on: names and values, such as {"processor", "…"}.
+// The machine of the study: names and values, such as {"processor", "…"}.
 using MachineFacts = std::vector<std::pair<std::string, std::string>>;
 
 // A row a run, failed ones included; units stand in the names of the columns.
@@ -20,8 +20,8 @@ std::string workPrecisionCsv(const WorkPrecision& study);
 std::string workPrecisionJson(const WorkPrecision& study, const std::vector<StepsRow>& steps,
                               const MachineFacts& machine);
 
-// A line a method and precision: limit, measured order, what its best run and the cheapest within 1 % and 0.1 % of the
-// motion cost.
+// A line per method and precision: limit, measured order, cost of its best run and of the cheapest within 1 % and 0.1 %
+// of the motion.
 std::string workPrecisionSummary(const WorkPrecision& study);
 
 std::string stepsSummary(const std::vector<StepsRow>& rows);

@@ -33,7 +33,7 @@ struct Finish {
     std::string texture;      // path of a PNG or JPEG when pattern is image; spans one repeat
 };
 
-// What of a surface never changes: drawn by index, shared by all frames.
+// The constant part of a surface: drawn by index, shared by all frames.
 struct Topology {
     std::vector<std::uint32_t> triangles;  // (3 · triangles) counter-clockwise seen from the front
     std::vector<glm::vec2> uv;             // (vertices) [m] along the material
@@ -44,7 +44,7 @@ struct Geometry {
     std::vector<glm::vec3> normals;    // (vertices) unit
 };
 
-// Pointers say what is new: a renderer may keep what it uploaded for a pointer that it has seen before.
+// A new pointer marks new data: a renderer may keep uploaded data of a pointer that it has seen before.
 struct Surface {
     std::string name;
     std::shared_ptr<const Topology> topology;
@@ -55,8 +55,8 @@ struct Surface {
     float tubeRadius =
         0.0F;  // [m] of a rope or rod as tubeGeometry makes it: it is never drawn thinner than a pixel; 0: other
     float hem = 0.0F;     // [m] thickness of a cloth as its free edges show it, seen close
-    float dulled = 0.0F;  // 0 … 1: how far its colours give way to a dull red, for what has stopped
-    float greyed = 0.0F;  // 0 … 1: how far they give way to grey, for what sleeps; of a surface that is not dulled
+    float dulled = 0.0F;  // 0 … 1: blend towards a dull red, for stopped bodies
+    float greyed = 0.0F;  // 0 … 1: blend towards grey, for sleeping bodies; of a surface that is not dulled
 };
 
 struct Camera {
@@ -134,7 +134,7 @@ struct Label {
     std::optional<glm::vec3> at;   // [m] seen through the camera; none: `screen` counts
     glm::vec2 screen{0.5F, 0.5F};  // from the top left, as shares of width and height
     glm::vec2 shift{0.0F};         // [picture heights] from there to the right and down
-    Align align = Align::centre;   // what of the text's base line stands there
+    Align align = Align::centre;   // alignment of the text's base line at its place
     float size = 0.035F;           // [picture heights] of the type
     glm::vec3 colour{1.0F};        // of the letters; they have a dark rim
     float plate = 0.0F;            // darkness of a plate behind the text, 0 (none) … 1

@@ -1,4 +1,4 @@
-// What a scene asks for and hardly means, found before the first tick.
+// Warnings before the first tick: settings that are probably mistakes.
 #pragma once
 
 #include <vector>

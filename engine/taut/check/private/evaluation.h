@@ -1,4 +1,4 @@
-// What claims are built of, and how their parts become numbers. It parses nothing.
+// The parts of claims, and their evaluation. Does not parse.
 #pragma once
 
 #include <array>
@@ -73,9 +73,9 @@ std::string placeOf(const Expression& expression, const Now& now);
 // Of an expression that is one function, or a part or a multiple of one; else empty.
 std::string unitOf(const Expression& expression);
 
-// How two numbers are compared. No relation holds with what is no number.
+// A comparison of two numbers. No relation holds with a NaN.
 struct Relation {
-    std::string_view sign, flipped;  // "<", and what stands there with the sides exchanged
+    std::string_view sign, flipped;  // "<", and the relation with exchanged sides
     int way;                         // of a chain: 1 upwards, -1 downwards, 0 neither
     bool (*holds)(double a, double b);
     double (*margin)(double a, double b);  // how far they are inside; negative where it does not hold

@@ -1,4 +1,4 @@
-// From the text of a claim to its parts. It knows the functions' names and arguments, not what they measure.
+// Parses a claim. Uses the names and arguments of functions, not their evaluation.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace taut::check {
 
-// Throws ClaimError. Adds what the claim speaks of to `mentions`, in the order of the text.
+// Throws ClaimError. Adds the mentioned targets to `mentions`, in the order of the text.
 Claim claimOf(std::string_view text, std::vector<Mention>& mentions);
 
 // The same for expressions with commas between them and no comparison; at least one.

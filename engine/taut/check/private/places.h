@@ -12,7 +12,7 @@ namespace taut::check {
 std::string extremePoint(const Now& now, const std::string& target,
                          const std::function<double(const world::PointsNow&, std::size_t)>& measure);
 
-// The body that has the largest measure of those that a target names; empty: of all.
+// The body with the largest measure of a target; empty target: of all bodies.
 std::string extremeBody(const Now& now, const std::string& bodies, world::Measures what,
                         const std::function<double(const world::Metrics&)>& measure);
 

@@ -13,7 +13,7 @@ inline constexpr int contactBatch = 64;  // points at most, so that their data s
 // Length of a row: a batch and one cache line more. Rows that are a page apart would slow each other down.
 inline constexpr int contactRow = contactBatch + 8;
 
-// How often a point is tried against all that it may touch: what was moved out of one may stand in another.
+// Number of rounds in which a point is tested against all candidates: moved out of one, it may stand in another.
 inline constexpr int mostPasses = 4;
 
 class FootFinder;
@@ -25,7 +25,7 @@ struct FeetArgs {
     const FootFinder* finder = nullptr;  // nullptr: it is no mesh
     const double* facets = nullptr;      // (12 · triangles) each a Facet (facets.h)
     bool isClosed = false;
-    FootRows* rows = nullptr;  // what is known of the points: those from `first` on
+    FootRows* rows = nullptr;  // cached data of the points from `first` on
     int first = 0;
     // Finds the feet of the points that are lost. It is called once for a pass over the batch.
     void (*find)(const FeetArgs& args, double thickness, int n, ContactLanes& lanes) = nullptr;
@@ -63,7 +63,7 @@ struct ContactArgs {
     double fastest;        // [m/s] limit of the surface's speed
 };
 
-// What the kernel has done with a point.
+// The result of the kernel for a point.
 enum class PointOutcome : std::int64_t {
     free,     // nothing: it does not touch
     touched,  // moved it out of the solid
@@ -81,7 +81,7 @@ struct ContactLanes {
     alignas(64) double carried[3][contactRow];  // velocity of the surface at `position`
     alignas(64) double end[3][contactRow];
     alignas(64) double v[3][contactRow];
-    alignas(64) double localStart[3][contactRow];  // for a moving solid, later the start carried along by it
+    alignas(64) double localStart[3][contactRow];  // for a moving solid, later the start carried along with it
     alignas(64) double localEnd[3][contactRow];
     alignas(64) double skin[contactRow];
     alignas(64) double distance[contactRow];  // at the end; later the offset of the half-space to end in
@@ -107,7 +107,7 @@ struct ContactLanes {
 inline constexpr std::int64_t anyTouched = 1;
 inline constexpr std::int64_t anyLeft = 2;
 
-// Bits of `outcome` while a kernel works: what it has found out about a point so far.
+// Bits of `outcome` while a kernel works: its intermediate results for a point.
 inline constexpr std::int64_t isLive = 4, isNear = 8, needsStart = 16;
 inline constexpr std::int64_t isLost = 32;      // its foot on a mesh is not known
 inline constexpr std::int64_t isOverFace = 64;  // the foot is inside of `triangle`

@@ -23,7 +23,7 @@ inline std::int64_t anyOf(const std::int64_t (&outcome)[contactRow], int n) {
 }
 
 // respond() for the points that are near. `path` is the start of their paths, carried along by the surface. A point
-// that was touched before (`again`) takes what comes of it even if there is nothing to report.
+// with an earlier contact (`again`) takes the result even if there is nothing to report.
 inline void respondAll(const Surface& surface, const Rows& path, bool again, ContactLanes& lanes, int n) {
     using V = core::TAUT_ISA::WideVector<double>;
     constexpr int width = sizeof(V) / sizeof(double);

@@ -1,5 +1,5 @@
-// Finds the nearest place on a set of triangles: in cells that know which triangles can be nearest, or in a tree where
-// no cell knows. It knows no paths, and does not know what the triangles bound.
+// Finds the nearest place on a set of triangles: in cells with their possible triangles, or in a tree outside of the
+// cells. Independent of paths, and of the inside of the triangles.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ class FootFinder {
     // Gives the same bits for any number of threads.
     explicit FootFinder(Facets facets);
 
-    // What the cells know about a place, without a look at triangles.
+    // The information of the cells about a place, without triangles.
     struct Place {
         double least;               // [m] the surface is at least this far
         double room;                // [m] from the place to the border of its cell; below 0 outside of all cells
@@ -41,7 +41,7 @@ class FootFinder {
     // the one that faces p most.
     Foot foot(const dvec3& p, const Place& place) const;
 
-    // What is known about the places near p. If the surface is farther than `far` [m], that is all.
+    // The information about the places near p. If the surface is farther than `far` [m], nothing more is computed.
     struct Around {
         double clear = -1.0;       // [m] the surface is at least this far from p; below 0: p is inside
         double radius = -1.0;      // [m] places as near to p have their foot on p's triangle, if it is inside of that

@@ -1,6 +1,6 @@
-// What is known about where the points of a block have their feet on triangles (foot_finder.h): for each of them a
-// place where it once was, and how far around that place an answer holds. It saves searches and changes no result: an
-// answer that holds is the one that a search would find. Plain data, because the kernels read it.
+// Cached feet of the points of a block on triangles (foot_finder.h): for each point an earlier place, and the radius
+// around it in which the result is valid. It saves searches and changes no result: a valid result is the one of a
+// search. Plain data, because the kernels read it.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct FootRows {
     const FootFinder* finder[contactBatch] = {};           // whose triangles they are; nullptr: nothing is known
 };
 
-// Finds the feet of the points of a batch that are lost, and notes what is known about them.
+// Finds the missing feet of the points of a batch, and caches them.
 void findFeet(const FeetArgs& args, double thickness, int n, ContactLanes& lanes);
 
 }  // namespace taut::collision

@@ -1,5 +1,5 @@
-// What a touch does to a point: projection, the normal impulse with restitution, Coulomb friction. It knows no shapes.
-// One text for one point and for several at once: V is double, or a vector with a lane for each point.
+// The effect of a contact on a point: projection, the normal impulse with restitution, Coulomb friction. Independent of
+// shapes. One text for one point and for several at once: V is double, or a vector with a lane for each point.
 #pragma once
 
 #include "taut/core/private/vectors.h"
@@ -25,7 +25,7 @@ struct Touch {
     Triple<V> v;     // of the point [m/s]
     Triple<V> normal;
     V offset;           // [m]
-    V skin;             // [m] what rounding makes of a distance
+    V skin;             // [m] rounding error of a distance
     Triple<V> carried;  // velocity of the surface [m/s], 0 of a still one
 };
 
@@ -49,9 +49,9 @@ inline Triple<V> placeUnder(const Triple<V>& to, const Triple<V>& normal, const 
 
 //      from o           The path in the world, its start carried along by the surface. `fall` is how far it goes
 //            \          against the normal, `pressed` the part of that after the touch. Friction acts on the way along
-//   ----------x-------  the surface after the touch as it does on the velocity: it undoes as much of this way as
+//   ----------x-------  the surface after the touch as it does on the velocity: it undoes as much of this path as
 //              \        μ times `pressed` allows. So a point that sticks is where it was. It does not creep down a
-//            to o       slope by what gravity adds in a step.
+//            to o       slope by the motion that gravity adds in a step.
 template <class V>
 inline Response<V> respond(const Surface& surface, const Touch<V>& touch) {
     using core::TAUT_ISA::isAny;

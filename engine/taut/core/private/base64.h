@@ -15,12 +15,12 @@ class Base64 {
     // Appends the letters of whole groups of three bytes; up to two bytes wait for the next piece.
     void append(std::string& text, std::span<const std::byte> bytes);
 
-    // Appends those of what waits, padded.
+    // Appends the letters of the waiting bytes, padded.
     void finish(std::string& text);
 
   private:
     std::array<std::byte, 3> waiting_{};
-    std::size_t count_ = 0;  // of those that wait
+    std::size_t count_ = 0;  // number of waiting bytes
 };
 
 std::string base64(std::span<const std::byte> bytes);

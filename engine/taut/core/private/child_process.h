@@ -1,5 +1,5 @@
-// A program that runs as a process of its own: it reads what we write, and what it says is kept.
-// It knows nothing of what the program is for.
+// A program that runs as a child process: it reads our output, and its messages are kept. Independent of the purpose of
+// the program.
 #pragma once
 
 #include <sys/types.h>
@@ -20,10 +20,10 @@ namespace taut::core {
 bool isInPath(const std::string& program);
 
 struct ChildCommand {
-    std::vector<std::string> arguments;  // the program, a path or a name in PATH, and what it is given
-    // What differs from the environment of this process: a value, or none for a variable that the child is to lack.
+    std::vector<std::string> arguments;  // the program, a path or a name in PATH, and its arguments
+    // Changes of the environment of this process: a value, or none to remove a variable.
     std::map<std::string, std::optional<std::string>> environment{};
-    // How long it may neither take what it is given nor end: then it hangs, and is killed.
+    // Time without reading input or ending after which it counts as hanging and is killed.
     std::chrono::milliseconds patience = std::chrono::minutes(10);
 };
 
@@ -41,7 +41,7 @@ class ChildProcess {
   public:
     // Starts it; throws core::Error(inputOutput) when it cannot be run.
     explicit ChildProcess(const ChildCommand& command);
-    ~ChildProcess();  // what still runs is killed
+    ~ChildProcess();  // kills the running program
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
@@ -52,7 +52,7 @@ class ChildProcess {
     // first call waits.
     ChildEnd wait(const std::atomic<bool>* stop = nullptr);
 
-    // What it said so far on standard output and on standard error, without blanks and line ends at the end.
+    // Output so far on standard output and on standard error, without blanks and line ends at the end.
     std::string output() const;
     std::string errors() const;
 

@@ -1,4 +1,4 @@
-// How far apart two words are: what a "did you mean" is found by.
+// Edit distance of two words, for "did you mean".
 #pragma once
 
 #include <string_view>

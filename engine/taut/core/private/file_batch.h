@@ -1,5 +1,5 @@
-// Several files of a folder changed together: all of them or none, also when the process is killed or the disk is full
-// on the way. It knows nothing of what is in them.
+// Changes several files of a folder together: all or none, even if the process is killed or the disk is full.
+// Independent of their contents.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace taut::core {
 
-// New files are written beside the old ones; then a list of what is to be renamed and removed appears under its name,
-// and from there on the batch is done: what is left of it, recover() does at any later time.
+// New files are written beside the old ones. Then a list of files to rename and remove is published under its name:
+// from that moment the batch is final, and recover() completes it at any later time.
 class FileBatch {
   public:
     explicit FileBatch(std::filesystem::path folder);

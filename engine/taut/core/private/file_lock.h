@@ -1,5 +1,5 @@
-// Locks of the kernel on files: they go with the process that holds them, however it ends, and hold between threads
-// too. It knows nothing of what is in the files.
+// Kernel locks on files: released with the process, however it ends, and effective between threads too. Independent of
+// the contents of the files.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Which vector instructions the kernels use: those that are fastest on this processor, unless the user says which.
-// Every set gives the same bits.
+// Selects the vector instructions of the kernels: the fastest on this processor, unless the user chooses. Every set
+// gives the same bits.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace taut::core {
 
-// The sets that kernels are compiled for (taut_kernels in engine/taut.cmake), from the narrowest on: each with its name
-// and whether this processor has it. The first is what every processor has.
+// Instruction sets of the kernels (taut_kernels in engine/taut.cmake), from the narrowest on: each with its name and
+// whether this processor supports it. Every processor supports the first.
 #if defined(__wasm__)
 #define TAUT_SETS(each, ...) each(wasm128, true, __VA_ARGS__)
 #else
@@ -51,7 +51,7 @@ Kernels inUse(InstructionSet set, Kernels narrowest, Wider... wider) {
     return copies[static_cast<std::size_t>(set)];
 }
 
-// How that was decided: "TAUT_SIMD", "--isa", or what springs took in the trial: "trial: sse2 2.1, avx2 1.0 ns".
+// How it was selected: "TAUT_SIMD", "--isa", or the times of springs in the trial: "trial: sse2 2.1, avx2 1.0 ns".
 std::string instructionSetReason();
 
 // Takes a set as TAUT_SIMD has it, for `reason`; "auto" tries which is fastest. Applies to kernels looked up

@@ -1,4 +1,4 @@
-// Side-by-side loops. What a task computes may depend on its index only, never on the number of threads.
+// Parallel loops. The result of a task may depend on its index only, never on the number of threads.
 #pragma once
 
 #include <functional>
@@ -6,14 +6,14 @@
 
 namespace taut::core {
 
-// Calls task(0) … task(count - 1), each once, in any order and on any thread; returns when all are done. Throws what
-// a task throws; then some may not have run.
+// Calls task(0) … task(count - 1), each once, in any order and on any thread; returns when all are done. Rethrows an
+// exception of a task; then some may not have run.
 void parallelFor(int count, const std::function<void(int)>& task);
 
-// The same, but that tasks which are `inTurn` run one after another, ascending, whatever the others do meanwhile.
+// The same, but tasks that are `inTurn` run one after another, ascending, in parallel with the others.
 void parallelFor(int count, const std::function<bool(int)>& inTurn, const std::function<void(int)>& task);
 
-// Calls each(0) … each(count - 1) likewise, `atOnce` of them in one task: for what is short.
+// Calls each(0) … each(count - 1), `atOnce` of them in one task: for short calls.
 template <class Each>
 void parallelFor(int count, int atOnce, const Each& each) {
     parallelFor((count + atOnce - 1) / atOnce,

@@ -1,4 +1,4 @@
-// UTF-8, letter by letter. It knows nothing of what a text says.
+// UTF-8, letter by letter. Independent of the meaning of texts.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,9 @@ struct Letter {
 // The first letter of a text, which is not empty; by RFC 3629, so neither overlong nor a surrogate.
 Letter firstLetter(std::string_view text);
 
-// The text, safe to show on a terminal: what would steer one or turn the order of letters is shown as what it is.
-// Controls but line ends and tabs (U+0000 to U+001F, U+007F to U+009F), line separators and the marks of the
-// bidirectional algorithm (Unicode Annex 9) become "\u{202E}", bytes that are no UTF-8 "\x9B". For what has to stay in
-// one line, line ends and tabs too.
+// The text, safe to print on a terminal: control sequences and marks that reorder letters are escaped. Controls except
+// line ends and tabs (U+0000 to U+001F, U+007F to U+009F), line separators and the marks of the bidirectional algorithm
+// (Unicode Annex 9) become "\u{202E}", invalid bytes "\x9B". For a single line, line ends and tabs are escaped too.
 std::string printable(std::string_view text, bool isOneLine = false);
 
 }  // namespace taut::core

@@ -1,6 +1,5 @@
-// Vectors of the instruction set that a kernel is compiled for, for loops that a compiler does not vectorise by itself.
-// Everything in it is the including file's own, compiled for that file's instruction set: that of a kernel, or what
-// every processor has.
+// Vectors of the instruction set of a kernel, for loops that a compiler does not vectorise by itself. All of it is
+// local to the including file and compiled for its instruction set: that of a kernel, or the one of every processor.
 #pragma once
 
 #ifndef TAUT_ISA

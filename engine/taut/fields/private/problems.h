@@ -1,4 +1,4 @@
-// Collects what is wrong with a text and gives it in the order of the file, each with its line and a caret.
+// Collects errors and warnings of a text and lists them in the order of the file, each with its line and a caret.
 #pragma once
 
 #include <deque>
@@ -20,24 +20,24 @@ class Problems {
     // A file that the one before builds on. Returns the origin of its places: -1, then -2, and so on.
     int addBase(std::string text, std::string fileName);
 
-    // Whom the next problems are of: "rope.line", or nobody in particular. What is wrong at a place that several things
-    // share is said of the first of them alone.
+    // Subject of the next problems: "rope.line", or none. A problem at a place that several elements share is reported
+    // for the first only.
     void about(std::string subject) { subject_ = std::move(subject); }
 
-    // The file, or what the override is called.
+    // The file, or the name of the override.
     const std::string& fileOf(Place place) const;
 
     // The place of a byte of a text value that is written at `place`.
     Place placeInside(Place place, std::string_view value, std::size_t byte) const;
 
-    // A remedy is a short phrase printed beside the caret: what to write instead. After 200 errors the next one throws
-    // them as core::Error(badContent): each may cost a search for a likely word.
+    // A remedy is a short phrase printed beside the caret: the correct text. After 200 errors the next one throws them
+    // as core::Error(badContent), because each may cost a search for a similar word.
     void addError(Place place, std::string message, std::string remedy = {});
     void addWarning(Place place, std::string message, std::string remedy = {});
 
     int errorCount() const { return static_cast<int>(errors_.size()); }
 
-    // Sorted: the file from top to bottom, then those that it builds on, then the overrides in their order.
+    // Sorted: the file from top to bottom, then its base files, then the overrides in their order.
     std::vector<core::Finding> errors() const;
     std::vector<core::Finding> warnings() const;
 
@@ -58,7 +58,7 @@ class Problems {
     std::string_view lineOf(Place place) const;
 
     std::deque<std::string> baseTexts_;
-    std::vector<File> files_;  // the first one, then what it builds on
+    std::vector<File> files_;  // the first file, then its base files
     std::vector<std::string> labels_;
     std::string subject_;
     std::vector<Problem> errors_, warnings_;

@@ -1,4 +1,4 @@
-// Sun and lamps as what formats have of them. It knows no format.
+// Sun and lamps in the terms of formats. Independent of formats.
 #pragma once
 
 #include <algorithm>

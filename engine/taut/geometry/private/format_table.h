@@ -18,9 +18,9 @@ namespace taut::geometry {
 struct Format {
     std::string name;                  // "USD"
     std::vector<std::string> endings;  // of names of files, ".usda"; helps name the first
-    std::string readers{};             // programs, for helps: "Houdini, Blender"; empty: not said
+    std::string readers{};             // programs, for helps: "Houdini, Blender"; may be empty
 
-    // It holds what is drawn, or points of targets: one of the two is there. What they throw: core::Error(inputOutput).
+    // Drawn geometry, or points of targets: exactly one of the two is set. They throw core::Error(inputOutput).
     std::function<std::unique_ptr<GeometrySink>(const std::filesystem::path&, const GeometryOptions&)> makeSink{};
     std::function<std::unique_ptr<PointsWriter>(const std::filesystem::path&, const std::vector<std::string>& targets)>
         makePoints{};
@@ -36,7 +36,7 @@ using Formats = core::Table<Format>;
 
 Formats builtInFormats();
 
-// The rows that hold what is drawn, or points.
+// Rows for drawn geometry, or for points.
 enum class Holds { surfaces, points };
 std::vector<const Format*> formatsThat(const Formats& formats, Holds what);
 

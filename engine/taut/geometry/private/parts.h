@@ -1,5 +1,5 @@
-// What a frame shows, as formats of geometry want it: things that have one name from the first frame to the last, and
-// whose pointers stay the same as long as nothing of them changes. It knows no format.
+// The parts of a frame for formats of geometry: parts keep one name from the first frame to the last, and their
+// pointers stay the same while they do not change. Independent of formats.
 #pragma once
 
 #include <cstddef>

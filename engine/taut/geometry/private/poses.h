@@ -1,4 +1,4 @@
-// Places of cameras and lights as matrices, and what moves of a matrix. It knows no format.
+// Cameras and lights as matrices, and the moving part of a matrix. Independent of formats.
 #pragma once
 
 #include <glm/glm.hpp>

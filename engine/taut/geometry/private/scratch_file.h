@@ -1,5 +1,4 @@
-// Bytes that a file is put together from in another order than they come in: kept on disk beside it. It knows nothing
-// of what they are.
+// A temporary file for bytes that arrive in another order than that of the final file. Independent of their meaning.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +19,7 @@ class ScratchFile {
         std::uint64_t offset = 0, size = 0;  // [bytes]
     };
 
-    // For what is to become the file `path`; gone when this goes. Throws core::Error(inputOutput).
+    // Beside the future file `path`; removed by the destructor. Throws core::Error(inputOutput).
     explicit ScratchFile(const std::filesystem::path& path);
     ~ScratchFile();
     ScratchFile(const ScratchFile&) = delete;

@@ -8,19 +8,18 @@
 
 namespace taut::image {
 
-// Three rules, all of which must hold. Two count pixels. The first lets a few flip where rounding decides which surface
-// is seen: at edges, where two surfaces touch, in a shadow's rim; how far such a pixel is off says nothing, for it
-// shows another surface. The second finds a weak change of a whole area, which the first would let pass. A difference
-// of 1 counts in neither: a processor whose approximate reciprocals round otherwise shifts whole bands of a gradient by
-// it. The third finds what shifts nearly every pixel by less than 1, such as 1 % less sun: rounding up and down cancels
-// in the mean of a channel, a change of light does not.
+// Three rules, all of which must hold. Two count pixels. The first tolerates a few pixels where rounding decides the
+// visible surface: at edges, where two surfaces touch, in a shadow's rim; the size of such a difference has no meaning,
+// because the pixel shows another surface. The second finds a weak change of a large area, which the first would miss.
+// A difference of 1 counts in neither: a processor with other approximate reciprocals shifts entire bands of a gradient
+// by 1. The third finds a change of nearly every pixel by less than 1, such as 1 % less sun: rounding up and down
+// cancels in the mean of a channel, a change of light does not.
 //
 // The shares are twice the largest noise between processors that `taut test --calibrate` measured on the goldens of
-// this repository, rounded up: 0.050 % of a picture and 10.9 % of a tile, between SSE and AVX. Twice, because what
-// flips is counted in tens of pixels and another picture may have somewhat more of it. The mean of a channel is off by
-// 0.0102 of 255 at most between them, and by at least 0.038 with 1 % less sun. The mistakes that calibration
-// makes on purpose leave room for that: the weakest of those that the first rule is for changes 1.8 % of a picture, the
-// weakest for the second 70 % of a tile.
+// this repository, rounded up: 0.050 % of a picture and 10.9 % of a tile, between SSE and AVX. Twice, because tens of
+// pixels flip and another picture may have somewhat more. The mean of a channel differs by 0.0102 of 255 at most
+// between processors, and by at least 0.038 with 1 % less sun. The deliberate errors of the calibration leave room for
+// that: the weakest for the first rule changes 1.8 % of a picture, the weakest for the second 70 % of a tile.
 struct Tolerance {
     int channel = 2;          // [1/255] a pixel is different when any channel is off by more
     double share = 1.1e-3;    // of all pixels may be different
@@ -30,15 +29,14 @@ struct Tolerance {
     bool operator==(const Tolerance&) const = default;
 };
 
-// For pictures that another renderer drew than the golden: derivatives, filters and the rounding of every pixel may
-// differ. Twice what the goldens of this repository differ between Mesa's llvmpipe and its softpipe, rounded up: 0.97 %
-// of a picture and 26.6 % of a tile are off by more than 12. (Measured with a surface.frag that does not ask for the
-// back of cloth, where softpipe 22.3 answers wrongly. No graphics card has been measured.) It still finds a camera that
-// is off by a pixel and a shadow that is missing, but not a light that is dimmer by 2 %: each pixel rounded otherwise
-// may shift a mean by 1.
+// For pictures of another renderer than that of the golden: derivatives, filters and the rounding of every pixel may
+// differ. Twice the difference between Mesa's llvmpipe and its softpipe on the goldens of this repository, rounded up:
+// 0.97 % of a picture and 26.6 % of a tile differ by more than 12. (Measured with a surface.frag that ignores the back
+// of cloth, where softpipe 22.3 is wrong. No graphics card has been measured.) It still finds a camera that is off by a
+// pixel and a missing shadow, but not a light that is dimmer by 2 %: rounding of each pixel may shift a mean by 1.
 inline constexpr Tolerance betweenRenderers{12, 0.02, 12, 0.54, 1.0};
 
-inline constexpr int tileSize = 16;  // [px]; at the right and lower edge a tile has what is left
+inline constexpr int tileSize = 16;  // [px]; tiles at the right and lower edge are smaller
 
 struct Comparison {
     bool sameSize = true;

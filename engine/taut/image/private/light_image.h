@@ -1,4 +1,4 @@
-// Pictures of light: what stands around a scene, as bright as it is.
+// Pictures of light: the surroundings of a scene, in their brightness.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ inline constexpr float brightest = 65504.0F;                             // the 
 inline constexpr std::int64_t mostLightPixels = std::int64_t{1} << 25U;  // 8192 x 4096: 400 MB
 
 // The picture in a file: Radiance HDR (G. Ward, "Real Pixels", Graphics Gems II, 1991; lines from the top, left to
-// right, "-Y height +X width"), or PNG or JPEG, whose bytes are taken as sRGB. What is brighter than `brightest` is
-// made so. Throws core::Error: inputOutput when the file cannot be read, badContent when it is not a whole picture or
-// has more pixels than that, before memory is taken for them.
+// right, "-Y height +X width"), or PNG or JPEG, whose bytes are sRGB. Values above `brightest` are clamped. Throws
+// core::Error: inputOutput if the file cannot be read, badContent if the picture is incomplete or has too many pixels,
+// before memory is allocated.
 LightImage readLightImage(const std::filesystem::path& path, std::int64_t maxPixels = mostLightPixels);
 
 // Of such a file, looked through to its end. Throws the same.

@@ -1,4 +1,4 @@
-// Gives each picture to several sinks: frames and a video from one run. It knows nothing of what they are.
+// Gives each picture to several sinks: frames and a video from one run. Independent of the kinds of sinks.
 #pragma once
 
 #include <memory>

@@ -33,9 +33,9 @@ bool mayHaveAlpha(const std::filesystem::path& path);
 // column or row, because yuv420p needs even numbers.
 class VideoWriter : public FrameSink {
   public:
-    // Looks for the program, makes the folder and, under its temporary name, the file; throws core::Error(inputOutput),
-    // with the name of the package when the program is missing, and what else to write when it lacks the encoder. The
-    // program starts with the first picture, because the size is known only then.
+    // Finds the program, makes the folder and, under its temporary name, the file. Throws core::Error(inputOutput),
+    // with the name of the package if the program is missing, and an alternative if it lacks the encoder. The program
+    // starts with the first picture, because the size is unknown before.
     VideoWriter(std::filesystem::path path, VideoOptions options);
     ~VideoWriter() override;
     VideoWriter(const VideoWriter&) = delete;

@@ -1,4 +1,4 @@
-// Colours with their alpha between them, as files and encoders take them, and what is laid over both.
+// Interleaved colours and alpha, as in files and encoders, and layers over both.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ inline std::vector<std::uint8_t> withAlpha(const Image& image) {
     return four;
 }
 
-// Covers a part, 0 … 1, of a pixel, of which it returns the share that is new of what is seen there then.
+// Covers a part, 0 … 1, of a pixel. Returns the share of the pixel's visible colour that is new.
 inline float coverPart(Image& image, std::size_t pixel, float part) {
     if (image.alpha.empty()) return part;
     const float below = (1.0F - part) * static_cast<float>(image.alpha[pixel]) / 255.0F;

@@ -14,7 +14,7 @@ class Worker {
     // Expects that wait() was called for the job before.
     void begin(std::function<void()> job);
 
-    // Returns when the job is done, or throws what it threw. Without one it returns at once.
+    // Returns when the job is done, or rethrows its exception. Without a job it returns at once.
     void wait();
 
   private:

@@ -1,4 +1,4 @@
-// The force of bending elements (bending_elements.h) on the points of a body. It does not know what they are made from.
+// The force of bending elements (bending_elements.h) on the points of a body. Independent of their origin.
 //
 //   E = Σ ½ κᵀ M κ - Σ n·y + const      with y = Σ_j β_j x_j, β_j = Σ_kl w_jk M_kl rest_l, for elements curved at rest
 //
@@ -87,12 +87,12 @@ class ElementBending final : public ForceGenerator<Real> {
     void gather(const Real* x, const Real* v, double dampingTime, int stride) const;
     void findSums() const;                                   // y of all curved elements, of the gathered points
     Frame frameOf(const int* corners, const Four& y) const;  // of the gathered points
-    // What the elements that are curved at rest give to their points: of places, and of displacements from `frames`.
+    // The effect of elements that are curved at rest on their points: of places, and of displacements from `frames`.
     void findPulls(double t) const;
     void findPulls(const std::vector<Frame>& frames) const;
     std::vector<Frame> framesAt(double t) const;
     bool turnHeld(double t) const;
-    // Adds `scale` times what the gathered points and the pulls give.
+    // Adds `scale` times the forces of the gathered points and the pulls.
     void addSums(Real scale, int stride, Real* out) const;
     static WeightedRows<Real> weighted(const Rows& rows, const Fours& of) {
         return {rows.first.data(), rows.entries.data(), of.empty() ? nullptr : of[0].of};

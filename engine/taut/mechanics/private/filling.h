@@ -1,6 +1,6 @@
-// What closed surfaces hold inside: a gas or a liquid that presses on them from within. It knows no cloth.
+// A gas or a liquid in closed surfaces that presses on them from within. Independent of cloth.
 //
-// A chamber is a surface without an edge; V is the volume that it encloses, Δp what presses on it more than the air
+// A chamber is a surface without an edge; V is the volume that it encloses, Δp its pressure above that of the air
 // outside. A triangle a b c gets the force Δp ½ (b - a) × (c - a), a third to each corner. On a surface without an edge
 // that is Δp ∂V/∂x of each point exactly, without any sum of forces or torques.
 //
@@ -9,7 +9,7 @@
 //   amount     (p₁ + P) V₀/V - p₀           p₀ (V - V₀) - (p₁ + P) V₀ ln(V/V₀)    a sealed gas, as warm as the air
 //   volume     P + K (1 - V/V₀)             ½ K (V - V₀)²/V₀ - P V                a liquid
 //
-// P is the pressure at the first volume V₀, p₀ that of the air outside, p₁ what that was when the gas was sealed in, K
+// P is the pressure at the first volume V₀, p₀ that of the air outside, p₁ that pressure when the gas was sealed in, K
 // a bulk modulus. Below V₀/1000 a gas presses as it does there. A pump that sucks, P < 0, does so less below V₀/10, in
 // proportion, and not where V <= 0: it turns nothing inside out.
 #pragma once
@@ -67,10 +67,10 @@ class Filling final : public ForceGenerator<Real> {
     void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
     void addProduct(int stride, const Real* u, Real* out) const override;
     void addDiagonal(int stride, Real* out) const override;
-    // -dΔp/dV g gᵀ has one eigenvalue, -dΔp/dV Σ w g²; |g| is no more than a third of the areas around a point. Of
-    // Δp ∂²V/∂x² a row sums to no more than Δp/6 of the perimeters around a point. Both hold while edges are no longer
-    // than 1.2 times, areas no larger than 1.44 times what they were first, a gas fills two thirds of V₀ or more, and a
-    // liquid keeps its volume.
+    // -dΔp/dV g gᵀ has one eigenvalue, -dΔp/dV Σ w g²; |g| is no more than a third of the areas around a point. Of Δp
+    // ∂²V/∂x² a row sums to no more than Δp/6 of the perimeters around a point. Both hold while edges are at most 1.2
+    // times and areas at most 1.44 times their initial values, a gas fills two thirds of V₀ or more, and a liquid keeps
+    // its volume.
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
   private:

@@ -1,5 +1,5 @@
-// Friction between the threads of a bent grid, BendingFriction (model.h): what makes cloth keep a crease. It does not
-// know how the grid resists bending otherwise.
+// Friction between the threads of a bent grid, BendingFriction (model.h): it makes cloth keep a crease. Independent
+// of the bending resistance of the grid.
 //
 //        q         normal  n = u × w/|u × w|,  u = r - p,  w = s - q      of the point c itself
 //     p--c--r      folds   κ_u = n·(p - 2c + r)/a²,  κ_v = n·(q - 2c + s)/b²
@@ -7,8 +7,8 @@
 //
 // The state is a slider κ_s for each fold. It is a number in the cloth's own frame: κ does not change when the sheet
 // goes or turns, so that its slope, taken with that of n, has neither a sum nor a torque. A slider kept as a vector in
-// space would turn the sheet. Towards a fold that is closed |u × w| vanishes and n with it; below half of what it is at
-// rest it is divided by that half, so that forces stay bounded and end with n.
+// space would turn the sheet. Towards a fold that is closed |u × w| vanishes and n with it; below half of its value
+// at rest it is divided by that half, so that forces stay bounded and end with n.
 //
 // Between two slide() the force has a potential, and is that after slide() at the same places: when sliders follow
 // makes no difference to a force, as long as they follow every step that stands.
@@ -41,12 +41,11 @@ class GridFriction final : public ForceGenerator<Real> {
     // Takes other coefficients and clamps, for a grid of the same size.
     void set(BendingFriction friction);
 
-    // Sliders follow folds that are beyond what friction holds, to the motion's places. To be called once in every
-    // step.
+    // Sliders follow folds beyond the limit of friction, to the motion's places. Call once in every step.
     void slide(const Motion<Real>& motion);
 
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
-    // What stuck folds have stored. What slips is lost.
+    // The stored energy of stuck folds. Slip dissipates its energy.
     double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;
 
     // As if nothing slipped, and without the turning of n: the bending of K_p. For implicit methods this bounds the
@@ -94,7 +93,7 @@ class GridFriction final : public ForceGenerator<Real> {
     void findPulls(const Part& part) const;
     void addPulls(const Part& part, int stride, Real* f) const;
     Slot slotOf(const Bending::Clamp& clamp) const;
-    // n at a clamp, which turns with what holds it, and n times its fold as that of a whole fold [m].
+    // n at a clamp, which turns with its carrier, and n times its fold as that of an entire fold [m].
     glm::dvec3 normalAt(double t) const;
     Real foldAt(const Bending::Clamp& clamp, const Motion<Real>& motion) const;
     // Plane `axis` of the pulls on p, r, q, s (0 to 3), from the first point on.

@@ -1,5 +1,5 @@
 // Finds the springs of a network that are longer or shorter than their limits. It is cheap enough to run after every
-// step. It does not know what happens to these springs.
+// step. Independent of the treatment of these springs.
 #pragma once
 
 #include <limits>

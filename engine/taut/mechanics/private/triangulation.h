@@ -16,12 +16,12 @@ class Triangulation {
     // Of points in the square from `low` on whose sides are `size`, no two of them nearer than a billionth of it.
     Triangulation(std::span<const glm::dvec2> points, glm::dvec2 low, double size);
 
-    // Makes edges of rings of the first points, of which next[i] comes after i, and drops what is outside of them.
+    // Makes edges of rings of the first points, in which next[i] comes after i, and drops triangles outside of them.
     // Expects that the rings neither cross nor touch each other or further points.
     void keepRings(std::vector<int> next);
 
-    // Moves points that are on no ring to where triangles are more alike, if none turns over by it, and makes the
-    // triangulation that of Delaunay again. `points` are those given.
+    // Moves points that are on no ring so that triangles become more alike, if none turns over, and restores the
+    // Delaunay triangulation. `points` are the given points.
     void relax(std::span<glm::dvec2> points);
 
     std::vector<std::array<int, 3>> triangles() const;  // counter-clockwise, without those dropped

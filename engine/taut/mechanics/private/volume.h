@@ -1,10 +1,10 @@
 // Cells that resist a change of their signed volume. So a block that was squashed flat or turned inside out comes back.
-// It knows only cells, not the lattice they come from.
+// Independent of the lattice of the cells.
 //
 // The lengths of its springs cannot tell a cell from its mirror image; V can:
 //   E = ½ K V0 (V/V0 - 1)²,   F_i = -K (V/V0 - 1) ∂V/∂p_i.
 // A cell has one pressure, by the mean of its dilatation: with one for each of its tetrahedra a block is too stiff when
-// it bends (locking), the more the larger K is. The springs resist what leaves V as it is. They cannot tell a fold, so
+// it bends (locking), the more the larger K is. The springs resist changes that keep V. They cannot tell a fold, so
 // each of the six tetrahedra (cellTetrahedra) that is turned inside out resists by itself, from V_t = 0 on:
 //   E = ½ K V0_t (V_t/V0_t)² while V_t < 0,   V0_t = V0/6.
 // If a cell collapses to a line or a point, ∂V vanishes and nothing brings it back. inspect() reports that.

@@ -1,5 +1,5 @@
-// Air that moves past triangles, rods and balls: drag and lift, steady or in gusts. It knows no cloth, and not the rest
-// of the scene.
+// Air that moves past triangles, rods and balls: drag and lift, steady or in gusts. Independent of cloth and
+// scene.
 //
 // Let u be the mean of the air's velocities relative to a triangle's points, n its normal turned along u, A its area:
 //
@@ -8,11 +8,11 @@
 // Across the flow (n ∥ u) this is the flat plate's drag ½ρ A C_D u². At an angle α between plate and flow, drag is
 // ∝ A sin α, the area that the flow sees. Lift is at a right angle to u towards n, and is ½ρ A C_L u² sin α cos α.
 // Both vanish edge-on. Cloth is edge-on much of the time, and a lift C_L |u|² n would jump there with the sign of n. Of
-// a body with an inside each triangle has air on one side only, which is half of a plate's force: what it has across
-// the flow, front and back, is then C_D again.
+// a body with an inside each triangle has air on one side only, which is half of a plate's force: its coefficient
+// across the flow, front and back, is then C_D again.
 //
-// A rod takes what flows across it (Hoerner 1965): F = ½ρ C_D 2rL |u⊥| u⊥, half to each end. A ball of area A = π r²
-// has F = ½ρ C_D A |u| u.
+// A rod has the drag of the flow across it (Hoerner 1965): F = ½ρ C_D 2rL |u⊥| u⊥, half to each end. A ball of area A =
+// π r² has F = ½ρ C_D A |u| u.
 //
 // Flutter. The air that a stiff plate pushes before it has momentum along the normal only, so a plate that slides at a
 // slant is turned broadside (Munk's moment, -m_a w u × n with w along the normal and u along the plate). A plate that
@@ -23,13 +23,13 @@
 //
 //   F_k = -m w (v·g_k) n + ⅓ m (w ṅ - 2 (v·ṅ) n),
 //
-// which does no work. On a wave of the sheet it acts as an axial load m U²/A would: what is limper than that folds as
-// finely as its cells, if nothing draws it taut, for short folds take less air along than m says. So only stiff sheets
-// ask for it.
+// which does no work. On a wave of the sheet it acts as an axial load m U²/A would: limper sheets fold as
+// finely as their cells, if nothing draws them taut, for short folds take less air along than m says. So use it for
+// stiff sheets only.
 //
 // Smoothness. Edge-on, at u·n = 0, the drag's |u·n| has a kink: F is continuous, and its slope jumps by ρA C_D |u|. A
 // step across the kink is off by O(h²) in v for any method. So methods of order 4 fall to order 2 once triangles turn
-// through the flow or are carried along by it. Methods of order 1 and 2 keep their order. The lift is smooth where u is
+// through the flow or move along with the air. Methods of order 1 and 2 keep their order. The lift is smooth where u is
 // not zero, and gusts are smooth enough for order 4 (noise.h).
 #pragma once
 
@@ -56,7 +56,7 @@ struct WindSettings {
     bool operator==(const WindSettings&) const = default;
 };
 
-// What the air moves past; all points are those of a Motion.
+// Surfaces and points in the air; all points belong to a Motion.
 struct WindTargets {
     std::vector<std::array<int, 3>> triangles{};
     std::vector<double> sides{};  // (triangles) Areas in the air over that of the triangle: 1, or ½ where it has one

@@ -111,7 +111,7 @@ class ImplicitMatrix {
         supports.flatten(b.data());
         for (std::size_t i = 0; i < b.size(); ++i) b[i] -= product_[i];
         const Solution solution = solve(multiplyAcross, b.data(), u.data(), work);
-        // What the equations miss along the normals is the impulse of the supports.
+        // The residual of the equations along the normals is the impulse of the supports.
         for (std::size_t i = 0; i < u.size(); ++i) u[i] += given_[i];
         multiply(u.data(), product_.data());
         for (Support& support : supports.all())

@@ -19,7 +19,8 @@ class Context {
     virtual void makeCurrent() = 0;
     virtual void release() = 0;
 
-    // Finds the functions of this context and what draws. Throws Error(noRenderer) for less than OpenGL 3.3.
+    // Finds the functions of this context and the name of its renderer. Throws Error(noRenderer) for less than OpenGL
+    // 3.3.
     void connect();
     const GladGLContext& gl() const { return *gl_; }
     const RendererInfo& info() const { return info_; }
@@ -41,9 +42,9 @@ class Context {
     std::unique_ptr<GladGLContext, Deleter> gl_;
 };
 
-// A context that is not current yet. `device` is a number of eglDevices(), for EGL alone; without it EGL gives the
-// first device that draws, hardware before software, and where it names none what it has without one. Throws
-// Error(noRenderer) that says what was tried and what helps.
+// A context that is not current yet. `device` is a number of eglDevices(), for EGL only; without it EGL gives the first
+// device that draws, hardware before software, and its default if it lists none. Throws Error(noRenderer) with the
+// attempts and a remedy.
 std::unique_ptr<Context> makeContext(Backend backend, std::optional<int> device = std::nullopt);
 
 // Not connected yet.

@@ -1,4 +1,4 @@
-// The inner loops of the shadow map and of what hides the sky, one copy an instruction set; every copy gives the same
+// The inner loops of the shadow map and of ambient occlusion, one copy per instruction set; every copy gives the same
 // bits. Plain data only.
 #pragma once
 
@@ -12,7 +12,7 @@ struct MapTriangle {
     float depth[3];    // 0 … 1
 };
 
-// What one of the places beside each other looks at in one direction: the columns at so many distances.
+// The samples of one of several adjacent places in one direction: the columns at so many distances.
 struct SkyRing {
     const float *low, *high;  // (count) height of the lowest and the highest surface [m]; low above 1000: none
     float away;               // [m]

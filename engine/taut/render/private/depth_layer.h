@@ -1,4 +1,4 @@
-// A layer of how far away what a picture shows lies, as whole units.
+// A layer with the depth of the picture, in integer units.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 namespace taut::render {
 
-// Numbers of `unit` [m] ahead of the eye along the camera's axis, rounded; image::farDepth where only the sky is seen,
-// one less for what lies farther than that. The ground is seen as far as it is drawn.
+// Numbers of `unit` [m] ahead of the eye along the camera's axis, rounded; image::farDepth where only the sky is
+// visible, one less for greater depths. The ground is visible as far as it is drawn.
 std::shared_ptr<const Layer> depthLayer(double unit);
 
 }  // namespace taut::render

@@ -1,4 +1,4 @@
-// What covers four samples of each pixel of a tile.
+// The coverage of four samples of each pixel of a tile.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The inner loops over pixels of what is done without GL, one copy an instruction set; every copy gives the same bits.
-// Plain data only.
+// The inner loops over pixels that run without GL, one copy per instruction set; every copy gives the same bits. Plain
+// data only.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace taut::render {
 
-// A function that is linear over a tile: start + along · column + up · row, and what each of four samples has more.
+// A function that is linear over a tile: start + along · column + up · row, and the offset of each of four samples.
 struct TileSlope {
     float start, along, up;
     float samples[4];
@@ -16,7 +16,7 @@ struct TileSlope {
 struct CoverageArgs {
     TileSlope sides[3];  // not below zero where a triangle is
     TileSlope depth;
-    float toMiddle;              // what the middle of a pixel has more depth than its corner
+    float toMiddle;              // depth of the middle of a pixel less that of its corner
     int left, right, low, high;  // columns and rows of the tile, the first and the last
     std::int32_t mark;
     float *nearest, *middle;  // (tile size² · 4)
@@ -24,7 +24,7 @@ struct CoverageArgs {
 };
 
 struct EdgeKernels {
-    // Enters a triangle where it is nearer than what is there. Columns beside those asked for may be entered too.
+    // Enters a triangle where it is nearer than the present depth. Columns beside the given ones may be entered too.
     void (*cover)(const CoverageArgs& args);
 
     // Whether there is an edge at pixels first … last - 1 of a row, which have neighbours to both sides. Rows below,
@@ -32,7 +32,7 @@ struct EdgeKernels {
     void (*findEdges)(const std::uint32_t* const colours[3], const float* const depths[3], int first, int last,
                       std::uint8_t* isEdge);
 
-    // Takes what is kept where nothing has been drawn (the mark in the uppermost byte), and where it is nearer.
+    // Takes the kept pixels where nothing has been drawn (the mark in the uppermost byte), and where they are nearer.
     void (*fillUndrawn)(std::size_t count, std::uint32_t mark, const std::uint32_t* kept, std::uint32_t* colours);
     void (*fillNearer)(std::size_t count, const std::uint32_t* kept, const float* keptDepths, std::uint32_t* colours,
                        float* depths);

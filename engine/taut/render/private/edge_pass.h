@@ -1,6 +1,6 @@
-// Smooth edges: what covers each of four samples a pixel is found anew where a surface ends, and each sample takes its
-// colour from the picture that was shaded with one. It works on what GL has drawn, without GL: a software renderer
-// shades a multisampled target several times a pixel, hidden surfaces included.
+// Anti-aliasing: where a surface ends, the coverage of four samples per pixel is recomputed, and each sample takes its
+// colour from the picture that was shaded with one. It works on the result of GL, without GL: a software renderer
+// shades a multisampled target several times per pixel, hidden surfaces included.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@
 
 namespace taut::render {
 
-// What the shaders write for an item beside its colour, 1/255 … 254/255; 0 is ground and sky.
+// The mark of an item that shaders write beside its colour, 1/255 … 254/255; 0 is ground and sky.
 float itemMark(std::size_t item);
 inline constexpr std::uint32_t nothingMark = 255;  // where nothing has been drawn
 
 // The part of a picture in which the items can be seen; all of it if one of them reaches behind the camera.
 PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height);
 
-// Calls each for every tile with what the triangles cover of it; tiles go side by side.
+// Calls each for every tile with the coverage of the triangles; tiles run in parallel.
 void forEachTile(const EdgeTriangles& triangles,
                  const std::function<void(const PixelBox& tile, const CoveredTile& covered)>& each);
 
@@ -31,7 +31,7 @@ void forEachTile(const EdgeTriangles& triangles,
 void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const ShadedPixels& shaded,
                  EdgeTriangles& triangles, std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha = {});
 
-// In front of which the camera sees what there is: the ground.
+// The background of the visible surfaces: the ground.
 glm::vec4 seenSideOf(const view::FrameView& view);
 
 }  // namespace taut::render

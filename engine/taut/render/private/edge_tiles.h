@@ -24,8 +24,8 @@ struct ShadedPixels {
 
 inline constexpr int edgeTileSize = 16;  // [pixels]
 
-// Boxes that do not overlap and hold every pixel at an edge: its mark differs from a neighbour's, or its depth bends
-// by more than half of what smoothEdges() takes for another surface (depth is linear along a plane).
+// Boxes that do not overlap and hold every pixel at an edge: its mark differs from a neighbour's, or its depth bends by
+// more than half of the threshold of smoothEdges() for another surface (depth is linear along a plane).
 std::vector<PixelBox> edgeTiles(const ShadedPixels& pixels);
 
 }  // namespace taut::render

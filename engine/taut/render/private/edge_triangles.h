@@ -1,5 +1,4 @@
-// The triangles of what is drawn as they lie on the picture, sorted by the tiles in which edges are to be smoothed.
-// It knows no GL.
+// The drawn triangles in picture coordinates, sorted by the tiles whose edges are to be smoothed. Independent of GL.
 #pragma once
 
 #include <array>
@@ -16,13 +15,13 @@ namespace taut::render {
 // Counter-clockwise, seen from any side that is drawn.
 struct EdgeTriangle {
     std::array<glm::dvec2, 3> corners;           // [pixels] on a raster of 1/256, as GL has them
-    double depth = 0.0;                          // at the picture's corner, 0 … 1 within what is seen
+    double depth = 0.0;                          // at the picture's corner, 0 … 1 within the view
     double depthAlong = 0.0, depthUp = 0.0;      // [1 / pixel]
     int left = 0, low = 0, right = 0, high = 0;  // [pixels] the first and the last that it may cover
     std::uint32_t mark = 0;                      // of the thing
 };
 
-// What is on the other side of a plane is cut off: of the picture's near plane, and of `seenSide` [m].
+// Parts on the other side of a plane are cut off: of the picture's near plane, and of `seenSide` [m].
 struct EdgeView {
     glm::mat4 viewProjection{1.0F};
     glm::vec4 seenSide{0.0F, 0.0F, 0.0F, 1.0F};
@@ -31,8 +30,8 @@ struct EdgeView {
 
 class EdgeTriangles {
   public:
-    // Those of the items, in place of what was found before. `tiles` are boxes that edgeTiles() found in the part of
-    // the picture `part`.
+    // Finds the triangles of the items, in place of earlier ones. `tiles` are boxes that edgeTiles() found in the part
+    // of the picture `part`.
     void find(std::span<const DrawItem> items, const EdgeView& view, const PixelBox& part,
               std::span<const PixelBox> tiles);
 
@@ -42,7 +41,7 @@ class EdgeTriangles {
 
     std::span<const PixelBox> tiles() const { return tiles_; }  // at most edgeTileSize wide and high
 
-    // Calls visit(triangle) for what may cover a tile, in the order in which it was drawn.
+    // Calls visit(triangle) for triangles that may cover a tile, in the order of drawing.
     template <class Visit>
     void visit(std::size_t tile, Visit&& visit) const {
         for (std::uint32_t i = first_[tile]; i < first_[tile + 1]; ++i) visit(triangles_[covering_[i]]);

@@ -1,4 +1,4 @@
-// What EGL has to draw with on this machine. It makes no context.
+// The EGL devices of this machine. It makes no context.
 #pragma once
 
 #include <string>

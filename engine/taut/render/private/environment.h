@@ -1,5 +1,5 @@
-// The light that comes from all around, as a picture has it: what of it falls onto a surface, and how it looks blurred.
-// Without GL. The picture is equirectangular: its middle lies at -z, its right quarter at +x, its upper edge at +y.
+// The light of the surroundings in a picture: the part that falls onto a surface, and its blurred levels. Without GL.
+// The picture is equirectangular: its middle lies at -z, its right quarter at +x, its upper edge at +y.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace taut::render {
 
-// What a white matt surface sends back under it, to the second order of spherical harmonics, which is off by 3 % at
-// most on average (Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001).
-// Factors of 1; y, z, x; xy, yz, 3y² - 1, xz, x² - z² of the unit normal.
+// The light of a white matt surface under it, to the second order of spherical harmonics, with an average error of 3 %
+// at most (Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001). Factors of
+// 1; y, z, x; xy, yz, 3y² - 1, xz, x² - z² of the unit normal.
 struct AmbientLight {
     std::array<glm::vec3, 9> factors{};
 

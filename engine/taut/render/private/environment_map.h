@@ -16,8 +16,9 @@ class EnvironmentMap {
   public:
     EnvironmentMap(const Gl& gl, TextureBudget& budget) : gl_(&gl), budget_(&budget) {}
 
-    // Binds the picture of a view and tells the block of it; does nothing if the view has none. A file is read once.
-    // Throws what image::readLightImage throws, and Error(badContent) for a picture that is not twice as wide as high.
+    // Binds the picture of a view and writes its part of the block; does nothing if the view has none. A file is read
+    // once. Throws as image::readLightImage does, and Error(badContent) for a picture that is not twice as wide as
+    // high.
     void show(const view::FrameView& view, FrameBlock& block);
 
   private:

@@ -1,4 +1,4 @@
-// What all shaders know of a picture, laid out as the uniform block Frame of shaders/frame.glsl (std140).
+// The common inputs of all shaders, laid out as the uniform block Frame of shaders/frame.glsl (std140).
 #pragma once
 
 #include <array>

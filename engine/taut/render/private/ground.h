@@ -17,12 +17,13 @@ struct GroundMesh {
     std::vector<std::uint32_t> shaded;    // triangles that a shadow may reach
     std::vector<std::uint32_t> darkened;  // others from which something may hide a part of the sky
     std::vector<std::uint32_t> open;      // triangles in full light
-    std::vector<std::uint8_t> changes;    // (positions) 1: what moves may change the cell whose triangles begin there
+    std::vector<std::uint8_t> changes;    // (positions) 1: moving things may change the cell whose triangles begin
+                                          // there
 };
 
 // The disc of `radius` [m] around the camera's target, fine in the middle, coarse outside. `casters` are boxes around
-// all that throws a shadow in any of the lights, the smaller the better, `moving` those around what was elsewhere a
-// picture ago.
+// all casters of shadows in any of the lights, the smaller the better, `moving` the boxes of casters that have moved
+// since the last picture.
 GroundMesh groundMesh(glm::vec3 middle, float height, float radius, std::span<const Shadower> lights,
                       std::span<const Bounds> casters, const std::optional<OcclusionArea>& occlusion,
                       std::span<const Bounds> moving = {});

@@ -1,5 +1,5 @@
-// Draws the floor, with shadows only where they can fall, and the sky. What lies in the open and does not change under
-// a still camera is drawn once and kept.
+// Draws the floor, with shadows only where they can fall, and the sky. Visible parts that do not change under a still
+// camera are drawn once and kept.
 #pragma once
 
 #include <map>
@@ -17,25 +17,25 @@ namespace taut::render {
 
 class GroundPass {
   public:
-    // `transparent`: without sky, and of the ground what shadows leave of its colour, 0 … 1.
+    // `transparent`: without sky, and of the ground the part of its colour under shadows, 0 … 1.
     GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill, bool transparent);
 
-    // Before anything else of a picture is drawn, with the frame block and the maps in place. `block` is what all
-    // shaders know of the picture.
+    // Call before anything else of a picture is drawn, with the frame block and the maps in place. `block` has the
+    // common inputs of all shaders.
     void begin(const view::FrameView& view, const FrameBlock& block, const LightSet& lights,
                std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion, Targets& targets);
 
-    // Behind what has been drawn into the bound target, with the frame block and the maps in place.
-    // Leaves out what fill() puts in.
+    // Draws behind the content of the bound target, with the frame block and the maps in place. Leaves out the pixels
+    // of fill().
     void draw(const glm::mat4& projection);
 
-    // Puts what has been kept where nothing has been drawn, and in front of what lies behind it. `depths` are those of
-    // the part in which there are things, `colours` those of the picture; rows from below.
+    // Puts the kept pixels where nothing has been drawn, and in front of things behind them. `depths` are those of the
+    // part in which there are things, `colours` those of the picture; rows from below.
     void fill(const PixelBox& part, std::span<float> depths, std::span<std::uint32_t> colours, int width) const;
 
     bool fills() const { return isKept_; }
 
-    void forget();  // what has been kept
+    void forget();  // the kept pixels
 
   private:
     // All that ground and sky in the open depend on.
@@ -45,13 +45,13 @@ class GroundPass {
         std::optional<view::Environment> environment;
         bool operator==(const Still& other) const;
     };
-    // What ground depends on besides that only still things shade.
+    // The inputs of the ground, besides its being shaded by still things only.
     struct StillShade {
         FrameBlock block{};
         std::vector<ShadowShape> shapes;
         bool operator==(const StillShade& other) const;
     };
-    // How a cell looks in what is kept.
+    // The kept look of a cell.
     enum class Look : std::uint8_t { open, darkened, shaded };
 
     // The ground under lights of a kind, and the sky.
@@ -76,7 +76,7 @@ class GroundPass {
     std::optional<StillShade> shadeNow_;  // of this one
     std::optional<StillShade> keptShade_;
     int shadeStays_ = 0;                      // pictures for which it has been the same
-    bool isKept_ = false;                     // what follows is that of the same camera
+    bool isKept_ = false;                     // the following belongs to the same camera
     std::vector<Look> looks_;                 // (positions) of the cells whose triangles begin there
     std::vector<std::uint32_t> keptColours_;  // (pixels) rows from below
     std::vector<float> keptDepths_;           // (pixels) 1 where the sky is

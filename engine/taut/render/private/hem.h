@@ -23,7 +23,7 @@ class Hems {
     std::vector<view::Surface> addTo(std::vector<DrawItem>& items, const PixelScale& scale, MeshCache& meshes);
 
   private:
-    // What of a rim does not change with the shape.
+    // The constant part of a rim.
     struct Plan {
         std::weak_ptr<const view::Topology> owner;
         float hem = 0.0F;                                 // [m]

@@ -17,7 +17,7 @@ class LabelPass {
     // The font is read when the first label is drawn; an empty path is the default font.
     explicit LabelPass(std::filesystem::path font) : font_(std::move(font)) {}
 
-    // Labels behind the camera or beyond the edges are left out. Throws what Font throws.
+    // Labels behind the camera or beyond the edges are left out. Throws as Font does.
     void draw(const view::FrameView& view, const glm::mat4& viewProjection, image::Image& picture);
 
   private:

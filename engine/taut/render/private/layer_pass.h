@@ -15,7 +15,7 @@
 
 namespace taut::render {
 
-// What is drawn; the frame block is in place.
+// The items to draw; the frame block is in place.
 struct LayerScene {
     const view::FrameView& view;
     std::span<const DrawItem> items;  // the nearest first
@@ -30,11 +30,11 @@ struct LayerScene {
 class LayerPass {
   public:
     virtual ~LayerPass() = default;
-    // Fills what the layer has of numbers; its name is there.
+    // Fills the numbers of the layer; its name is set.
     virtual void draw(const LayerScene& scene, image::Layer& layer) = 0;
 };
 
-// Draws what the camera sees into colours of 8 bits by a pair of shaders of its own, without smooth edges. The shaders
+// Draws the camera's view into colours of 8 bits by a pair of shaders of its own, without anti-aliasing. The shaders
 // read `transform` and `seenSide`, like mask.vert.
 class FlatPass : public LayerPass {
   public:

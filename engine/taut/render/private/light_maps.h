@@ -14,7 +14,7 @@ class LightMaps {
   public:
     LightMaps(const Gl& gl, int texels);
 
-    // What is the same as before in the same box is not drawn again, unless `anew`.
+    // Parts that have not changed in the same box are not drawn again, unless `anew` is set.
     void draw(std::span<const DrawItem> items, const LightSet& lights, bool anew);
 
     void bind() const;  // to the texture units of the sun and of each lamp

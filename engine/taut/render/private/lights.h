@@ -11,7 +11,7 @@
 
 namespace taut::render {
 
-// What shaders are made for.
+// The lights that shaders are compiled for.
 struct LightKind {
     int lamps = 0;
     int lampShadows = 0;    // that throw shadows
@@ -20,10 +20,10 @@ struct LightKind {
     auto operator<=>(const LightKind&) const = default;
 };
 
-// With what a shader that lights something is compiled.
+// The definitions for the shaders that light surfaces.
 std::vector<std::string> definitionsOf(const LightKind& kind);
 
-// What throws shadows.
+// The casters of shadows.
 struct Shadower {
     LightBox box;
     float softness = 0.0F;  // [rad] apparent size of the light
@@ -34,12 +34,12 @@ struct Shadower {
 struct LightSet {
     LightKind kind;
     Shadower sun;
-    std::vector<view::Lamp> lamps;      // those that throw shadows first
+    std::vector<view::Lamp> lamps;      // casters of shadows first
     std::vector<Shadower> lampShadows;  // (kind.lampShadows)
 };
 
-// LightSet wider than this [rad] have penumbrae as wide as they ought to be; those of others, which a picture shows
-// some pixels wide, end at 1.2 % of what throws shadows.
+// LightSet wider than this [rad] have penumbrae of the correct width; other penumbrae, some pixels wide in a picture,
+// end at 1.2 % of the distance of the caster.
 inline constexpr float widestNarrow = 0.07F;
 
 // `casters` are boxes around all that throws shadows, `texels` the edge of each shadow map. Expects mostLamps lamps at

@@ -12,7 +12,8 @@
 
 namespace taut::render {
 
-// Where which triangles are: what is the same in two pictures looks the same from the light and from above.
+// The identity of the triangles and their places: equal values in two pictures look the same from the light and from
+// above.
 struct ShadowShape {
     std::uint64_t geometry = 0, topology = 0;  // numbers of uploads, each used once
     glm::mat4 transform{1.0F};
@@ -38,7 +39,7 @@ class MeshCache {
   public:
     explicit MeshCache(const Gl& gl);
 
-    // Uploads what is new. Expects topology, geometry and finish of every surface, of matching sizes.
+    // Uploads new data. Expects topology, geometry and finish of every surface, of matching sizes.
     std::vector<DrawItem> items(const std::vector<view::Surface>& surfaces);
 
     // Draws the triangles of an item with the program in use: positions at location 0, normals 1, uv 2.

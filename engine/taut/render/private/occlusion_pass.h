@@ -34,7 +34,7 @@ class OcclusionPass {
   public:
     explicit OcclusionPass(const Gl& gl);
 
-    // Nothing is drawn again where nothing has moved that is low enough, unless `anew`.
+    // Areas without motion near the ground are not drawn again, unless `anew` is set.
     void draw(std::span<const DrawItem> items, const OcclusionArea& area, float groundHeight, bool anew);
     void bindMap() const;
 
@@ -49,7 +49,7 @@ class OcclusionPass {
     GlObject texture_;                 // of the map
     OcclusionArea area_;               // of the map as it is
     float groundHeight_ = 0.0F;        // [m]
-    std::vector<ShadowShape> shapes_;  // what the map shows
+    std::vector<ShadowShape> shapes_;  // the content of the map
 
     std::vector<MapTriangle> triangles_;  // seen from above, with heights for depths
     std::vector<glm::vec3> places_;       // (vertices of an item) on the map

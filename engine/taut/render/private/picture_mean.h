@@ -19,7 +19,7 @@ class PictureMean {
 
   private:
     int count_ = 0;
-    std::vector<float> sums_;   // (pixels × 3) light times what is covered
+    std::vector<float> sums_;   // (pixels × 3) light times coverage
     std::vector<float> cover_;  // (pixels) 0 … 1 of each; empty: opaque
 };
 

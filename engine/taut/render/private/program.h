@@ -1,4 +1,4 @@
-// Shader programs made from the files of one folder. It does not know what they draw.
+// Shader programs made from the files of one folder. Independent of their purpose.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace taut::render {
 
-// Fixed places of what several shaders read; a program finds them by name when it is linked.
+// Fixed places of inputs that several shaders read; a program finds them by name when it is linked.
 inline constexpr GLuint frameBlockBinding = 0;  // uniform block Frame
 enum TextureUnit : int {
     shadowMapUnit = 0,

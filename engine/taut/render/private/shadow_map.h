@@ -1,5 +1,5 @@
-// The depth of what the light meets, and its bounds, without GL: to a software renderer small triangles are dear, and
-// depth is all that is wanted of them here.
+// The depth of the lit surfaces, and its bounds, without GL: small triangles are expensive in a software renderer, and
+// only depth is needed here.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class ShadowMap {
 
     explicit ShadowMap(int texels);  // expects a multiple of boundsEdge
 
-    // Of the items, in place of what was drawn before. Those outside the box sideways are cut off; it holds all of them
+    // Draws the items, in place of the earlier ones. Items outside the box sideways are cut off; it holds all of them
     // along the light.
     void draw(std::span<const DrawItem> items, const LightBox& box);
 

@@ -1,4 +1,4 @@
-// Gives GL the shadow map and what makes reading it cheap. It does not know how shadows are shaded.
+// Gives GL the shadow map and the bounds that make reading it cheap. Independent of the shading of shadows.
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ class ShadowPass {
   public:
     ShadowPass(const Gl& gl, int texels);
 
-    // What is the same as before in the same box is not drawn again, unless `anew`. `isWide`: the shaders read how far
-    // wide lights look around.
+    // Parts that have not changed in the same box are not drawn again, unless `anew`. `isWide`: the shaders read the
+    // search radius of wide lights.
     void draw(std::span<const DrawItem> items, const Shadower& light, bool isWide, bool anew);
 
     void bindMaps(const ShadowUnits& units) const;

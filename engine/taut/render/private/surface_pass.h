@@ -1,5 +1,5 @@
-// Draws the surfaces: first what of them is seen, then the light on it, so that each pixel is lit once. Programs are
-// made for each kind of finish when it is first met.
+// Draws the surfaces: first their visible parts, then the light on them, so that each pixel is lit once. Programs are
+// made for each kind of finish at its first use.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@ class SurfacePass {
   public:
     SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget);
 
-    // What is seen, into the target of surfaces.
+    // Draws the visible parts into the target of surfaces.
     void draw(std::span<const DrawItem> items, const MeshCache& meshes);
 
     // The light on it, in a part of the bound picture, which shows everything `shift` [pixels] to the right and up; the
@@ -30,7 +30,7 @@ class SurfacePass {
                glm::vec2 shift);
 
   private:
-    // What light.frag has to know of a surface: a row of its table.
+    // The data of a surface for light.frag: a row of its table.
     struct Material {
         glm::vec4 backRoughness;
         glm::vec4 kind;    // sheen, dulled less greyed, translucency, woven

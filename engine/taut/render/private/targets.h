@@ -1,5 +1,5 @@
-// The picture while it is drawn: what is seen of surfaces, the shaded picture with one sample a pixel, and the way back
-// from GL. What is shown is kept as sRGB.
+// The picture in progress: the visible parts of surfaces, the shaded picture with one sample per pixel, and the way
+// back from GL. The final picture is kept as sRGB.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,16 @@ class Targets {
 
     glm::ivec2 size() const { return {width_, height_}; }  // [pixels]
 
-    void bindSurfaces() const;  // to draw what is seen into, with the depth of the picture; bytes are kept as they are
-    void bindShading() const;   // to draw into, one sample a pixel; what is seen of surfaces is bound to its units
+    void bindSurfaces() const;  // target for visible surfaces, with the depth of the picture; bytes are kept as they
+                                // are
+    void bindShading() const;   // target with one sample per pixel; the visible surfaces are bound to its units
 
-    // What has been shaded: bytes red, green, blue, mark from the lowest on; rows from below.
+    // The shaded picture: bytes red, green, blue, mark from the lowest on; rows from below.
     void colours(std::vector<std::uint32_t>& to) const;               // (width · height)
     void depths(const PixelBox& part, std::vector<float>& to) const;  // (part.width · part.height) 0 … 1
 
-    // Of what was drawn of surfaces (part.width · part.height): how far ahead of the eye along the camera's axis it
-    // lies, 1 / [m]; anything where there is no surface.
+    // Of the drawn surfaces (part.width · part.height): the inverse depth ahead of the eye along the camera's axis, 1 /
+    // [m]; undefined where there is no surface.
     std::vector<float> nearness(const PixelBox& part) const;
 
     // Puts colours back, to draw over.

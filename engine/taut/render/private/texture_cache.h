@@ -18,9 +18,9 @@ class TextureCache {
   public:
     TextureCache(const Gl& gl, TextureBudget& budget) : gl_(&gl), budget_(&budget) {}
 
-    // Binds a repeating, mip-mapped sRGB texture from a PNG or JPEG file to the unit of pictures. Throws what
-    // image::readImage throws: Error(inputOutput) for a file that cannot be read, Error(badContent) for one that is no
-    // picture, or with which all of the budget had more than 134 million pixels.
+    // Binds a repeating, mip-mapped sRGB texture from a PNG or JPEG file to the unit of pictures. Throws as
+    // image::readImage does: Error(inputOutput) for a file that cannot be read, Error(badContent) for one that is no
+    // picture, or if all of the budget would have more than 134 million pixels.
     void bind(const std::string& path);
 
   private:

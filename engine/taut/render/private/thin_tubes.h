@@ -36,8 +36,8 @@ bool isThin(const DrawItem& item, const PixelScale& scale);
 // The same, with such a radius [pixels] where it would be thinner.
 view::Surface widened(const view::Surface& tube, const PixelScale& scale, float radius);
 
-// What was drawn of thin tubes alone, with the radius of shading; they with the radius of covering, and what may hide
-// them.
+// The drawing of thin tubes only, with the radius of shading; the tubes with the radius of covering, and things that
+// may hide them.
 struct ThinLayer {
     std::span<const DrawItem> tubes, others;
     const ShadedPixels& shaded;

@@ -9,9 +9,9 @@
 
 namespace taut::render {
 
-// Where a pixel has no mark in its uppermost byte, its bytes say what shadows leave of the ground's colour. In its
-// place come, straight, a colour and an alpha with which a ground of that colour looks as it would under the shadow,
-// laid over it byte by byte, as programs do; of other grounds the darkest channel does. Returns alpha (pixels), 255 on
+// Where a pixel has no mark in its uppermost byte, its bytes are the share of the ground's colour under shadows. They
+// are replaced by a straight colour and alpha with which a ground of that colour looks as it would under the shadow,
+// blended byte by byte, as programs do; for other grounds the darkest channel is exact. Returns alpha (pixels), 255 on
 // surfaces.
 std::vector<std::uint8_t> takeShadows(const view::FrameView& view, std::span<std::uint32_t> colours);
 

@@ -16,7 +16,7 @@ struct TargetFault {
     std::string message, remedy;
 };
 
-// What is known of a body before it is built.
+// Data of a body before it is built.
 struct BodyEntry {
     std::string kind, name;      // "cloth", "flag"
     int copies = 1;              // if more than one, they are flag.0, flag.1, …

@@ -21,7 +21,7 @@ void eachNumber(world::SceneSpec& scene, const std::string& owner, std::span<con
                 const std::function<void(double&)>& visit);
 
 // The values under these keys in [solver], bodies, materials and forces that differ, as in `after`. Expects the same
-// bodies, materials and forces in both. Leaves out what has no value in `after`.
+// bodies, materials and forces in both. Leaves out keys without a value in `after`.
 std::vector<Change> differences(const world::SceneSpec& before, const world::SceneSpec& after,
                                 std::span<const std::string_view> keys);
 

@@ -1,4 +1,4 @@
-// Checks the claims of a scene: each can be read, and names what exists at its moments.
+// Checks the claims of a scene: each can be read, and names bodies that exist at its moments.
 #pragma once
 
 #include "taut/scene/private/body_index.h"

@@ -28,7 +28,7 @@ struct SyntaxError : std::runtime_error {
 // deep that it can only be an accident or an attack.
 Node documentTree(std::string_view text, int origin);
 
-// The same, but reports what is not TOML and throws core::Error(badContent) with all problems so far.
+// The same, but reports text that is not TOML and throws core::Error(badContent) with all problems so far.
 Node treeOf(std::string_view text, int origin, fields::Problems& problems);
 
 }  // namespace taut::scene

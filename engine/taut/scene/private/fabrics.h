@@ -1,4 +1,4 @@
-// Lays the fabrics that a scene names into its tree. It knows where names of materials stand, not what they mean.
+// Adds the fabrics that a scene names to its tree. It uses the places of names of materials, not their meaning.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ namespace taut::scene {
 
 bool isFabric(std::string_view name);  // "fabric:denim"
 
-// Adds [material."fabric:denim"] for each fabric that is a material of a body, or that a material is like, and so on
-// for those that fabrics are like. Returns their files. Reports fabrics that are not there, and files that cannot be
-// read or have no material of their name. A material of the scene never stands in the place of one of the library.
+// Adds [material."fabric:denim"] for each fabric that is a material of a body, or in the `like` of a material, and for
+// the `like` of these fabrics. Returns their files. Reports missing fabrics, and files that cannot be read or have no
+// material of their name. A material of the scene never replaces one of the library.
 std::vector<std::string> addFabrics(const std::vector<std::filesystem::path>& assetFolders, Node& root,
                                     fields::Problems& problems);
 

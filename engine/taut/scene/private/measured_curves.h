@@ -1,4 +1,4 @@
-// Reads the CSV files of what was measured, which the targets of a fit name.
+// Reads the CSV files of measurements that the targets of a fit name.
 #pragma once
 
 #include "taut/scene/private/scene_reader.h"

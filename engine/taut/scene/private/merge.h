@@ -19,8 +19,8 @@ using fields::Problems;
 // its own file. A table in both begins where the base has it.
 Node merged(Node base, const Node& over);
 
-// The content of `scene = "…"`: the name, and whether "shipped:NAME" asks for a shipped scene, whatever lies beside the
-// file.
+// The content of `scene = "…"`: the name, and whether "shipped:NAME" selects a shipped scene, with or without a file
+// beside this one.
 struct BaseName {
     std::string name;
     bool isShipped = false;

@@ -21,7 +21,7 @@ struct RampKey {
 std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<SceneSection>& sections,
                                world::SceneSpec& scene, TargetFault& fault);
 
-// The keys of a document that ramps may change, also those that have no value to start from.
+// The keys of a document that ramps may change, also keys without a value to start from.
 std::vector<std::string> rampableKeys(const std::vector<SceneSection>& sections, const Node& root);
 
 // One line for each section that ramps may change, with its name and keys, for the manual and for messages.

@@ -40,7 +40,7 @@ SceneSection backgroundSection();
 
 SceneSection materialSection();
 
-// What ties, pushes and shows the scene.
+// Sections of ties, forces and pictures.
 SceneSection jointSection(const world::KindTable<world::JointSpec>& kinds);
 SceneSection seamSection();
 SceneSection massSection();

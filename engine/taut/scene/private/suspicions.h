@@ -1,4 +1,4 @@
-// Warnings: what a scene may say but probably does not mean.
+// Warnings: valid settings that are probably mistakes.
 #pragma once
 
 #include "taut/scene/private/scene_reader.h"

@@ -13,7 +13,7 @@ namespace taut::scene {
 void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, const BodyIndex& bodies,
                    ReadScene& scene, Problems& problems);
 
-// Whether the run's length was overridden. If so, what lies past the end is left out, and is no mistake.
+// Whether the run's length was overridden. If so, actions past the end are left out and are no errors.
 bool isLengthOverridden(const Node& root);
 
 }  // namespace taut::scene

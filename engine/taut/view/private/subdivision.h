@@ -29,7 +29,7 @@ struct SparseRows {
 
 struct FineMesh {
     std::vector<std::uint32_t> triangles;  // (3 · triangles)
-    SparseRows controls;  // of vertices of the mesh: what controls the surface so that it passes close to them
+    SparseRows controls;  // of vertices of the mesh: control points of a surface that passes close to them
     SparseRows surface;   // of controls: vertices on the surface
     // (vertices beyond those of the mesh) Two earlier vertices, between which each is on the mesh as that is, flat.
     std::vector<std::array<std::uint32_t, 2>> middles;

@@ -30,7 +30,7 @@ const std::string post = "[collider.post]\nshape = \"sphere\"\nradius = 0.01\npo
 std::string link(const std::string& name, double degrees, const std::string& more = "") {
     const double a = degrees * pi / 180;
     return "[solid." + name +
-           "]\nshape = \"box\"\nsize = [0.02, 1, 0.02]\nthickness = 1e-9\ncollide = false\ndrag_per_s = "
+           "]\nshape = \"box\"\nsize = [0.02, 1, 0.02]\nthickness = 1e-9\ndrag_per_s = "
            "0\nrotation_deg = [0, 0, " +
            std::to_string(degrees) + "]\nposition = [" + std::to_string(0.5 * std::sin(a)) + ", " +
            std::to_string(2 - 0.5 * std::cos(a)) + ", 0]\n" + more;

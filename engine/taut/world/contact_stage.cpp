@@ -7,6 +7,7 @@
 
 #include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/private/carried_surface.h"
+#include "taut/bodies/private/joints/pins.h"
 #include "taut/contact/penetration.h"
 #include "taut/contact/rigid_side.h"
 #include "taut/core/private/parallel.h"
@@ -235,10 +236,11 @@ void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const
         for (const JointTie& tie : plan.ties) {
             if (!holds(plan, tie)) continue;
             if (tie.b >= 0) join(part.first + tie.a, part.first + tie.b);
-            const auto carries = [&](const JointTie::Part& own) {
-                return plan.constraints[static_cast<std::size_t>(own.constraint)]->carries(tie.a);
+            const auto pins = [&](const JointTie::Part& own) {
+                const Constraint* constraint = plan.constraints[static_cast<std::size_t>(own.constraint)].get();
+                return dynamic_cast<const Pins*>(constraint) != nullptr;
             };
-            if (!tie.collider.empty() && std::any_of(tie.parts.begin(), tie.parts.end(), carries))
+            if (!tie.collider.empty() && std::any_of(tie.parts.begin(), tie.parts.end(), pins))
                 mount(part.first + tie.a, tie.collider);
         }
         for (const Grip& grip : plan.grips)

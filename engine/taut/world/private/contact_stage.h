@@ -10,7 +10,7 @@
 // force of its step: all islands take substeps that are a multiple of these. And so many that nothing goes by more than
 // three thicknesses in one.
 //
-// How many blocks. As few as possible, because detection is dear: eight in a sixtieth of a second, or one a step if
+// How many blocks. As few as possible, because detection is expensive: eight in a sixtieth of a second, or one a step if
 // these are fewer, and half as many where little moves and nothing may roll. A block in which two sides would go further
 // than three thicknesses from one another or past is shorter, and it ends with a step in which something bounced.
 //

@@ -42,7 +42,7 @@ LabFolder folderOf(const AtlasFlags& flags, const std::string& fallback) {
 }
 
 int oscillatorAtlas(const AtlasFlags& flags) {
-    if (!flags.overrides.empty() || flags.seconds > 0.0) failUsage("--set and --seconds are of scenes: name one");
+    if (!flags.overrides.empty() || flags.seconds > 0.0) failUsage("--set and --seconds apply to scenes: name one");
     const Interruption interruption;
     const LabFolder output = folderOf(flags, "out/atlas");
     study::StabilityMap map;
@@ -112,19 +112,19 @@ int atlas(const AtlasFlags& flags) {
 Action declareAtlas(Options& options) {
     const auto flags = std::make_shared<AtlasFlags>();
     options.value("SCENE", flags->scene,
-                  "A scene file, a shipped scene, or the built-in rope or cloth: the largest step that each "
-                  "method stands there. Without it, maps of the damped oscillator");
-    options.value("-o,--output", flags->output, "The folder for CSV, JSON, SVG and PNG; else out/atlas")
+                  "A scene file, a shipped scene, or the built-in rope or cloth: measures the largest stable step of "
+                  "each method. Without it: maps of the damped oscillator");
+    options.value("-o,--output", flags->output, "Folder for CSV, JSON, SVG and PNG; default out/atlas")
         .typeName("FOLDER");
-    options.value("--methods", flags->methods, "Only these, separated by commas")
+    options.value("--methods", flags->methods, "Methods, separated by commas; default all")
         .separatedBy(',')
         .oneValue()
         .typeName("A,B");
-    options.value("--cells", flags->cells, "Points of a map along either axis").within(3, 1001);
-    options.value("--seconds", flags->seconds, "Length of motion in each run of a scene; else 0.5 at most")
+    options.value("--cells", flags->cells, "Points of a map along each axis").within(3, 1001);
+    options.value("--seconds", flags->seconds, "Simulated time of each run of a scene; default at most 0.5")
         .check(numberWithin(leastSeconds, mostSeconds));
     addOverrideFlag(options, flags->overrides, "Override a field of a scene; repeatable");
-    options.flag("--quiet", flags->quiet, "No progress");
+    options.flag("--quiet", flags->quiet, "Print no progress");
     options.footer(
         "Examples:\n"
         "  taut atlas\n"

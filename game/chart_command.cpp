@@ -98,8 +98,11 @@ bool isOfTheSlides(const study::Subject& subject) {
 void printResults(const study::WorkPrecision& result, const std::vector<study::StepsRow>& steps) {
     printResult("{}\n\n{}", result.title, study::workPrecisionSummary(result));
     if (!steps.empty())
-        printResult("\nSteps until the error at the end is below 1e-6, and what four evaluations buy\n\n{}",
-                    study::stepsSummary(steps));
+        printResult(
+            "\n"
+            "Steps for an error below 1e-6 at the end, and the effect of four evaluations\n\n"
+            "{}",
+            study::stepsSummary(steps));
     for (const std::string& remark : result.remarks) printResult("\n{}\n", remark);
 }
 
@@ -111,7 +114,7 @@ int chartResolutions(const ChartFlags& flags) {
     const ChartFlags unset;
     if (!flags.methods.empty() || !flags.overrides.empty() || flags.precision != unset.precision ||
         flags.seconds != unset.seconds || flags.budget != unset.budget)
-        failUsage("{} studies bodies at rest: it takes --output and --quiet alone", refinementName);
+        failUsage("{} compares bodies at rest: it takes --output and --quiet only", refinementName);
     const pipeline::Machine machine = pipeline::machine();
     const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / refinementName
                                                               : std::filesystem::path(flags.output);
@@ -146,18 +149,18 @@ Action declareChart(Options& options) {
     const auto flags = std::make_shared<ChartFlags>();
     options.value("PROBLEM", flags->subject, "A built-in problem, a scene file, a shipped scene, or refinement");
     options.flag("--list", flags->list, "List the built-in problems");
-    options.value("-o,--output", flags->output, "The folder for CSV, JSON, SVG and PNG; else out/charts/NAME")
+    options.value("-o,--output", flags->output, "Folder for CSV, JSON, SVG and PNG; default out/charts/NAME")
         .typeName("FOLDER");
-    options.value("--methods", flags->methods, "Only these, separated by commas")
+    options.value("--methods", flags->methods, "Methods, separated by commas; default all")
         .separatedBy(',')
         .oneValue()
         .typeName("A,B");
-    options.value("--precision", flags->precision, "single, double or both").oneOf({"single", "double", "both"});
-    options.value("--seconds", flags->seconds, "Length of motion to study")
-        .check(numberWithin(leastSeconds, mostSeconds));
+    options.value("--precision", flags->precision, "Precision: single, double or both")
+        .oneOf({"single", "double", "both"});
+    options.value("--seconds", flags->seconds, "Simulated time").check(numberWithin(leastSeconds, mostSeconds));
     options.value("--budget", flags->budget, "Wall time to aim at, in seconds").check(numberWithin(0.5, mostSeconds));
     addOverrideFlag(options, flags->overrides, "Override a field of a scene; repeatable");
-    options.flag("--quiet", flags->quiet, "No progress");
+    options.flag("--quiet", flags->quiet, "Print no progress");
     options.footer(
         "Examples:\n"
         "  taut chart cloth-corners\n"

@@ -80,8 +80,7 @@ Verdict judge(const std::string& argument, const CheckFlags& flags) {
         const bool isTooLarge = !flags.quick && world::isTooLarge(spec);
         if (isTooLarge)
             verdict.advice.push_back(
-                "these are too many points to build them only to look ahead: the file alone is looked at; taut info "
-                "builds them");
+                "these are too many points to simulate the start: only the file was checked; taut info builds them");
         if (!flags.quick && !isTooLarge) {
             if (!flags.json) notePreparation(spec);
             world::Rehearsal rehearsal = world::rehearse(spec);
@@ -160,12 +159,13 @@ Action declareCheck(Options& options) {
     options.value("SCENE", flags->scenes, "Scene files, folders of them, or names of shipped scenes").required();
     addOverrideFlag(options, flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]");
     addConfinedFlag(options, flags->isConfined);
-    options.flag("--quick", flags->quick, "Look at the files alone: build nothing, look ahead at nothing");
-    options.flag("--strict", flags->strict, "Warnings are errors");
-    options.flag("--json", flags->json, "Print it as JSON, with file, line and column, for editors and CI");
+    options.flag("--quick", flags->quick, "Check the files only, without building and simulating");
+    options.flag("--strict", flags->strict, "Make warnings errors");
+    options.flag("--json", flags->json, "Print JSON with file, line and column, for editors and CI");
     options.footer(
-        "Of a folder every file NAME.toml in it, a line each. The exit code is that of the worst. Looks ahead for two\n"
-        "seconds of processor time at most, and not at more than 100 000 points.\n"
+        "Of a folder every file NAME.toml is checked, with a line each. The exit code is that of the worst. Simulates "
+        "for up\n"
+        "to two seconds of processor time, and up to 100 000 points.\n"
         "Examples:\n"
         "  taut check my.toml\n"
         "  taut check my --confined --strict\n"
@@ -176,7 +176,7 @@ Action declareCheck(Options& options) {
 }  // namespace
 
 Command checkCommand() {
-    return {"check", "Say whether scene files are right, with all their errors", declareCheck};
+    return {"check", "Validate scene files", declareCheck};
 }
 
 }  // namespace taut::game

@@ -29,7 +29,7 @@ int completion(const CompletionFlags& flags, const CommandTree& tree) {
         printResult("{}\n", fmt::join(names, "\n"));
         return static_cast<int>(ExitCode::ok);
     }
-    if (flags.shell.empty()) failUsage("completion for which shell? bash, zsh or fish");
+    if (flags.shell.empty()) failUsage("name a shell: bash, zsh or fish");
     const bool isZsh = flags.shell == "zsh";
     writeResult(isZsh ? zshCompletion(tree) : flags.shell == "fish" ? fishCompletion(tree) : bashCompletion(tree));
     return static_cast<int>(ExitCode::ok);
@@ -37,7 +37,7 @@ int completion(const CompletionFlags& flags, const CommandTree& tree) {
 
 Action declareCompletion(Options& options) {
     const auto flags = std::make_shared<CompletionFlags>();
-    options.value("SHELL", flags->shell, "The shell that the script is for").oneOf({"bash", "zsh", "fish"});
+    options.value("SHELL", flags->shell, "Shell").oneOf({"bash", "zsh", "fish"});
     options.flag("--scenes", flags->scenes, "Print the names of the shipped scenes and scenarios instead");
     options.footer(
         "Examples:\n"
@@ -49,7 +49,7 @@ Action declareCompletion(Options& options) {
 }  // namespace
 
 Command completionCommand() {
-    return {"completion", "Print the script by which a shell completes taut", declareCompletion};
+    return {"completion", "Print a completion script for a shell", declareCompletion};
 }
 
 }  // namespace taut::game

@@ -38,23 +38,22 @@ std::uint64_t mostBytes(const world::World& world) {
 
 // There is nothing else to go on from, and the frames before are of its bits too.
 [[noreturn]] void refuseOtherBits(const pipeline::PassedOver& checkpoint, const ContinuationFlags& flags) {
-    throw core::Error(
-        core::ErrorKind::inputOutput,
-        fmt::format("{}: only a taut of its bits goes on from it; {}", checkpoint.why,
-                    flags.from ? "without --from, -y draws all frames again" : "-y draws all frames again"));
+    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: needs a taut with these bits; {}", checkpoint.why,
+                                                                flags.from ? "without --from, -y draws all frames again"
+                                                                           : "-y draws all frames again"));
 }
 
 }  // namespace
 
 void addContinuationFlags(Options& options, ContinuationFlags& flags) {
     constexpr std::int64_t mostFrames = std::int64_t{1} << 40;
-    options.value("--checkpoint-every", flags.every, "Keep the state every so many frames, to go on from")
+    options.value("--checkpoint-every", flags.every, "Keep the state every so many frames")
         .typeName("FRAMES")
         .within(std::int64_t{1}, mostFrames);
-    options.value("--checkpoints", flags.folder, "Where states are kept; `checkpoints` beside the output if not given")
+    options.value("--checkpoints", flags.folder, "Folder of states; default `checkpoints` beside the output")
         .typeName("FOLDER");
-    options.flag("--resume", flags.resume, "Go on where the frames on disk end, from the last state kept before");
-    options.value("--from", flags.from, "Draw from this frame on, from the last state kept before it")
+    options.flag("--resume", flags.resume, "Continue after the last frame on disk, from the last state before it");
+    options.value("--from", flags.from, "Draw from this frame on, from the last state before it")
         .typeName("FRAME")
         .within(std::int64_t{0}, mostFrames);
 }
@@ -90,9 +89,10 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
                          const PicturesThere& pictures, pipeline::RunOptions& options, world::World& world) {
     const pipeline::CheckpointFolder checkpoints(folder);
     if (flags.every > 0 && !flags.resume && !flags.from && !flags.mayOverwrite && !checkpoints.framesThere().empty())
-        throw core::Error(core::ErrorKind::inputOutput,
-                          fmt::format("{} holds states of an earlier run; --resume goes on from them, -y begins anew",
-                                      folder.string()));
+        throw core::Error(
+            core::ErrorKind::inputOutput,
+            fmt::format("{} holds states of an earlier run; --resume continues from them, -y starts again",
+                        folder.string()));
     // Frames before a kept state are blank.
     const auto fromStart = [&] {
         pipeline::RecordLog log = flags.every > 0 ? pipeline::RecordLog(checkpoints.records(), options.figureColumns)
@@ -123,10 +123,10 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
     if (!checkpoint) {
         if (goesOnWithPictures && !flags.mayOverwrite)
             throw core::Error(core::ErrorKind::inputOutput,
-                              fmt::format("{} has no state of this run to go on from, and there are frames already; -y "
-                                          "draws all of them again",
+                              fmt::format("{} has no state of this run to continue from, and there are frames already; "
+                                          "-y draws all of them again",
                                           folder.string()));
-        printNote("note: {} has no state to go on from; starting with frame {}\n", folder.string(),
+        printNote("note: {} has no state to continue from; starting with frame {}\n", folder.string(),
                   world.startTick() / world.ticksPerFrame());
         return fromStart();
     }
@@ -134,12 +134,11 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
     if (goesOnWithPictures && keepsPictures && checkpoint->picture != keys.picture)
         throw core::Error(
             core::ErrorKind::badContent,
-            fmt::format("the pictures before frame {} were drawn with other settings of size, camera, light "
-                        "or look; draw all of them again with -y and without --resume, or the rest with "
-                        "--from {}",
+            fmt::format("the pictures before frame {} were drawn with another size, camera, light or look; draw all of "
+                        "them again with -y and without --resume, or the rest with --from {}",
                         goal, goal));
     world.restore(checkpoint->world);
-    printNote("note: going on with frame {}\n", checkpoint->frame);
+    printNote("note: continuing with frame {}\n", checkpoint->frame);
     options.startFrame = checkpoint->frame;
     options.firstFrame = std::max(options.firstFrame, options.startFrame);
     const auto before = static_cast<std::size_t>(checkpoint->frame);

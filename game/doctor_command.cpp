@@ -102,10 +102,9 @@ void printWindow() {
     try {
         printFact("window", fmt::format("ok: {}", windowDriver()));
     } catch (const core::Error& error) {
-        printFact("window",
-                  fmt::format("MISSING: no taut play, for {}; all else does without. Away from a screen xvfb-run is a "
-                              "display; it is in the package xvfb",
-                              error.what()));
+        printFact("window", fmt::format("MISSING: no taut play, for {}; all other commands work. Without a screen "
+                                        "xvfb-run provides a display; it is in the package xvfb",
+                                        error.what()));
     }
 }
 
@@ -129,7 +128,7 @@ image::Image printRenderer(const std::string& name, render::Backend backend, std
             const image::Comparison comparison = image::compare(right, drawing.picture);
             fact += comparison.largest == 0
                         ? "; the same pixels as OSMesa"
-                        : fmt::format("; from OSMesa's pixels off by up to {}/255, {:.3g} on average",
+                        : fmt::format("; pixels differ from OSMesa's by up to {}/255, {:.3g} on average",
                                       comparison.largest, comparison.mean);
         }
         printFact(name, fact);
@@ -169,7 +168,7 @@ bool printRenderers(Packages& packages) {
     if (!draws)
         for (const char* package : {"libegl-mesa0", "libgl1-mesa-dri"}) packages.add(package);
     if (hasOsmesa && !right.isWhole()) packages.add("libosmesa6");
-    if (!draws && right.isWhole()) printFact("--gl egl", "MISSING: no graphics card draws; all else does without");
+    if (!draws && right.isWhole()) printFact("--gl egl", "MISSING: no graphics card; drawing in software works");
     if (draws || right.isWhole()) return true;
     printFact("pictures", "MISSING: none without osmesa or egl; taut render --no-pictures needs neither");
     return false;
@@ -204,22 +203,22 @@ int doctor(const std::string& folder) {
     const bool draws = printRenderers(packages);
     files = printWriteTest(folder) && files;
     const ExitCode code = !files ? ExitCode::inputOutput : !draws ? ExitCode::noRenderer : ExitCode::ok;
-    printResult("{}\n", code == ExitCode::ok ? "Everything needed is there." : "Something is missing.");
+    printResult("{}\n", code == ExitCode::ok ? "All packages are installed." : "Packages are missing.");
     if (!packages.names.empty())
-        printResult("For what is missing, on Debian: apt install {}\n", fmt::join(packages.names, " "));
+        printResult("To install them on Debian: apt install {}\n", fmt::join(packages.names, " "));
     return static_cast<int>(code);
 }
 
 Action declareDoctor(Options& options) {
     const auto folder = std::make_shared<std::string>(".");
-    options.value("-o,--output", *folder, "The folder for the write test").typeName("FOLDER");
+    options.value("-o,--output", *folder, "Folder for the write test").typeName("FOLDER");
     return [folder] { return doctor(*folder); };
 }
 
 }  // namespace
 
 Command doctorCommand() {
-    return {"doctor", "Tell what is installed and whether drawing and writing work", declareDoctor};
+    return {"doctor", "Check packages, drawing and writing", declareDoctor};
 }
 
 }  // namespace taut::game

@@ -133,7 +133,7 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
         all.push_back({file, format});
     };
     if (flags.output.empty() && flags.points.empty() && flags.web.empty())
-        failUsage("say where the geometry goes: {}", allKindsOfFiles(formats, page));
+        failUsage("name an output for the geometry: {}", allKindsOfFiles(formats, page));
     add(
         flags.output, geometry::formatOf(formats, Holds::surfaces, flags.output),
         [&] {
@@ -143,16 +143,17 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
         });
     add(flags.web, geometry::isIn(page, flags.web) ? &page : nullptr,
         [&] { return "--web writes a page, " + endingOf(page); });
-    if (flags.web.empty() && !flags.viewer.empty()) failUsage("--viewer is what draws in a page: add --web out.html");
+    if (flags.web.empty() && !flags.viewer.empty())
+        failUsage("--viewer selects the viewer of a page: add --web out.html");
     for (const auto& [file, format] : all)
         if (flags.noNormals && !format->needsNormals.empty()) failUsage("--no-normals: {}", format->needsNormals);
     add(flags.points, geometry::formatOf(formats, Holds::points, flags.points),
         [&] { return "points go to " + oneOf(ofEach(formats, Holds::points, endingAndReaders)); });
-    if (flags.points.empty() && !flags.of.empty()) failUsage("--of says whose points: add --points out.npz");
+    if (flags.points.empty() && !flags.of.empty()) failUsage("--of selects points: add --points out.npz");
     if (flags.digits > 0 && std::none_of(all.begin(), all.end(), [](const auto& to) { return to.format->hasDigits; }))
-        failUsage("--digits are those of {}; other formats hold all of a number", endingsWithDigits(formats));
+        failUsage("--digits applies to {}; other formats have full precision", endingsWithDigits(formats));
     if (flags.output.empty() && flags.web.empty() && (flags.noNormals || !flags.only.empty()))
-        failUsage("--only and --no-normals are for geometry: add -o, or name points with --of");
+        failUsage("--only and --no-normals apply to geometry: add -o, or name points with --of");
     return all;
 }
 
@@ -250,7 +251,7 @@ void printLost(const geometry::LostMotion& lost, std::int64_t every) {
     if (lost.worstName.empty())
         text += ", nothing moved in them";
     else
-        text += fmt::format(", off by {:.3g} mm rms, {:.3g} mm at worst ({}, frame {}), moved evenly in between",
+        text += fmt::format(", error {:.3g} mm rms, {:.3g} mm at worst ({}, frame {}), interpolated linearly",
                             1e3 * lost.rms, 1e3 * lost.worst, lost.worstName, lost.worstFrame);
     if (lost.unmeasured > 0) {
         const std::size_t others = lost.changes.size() - 1;
@@ -263,14 +264,14 @@ void printLost(const geometry::LostMotion& lost, std::int64_t every) {
 void noteTooManyKeys(std::int64_t keys, const pipeline::GeometryRun& run, const Format& format) {
     const auto most = static_cast<std::int64_t>(format.mostKeys);
     if (most == 0 || keys <= most) return;
-    printNote("note: {} keys: {} promise room for {} a mesh; --every {} has fewer\n", keys, format.limitingReaders,
+    printNote("note: {} keys: {} reserve room for {} per mesh; --every {} has fewer\n", keys, format.limitingReaders,
               most, (run.lastFrame - run.firstFrame) / most + 1);
 }
 
 // A page needs no run: what is in it is the scene.
 int exportLive(const ExportFlags& flags) {
     if (!(flags.output + flags.web + flags.points).empty())
-        failUsage("--live writes a page in which the scene is played; -o, --web and --points are exports of their own");
+        failUsage("--live writes a page that simulates the scene; -o, --web and --points are separate exports");
     if (!flags.live.ends_with(".html") && !flags.live.ends_with(".htm"))
         failUsage("{}: --live writes a page, out.html", flags.live);
     const std::vector<std::string> overrides = allOverrides(flags);
@@ -289,7 +290,7 @@ int exportLive(const ExportFlags& flags) {
 int exportScene(const ExportFlags& flags, const Formats& formats) {
     if (!flags.live.empty()) return exportLive(flags);
     if (!flags.engine.empty() || !flags.sliders.empty() || flags.edits)
-        failUsage("--engine, --sliders and --edit are of a page in which the scene is played: add --live out.html");
+        failUsage("--engine, --sliders and --edit apply to live pages: add --live out.html");
     const auto page = std::make_shared<geometry::WebPage>();
     const Format pages = pageFormat(page);
     const std::vector<Destination> destinations = destinationsOf(flags, formats, pages);
@@ -305,7 +306,7 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
     if (!flags.web.empty()) {
         const std::string name = std::filesystem::path(flags.scene).stem().string();
         if (!flags.quiet && (!spec.lamps.empty() || !spec.environment.image.empty()))
-            printNote("note: lamps and the picture around are not in the page: it is lit by sun and sky alone\n");
+            printNote("note: the page has no lamps and no environment: sun and sky light it\n");
         *page = spec.title.empty() ? webPage(name, "", flags.viewer) : webPage(spec.title, name, flags.viewer);
     }
     for (const auto& [file, format] : destinations) {
@@ -347,7 +348,7 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
         const std::int64_t good = world.tick() / world.ticksPerFrame();
         std::string text = fmt::format("{}\nnothing was written", error.what());
         if (good >= run.firstFrame)
-            text += fmt::format("; --frames {}-{} writes what came before", run.firstFrame, good);
+            text += fmt::format("; --frames {}-{} writes the frames before", run.firstFrame, good);
         throw core::Error(core::ErrorKind::diverged, text);
     }
     if (!isWhole) return static_cast<int>(interruption.exitCode().value_or(ExitCode::interrupted));
@@ -372,65 +373,58 @@ Action declareExport(Options& options, const Formats& formats) {
     options
         .value("-o,--output", flags->output, "Geometry: " + oneOf(ofEach(formats, Holds::surfaces, fileFor), ", or "))
         .typeName("FILE");
-    options
-        .value("--web", flags->web,
-               "A page that plays it in any browser, offline, to be looked at from all sides: out.html")
-        .typeName("FILE");
-    options
-        .value("--live", flags->live,
-               "A page in which the scene is computed and played with, in any browser, offline: out.html")
+    options.value("--web", flags->web, "A page with the film, offline, with a free camera: out.html").typeName("FILE");
+    options.value("--live", flags->live, "A page that simulates the scene, offline and interactive: out.html")
         .typeName("FILE");
     options
         .value("--engine", flags->engine,
-               "The engine in such a page; $TAUT_WEB, else what game/web.sh built, when not given")
+               "Folder of the engine for --live; default $TAUT_WEB, then the folder that game/web.sh built")
         .typeName("FOLDER");
     options
-        .value(
-            "--sliders", flags->sliders,
-            "What may be changed in such a page, as ramps do, such as wind.breeze.velocity; usual ones when not given")
+        .value("--sliders", flags->sliders,
+               "Keys of ramps for the sliders of --live, such as wind.breeze.velocity; default common keys")
         .typeName("KEY,…")
         .oneValue();
-    options.flag("--edit", flags->edits, "The scene's text is open in such a page, and read as one types");
+    options.flag("--edit", flags->edits, "Open the text of the scene in the page of --live");
     options
         .value("--viewer", flags->viewer,
-               "The three.js that draws in the page; $TAUT_THREE, else Debian's libjs-three, when not given")
+               "Folder of three.js for pages; default $TAUT_THREE, then Debian's libjs-three")
         .typeName("FOLDER");
     options
         .value("--points", flags->points,
                "Positions and velocities of points: " + oneOf(ofEach(formats, Holds::points, fileAndReaders), ", or "))
         .typeName("FILE");
-    options.value("--of", flags->of, "Whose points, such as cloth.flag@left; all bodies when not given")
+    options.value("--of", flags->of, "Targets of --points, such as cloth.flag@left; default all bodies")
         .typeName("TARGET,…")
         .oneValue();
     options
         .value("--only", flags->only,
-               "Only these in the geometry, such as cloth.*, collider.ball or ground; * stands for any letters")
+               "Parts of the geometry, such as cloth.*, collider.ball or ground; * matches any letters")
         .typeName("TARGET,…")
         .oneValue();
     addOverwriteFlags(options, flags->overwrite);
-    options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
-    options.value("--every", flags->every, "Every n-th frame only, and the last; tells how far off that is in between")
+    options.value("--frames", flags->frames, "Frames to export: 0-119, 60, or 60-").typeName("A-B");
+    options.value("--every", flags->every, "Every n-th frame, and the last; prints the error of interpolation")
         .within<std::int64_t>(1, 1000000);
     addRunFlags(options, flags->fps, flags->seconds);
     addSmoothFlag(options, flags->smooth);
-    options.flag("--no-normals", flags->noNormals, "Leave normals out: half the size, and others shade as they like");
+    options.flag("--no-normals", flags->noNormals, "Omit normals: half the size, shaded by the other program's rules");
     options
-        .value("--digits", flags->digits,
-               fmt::format("Digits behind the point in {}, 5 when not given: 0.01 mm", endingsWithDigits(formats)))
+        .value("--digits", flags->digits, fmt::format("Decimals in {}; default 5: 0.01 mm", endingsWithDigits(formats)))
         .within(1, 9);
-    options.flag("--quiet", flags->quiet, "No progress; warnings and errors only");
+    options.flag("--quiet", flags->quiet, "Print no progress; only warnings and errors");
     addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
     addOverrideFlag(options, flags->overrides);
     addConfinedFlag(options, flags->isConfined);
     options.footer(
-        "Lengths are metres, y is up. In .usda time codes are numbers of frames; in .glb and pages time begins at the "
+        "Lengths are metres, y is up. In .usda time codes are frame numbers; in .glb and pages time begins at the "
         "first\n"
-        "frame, and nothing may tear. In .usda and .glb patterns but pictures become their first colour. Vertices have "
-        "an\n"
-        "order of their own; --points has that of the scene. A page holds its film and all that shows it: it needs "
-        "neither\n"
-        "server nor network, and half the bytes with --every 2.\n"
+        "frame, and nothing may tear. In .usda and .glb patterns other than pictures become their first colour. "
+        "Vertices\n"
+        "are in an order of their own; --points keeps that of the scene. A page contains its film and viewer: it "
+        "needs\n"
+        "neither server nor network, and has half the size with --every 2.\n"
         "Examples:\n"
         "  taut export torn-banner -o banner.usda\n"
         "  taut export flag -o flag.glb --every 2 --only cloth.flag\n"
@@ -442,7 +436,7 @@ Action declareExport(Options& options, const Formats& formats) {
 }  // namespace
 
 Command exportCommand(const Tables& tables) {
-    return {"export", "Write moving geometry for other programs: USD, GLB, points as numbers",
+    return {"export", "Export moving geometry: USD, GLB, pages, points",
             [formats = tables.formats](Options& options) { return declareExport(options, formats); }};
 }
 

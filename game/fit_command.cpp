@@ -58,12 +58,14 @@ int fit(const FitFlags& flags) {
 
 Action declareFit(Options& options) {
     const auto flags = std::make_shared<FitFlags>();
-    addSearchFlags(options, *flags, "A scene file; it says in [fit] what to seek and what was measured");
-    options.value("--trials", flags->trials, "Runs at most").within(1, 1000000).showDefault();
+    addSearchFlags(options, *flags, "A scene file with [fit]: the numbers to fit and the measurements");
+    options.value("--trials", flags->trials, "Largest number of runs").within(1, 1000000).showDefault();
     options.footer(
-        "A trial is the scene with --set of its values, played to the last moment that was measured.\n"
-        "Starts from the scene's values; while a target is not met, from other places between the bounds.\n"
-        "Ends with 5 when a target is not met, or two numbers cannot be told apart, and says so.\n"
+        "A trial is the scene with --set of its values, played to the last measured time. Starts from the values of "
+        "the\n"
+        "scene; if a target is not met, from other points between the bounds. Exits with 5 if a target is not met or "
+        "two\n"
+        "numbers cannot be told apart.\n"
         "Examples:\n"
         "  taut fit strip.toml\n"
         "  taut fit strip.toml --json out/fit.json --write");
@@ -73,7 +75,7 @@ Action declareFit(Options& options) {
 }  // namespace
 
 Command fitCommand() {
-    return {"fit", "Find the numbers with which a scene does what was measured", declareFit};
+    return {"fit", "Fit numbers of a scene to measurements", declareFit};
 }
 
 }  // namespace taut::game

@@ -48,7 +48,7 @@ Shard shard(const std::string& text) {
     const auto fail = [&](const std::string& reason) { failUsage("--shard {}: {}", text, reason); };
     const auto index = whole<std::int64_t>(view.substr(0, slash));
     const auto count = slash == std::string_view::npos ? std::nullopt : whole<std::int64_t>(view.substr(slash + 1));
-    if (!index || !count) fail("expected a number and how many there are, like 0/8");
+    if (!index || !count) fail("expected a number and a count, like 0/8");
     if (*count < 1 || *count > most) fail(fmt::format("there may be 1 to {} shards", most));
     if (*index >= *count) fail(fmt::format("there is none; they count from 0/{0} to {1}/{0}", *count, *count - 1));
     return {*index, *count};
@@ -68,8 +68,8 @@ Size pictureSize(const std::string& text) {
 }
 
 void addRunFlags(Options& options, double& fps, double& seconds) {
-    options.value("--fps", fps, "Frames a second of scene time").check(numberWithin(1e-3, 1e6));
-    options.value("--seconds", seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+    options.value("--fps", fps, "Frames per second of scene time").check(numberWithin(1e-3, 1e6));
+    options.value("--seconds", seconds, "Length in scene time").check(numberWithin(leastSeconds, mostSeconds));
 }
 
 std::string overrideBy(std::string_view flag, std::string_view key, std::string_view value) {
@@ -84,7 +84,7 @@ void addRunOverrides(double fps, double seconds, std::vector<std::string>& overr
 void addSmoothFlag(Options& options, int& smooth) {
     options
         .value("--smooth", smooth,
-               "Draw cloth and ropes this many times twice as fine as they are computed; 0: as they are")
+               "Draw cloth and ropes 2, 4 or 8 times as fine as they are simulated; 0: as simulated")
         .within(0, 3);
 }
 
@@ -93,7 +93,7 @@ void addSmoothOverride(int smooth, std::vector<std::string>& overrides) {
 }
 
 void addThreadsFlag(Options& options, int& threads) {
-    options.value("--threads", threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    options.value("--threads", threads, "Number of threads; default all of the machine").within(1, 1024);
 }
 
 std::function<int()> withThreads(Options& options, std::function<int()> action) {
@@ -109,7 +109,8 @@ void addInstructionSetFlag(Options& options, std::string& isa) {
     const std::string name = "--isa";
     options
         .value(name, isa,
-               "Vector instructions: sse2, avx2, avx512, or auto: the fastest here, by a short trial; same bits anyway")
+               "Vector instructions: sse2, avx2, avx512, or auto: the fastest here, by a short trial; the bits are the "
+               "same")
         .typeName("SET")
         .suggests({"auto", "sse2", "avx2", "avx512"})
         .check([name](const std::string& text) -> std::string {

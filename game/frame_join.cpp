@@ -44,7 +44,7 @@ void expectOneRun(const image::FramePattern& pattern, const std::vector<PartReco
         if (difference.empty()) continue;
         const bool isDrawer = pipeline::differenceOf(record, *longest, false).empty();
         refuse(pattern, fmt::format("{} and {} are not parts of one run: {}{}", nameOf(record), nameOf(*longest),
-                                    difference, isDrawer ? "; --any-renderer joins them all the same" : ""));
+                                    difference, isDrawer ? "; --any-renderer joins them nevertheless" : ""));
     }
 }
 
@@ -56,7 +56,7 @@ std::string withoutRecord(const std::vector<PartRecord>& records, const std::vec
         text += fmt::format(
             "\n  {}: {}", nameOf(record),
             record.ended == "begun"
-                ? "has begun and not ended"
+                ? "has started and not ended"
                 : fmt::format("{} {}", record.ended,
                               record.lastDrawn() < record.first ? "before its first frame"
                                                                 : fmt::format("after frame {}", record.lastDrawn())));
@@ -75,10 +75,11 @@ void expectAll(const FrameJoin& join) {
     look(join.pattern, "picture");
     for (const std::string& kind : join.records.front().besides) look(join.pattern.beside(kind), kind);
     if (missing.empty()) return;
-    refuse(join.pattern,
-           fmt::format("frames {}-{} are not all there:{}\nThe same --shard K/N --resume again draws what "
-                       "is missing, and so does taut render SCENE --frames A-B",
-                       join.frames.first, join.frames.last, missing));
+    refuse(
+        join.pattern,
+        fmt::format("frames {}-{} are incomplete:{}\n"
+                    "The same --shard K/N --resume draws the missing ones, and so does taut render SCENE --frames A-B",
+                    join.frames.first, join.frames.last, missing));
 }
 
 // Each is as a record of a part that has drawn it says.
@@ -96,10 +97,10 @@ void expectUnchanged(const FrameJoin& join) {
     if (names.empty()) return;
     const std::size_t count = names.size();
     if (count > mostNames) names.resize(mostNames), names.push_back(fmt::format("{} more", count - mostNames));
-    refuse(join.pattern, fmt::format("not as the records say that they were drawn, but damaged, replaced or moved: {}\n"
-                                     "The same --shard K/N --resume draws them again, and so does taut render SCENE "
-                                     "--frames A-B -y",
-                                     fmt::join(names, ", ")));
+    refuse(join.pattern,
+           fmt::format("these files differ from their records: damaged, replaced or moved: {}\n"
+                       "The same --shard K/N --resume draws them again, and so does taut render SCENE --frames A-B -y",
+                       fmt::join(names, ", ")));
 }
 
 // Reads pictures ahead, on several threads, and hands them on in order.
@@ -161,7 +162,7 @@ void leaveOutFailed(std::vector<PartRecord>& records) {
     const std::vector<std::string> others = pipeline::recordedFiles(pattern.folder());
     if (others.empty())
         refuse(pattern, "there is no record of pictures, run.json or run_0-119.json: nothing was drawn here");
-    refuse(pattern, fmt::format("no record is of files {}, but of {}: taut join {}", pattern.name(),
+    refuse(pattern, fmt::format("no record describes files {}, but {}: taut join {}", pattern.name(),
                                 fmt::join(others, " and "), (pattern.folder() / others.front()).string()));
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 Action declareHelp(Options& options) {
     const auto command = std::make_shared<std::string>();
-    options.value("COMMAND", *command, "A command; the program itself when left out");
+    options.value("COMMAND", *command, "A command; default the program itself");
     return [command, help = options.help()] {
         printText(help(*command));
         return static_cast<int>(ExitCode::ok);

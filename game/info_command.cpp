@@ -247,7 +247,8 @@ void printIsland(const world::IslandInfo& i) {
         printResult("  step limit  none\n");
     for (const std::string& advice : i.advice) printResult("              {}\n", advice);
     printResult("  step        {:.4g} ms = tick / {}, {}{}{}\n", 1e3 * i.step, i.substeps, i.method,
-                i.splitsDashpots ? ", dashpots split off" : "", i.followsState ? ", and follows the bound of now" : "");
+                i.splitsDashpots ? ", dashpots split off" : "",
+                i.followsState ? ", and follows the current bound" : "");
     printResult("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
 }
 
@@ -306,12 +307,11 @@ void printCost(const Facts& facts, double pointSteps) {
         "simulation about {} of processor time for the whole scene, {} a frame ({:.3g} ns a point and step){}\n",
         durationText(cost.ofAll(ticks)), rangeText(cost.least * perFrame, cost.most * perFrame, 1e3, "ms"),
         pointSteps > 0.0 ? 1e9 * cost.mean / pointSteps : 0.0,
-        cost.ticks < ticks ? fmt::format(": {} of {} ticks rehearsed, the others as the last {} of these", cost.ticks,
+        cost.ticks < ticks ? fmt::format(": {} of {} ticks simulated, the others as the last {} of these", cost.ticks,
                                          ticks, cost.ticks - cost.from)
                            : "");
     if (facts.spec.solver.sleepError > 0)
-        printResult("asleep {:.3g} % of the points, in the mean of the {} ticks rehearsed\n", 100.0 * cost.asleep,
-                    cost.ticks);
+        printResult("asleep {:.3g} % of the points, mean of the {} ticks simulated\n", 100.0 * cost.asleep, cost.ticks);
 }
 
 void printTable(const Facts& facts) {
@@ -376,11 +376,12 @@ void printMethods() {
                     m.evaluations, m.storedArrays, yes(m.symplectic), yes(m.reversible), yes(m.isFirstOrder()),
                     undampedLimit(m), m.limit);
     printResult(
-        "\nevals: force evaluations a step, besides the solves of implicit methods. arrays: kept besides positions and "
-        "velocities, of their size. y'=f: takes "
-        "any\nfirst-order system, not x'' = a alone. limit: of ωh without damping; 0 is unstable at every "
-        "step.\norder: with dashpots and drag too; contacts lower any to 1, and the drag of wind, where air moves "
-        "along a triangle,\nthose of order 4 to 2.\n");
+        "\n"
+        "evals: force evaluations per step, besides the solves of implicit methods. arrays: kept besides positions and "
+        "velocities, of their size. y'=f: any\n"
+        "first-order system, not x'' = a only. limit: of ωh without damping; 0 is unstable at every step.\n"
+        "order: with dashpots and drag too; contact lowers it to 1, and the drag of wind along triangles lowers\n"
+        "order 4 to 2.\n");
 }
 
 // Each name once, with its points or its place as the scene starts.
@@ -426,7 +427,7 @@ int infoPoints(const InfoFlags& flags) {
 }
 
 int info(const InfoFlags& flags) {
-    if (flags.methods && !flags.scene.empty()) failUsage("--methods tells of no scene: give one or the other");
+    if (flags.methods && !flags.scene.empty()) failUsage("--methods takes no scene: give one or the other");
     if (flags.methods) {
         if (flags.json)
             printResult("{}\n", methodsJson().dump(2));
@@ -451,14 +452,14 @@ Action declareInfo(Options& options) {
     options.value("--points", flags->pointsOf, "List the names of points and places of these bodies instead")
         .typeName("BODY");
     options.flag("--methods", flags->methods, "List the methods of integration instead");
-    options.flag("--json", flags->json, "Print it as JSON");
+    options.flag("--json", flags->json, "Print JSON");
     return withThreads(options, [flags] { return info(*flags); });
 }
 
 }  // namespace
 
 Command infoCommand() {
-    return {"info", "Tell what a scene builds, its time step, memory and cost", declareInfo};
+    return {"info", "Show statistics of a scene: points, time step, memory, cost", declareInfo};
 }
 
 }  // namespace taut::game

@@ -69,7 +69,7 @@ int joinFrames(const JoinFlags& flags) {
 // The report of all shards, with the exit code that taut test has for it.
 int joinTests(const JoinFlags& flags) {
     if (!flags.frames.empty() || flags.anyRenderer)
-        failUsage("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
+        failUsage("--frames and --any-renderer apply to frames; this folder has shards of taut test");
     const std::filesystem::path folder = flags.output.empty() ? flags.place : flags.output;
     if (image::isVideoPath(folder))
         failUsage("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are", flags.output);
@@ -85,37 +85,35 @@ int joinTests(const JoinFlags& flags) {
 int join(const JoinFlags& flags) {
     const bool hasTests = hasTestShards(flags.place);
     if (hasTests && !pipeline::partRecords(image::FramePattern(flags.place)).empty())
-        failUsage("{}: there are shards of taut test and of taut render: which? Move either elsewhere", flags.place);
-    if (!hasTests && !flags.junit.empty()) failUsage("--junit goes with shards of taut test");
+        failUsage("{}: there are shards of taut test and of taut render; move one of them elsewhere", flags.place);
+    if (!hasTests && !flags.junit.empty()) failUsage("--junit applies to shards of taut test");
     return hasTests ? joinTests(flags) : joinFrames(flags);
 }
 
 Action declareJoin(Options& options) {
     const auto flags = std::make_shared<JoinFlags>();
-    options.value("FOLDER", flags->place, "Where the shards have written; of frames also their names: out/f_######.png")
+    options.value("FOLDER", flags->place, "Folder of the shards, or the names of the frames: out/f_######.png")
         .required();
-    options.value(
-        "-o,--output", flags->output,
-        "The video to make (.mp4 .mov .mkv .webm .gif), nothing if not given; of tests the folder of the report");
-    options.value("--junit", flags->junit, "Of tests: write the results as JUnit XML too").typeName("FILE");
-    options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
-    options.flag("--any-renderer", flags->anyRenderer,
-                 "Join pictures also where not all were drawn by the same renderer and version of taut");
+    options.value("-o,--output", flags->output,
+                  "Video to make (.mp4 .mov .mkv .webm .gif), default none; of tests the folder of the report");
+    options.value("--junit", flags->junit, "Of tests: also write the results as JUnit XML").typeName("FILE");
+    options.value("--frames", flags->frames, "Frames to join: 0-119, 60, or 60-").typeName("A-B");
+    options.flag("--any-renderer", flags->anyRenderer, "Join pictures of different renderers or versions of taut");
     addOverwriteFlags(options, flags->overwrite);
-    options.flag("--quiet", flags->quiet, "No progress");
+    options.flag("--quiet", flags->quiet, "Print no progress");
     options.footer(
         "Examples:\n"
-        "  taut join out/show                    whether all frames are there, and of one run\n"
-        "  taut join out/show -o show.mp4        likewise, then the video that taut render -o show.mp4 makes\n"
-        "  taut join out/test                    the report of all shards of taut test, and its exit code\n"
-        "What is missing, or not of one run, is named, and the exit code is 6.");
+        "  taut join out/show                    verify that all frames are there, and of one run\n"
+        "  taut join out/show -o show.mp4        then encode the video that taut render -o show.mp4 makes\n"
+        "  taut join out/test                    write the report of all shards of taut test, with its exit code\n"
+        "Missing and differing frames are named, and the exit code is 6.");
     return withThreads(options, [flags] { return join(*flags); });
 }
 
 }  // namespace
 
 Command joinCommand() {
-    return {"join", "Prove that shards are one run, and make their video or report", declareJoin};
+    return {"join", "Verify shards and make their video or report", declareJoin};
 }
 
 }  // namespace taut::game

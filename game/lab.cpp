@@ -52,7 +52,7 @@ LabFolder::LabFolder(std::filesystem::path folder, bool isQuiet)
     const std::string ending = folder_.extension().string();
     for (const char* ofOne : {".csv", ".json", ".svg", ".png", ".html"})
         if (ending == ofOne && !std::filesystem::is_directory(folder_, ignored))
-            failUsage("-o {}: several charts and tables are written, into a folder: -o {}", folder_.string(),
+            failUsage("-o {}: the results are several files: -o {} names a folder", folder_.string(),
                       std::filesystem::path(folder_).replace_extension().string());
     for (std::filesystem::path at = folder_; !at.empty() && !std::filesystem::exists(at, ignored);
          at = at.parent_path())
@@ -72,7 +72,7 @@ void LabFolder::draw(const std::string& name, const report::Chart& chart) const 
 int LabFolder::finish(const Interruption& interruption) const {
     const auto code = interruption.exitCode();
     if (code)
-        printNote("interrupted: what was done until then is in {}\n", folder_.string());
+        printNote("interrupted: the results so far are in {}\n", folder_.string());
     else if (!isQuiet_)
         printNote("in {}\n", folder_.string());
     if (!draws_) throw core::Error(core::ErrorKind::inputOutput, "no pictures: " + report::gnuplotMissing());

@@ -17,7 +17,7 @@ namespace taut::game {
 void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug) {
     options
         .flag("--alpha", flags.alpha,
-              "A transparent background, with shadows as alpha: frames, .webm (VP9) or .mov (ProRes 4444)")
+              "Transparent background, with shadows as alpha: frames, .webm (VP9) or .mov (ProRes 4444)")
         .excludes(debug);
     for (LayerFlag& layer : flags.layers) {
         options.flag("--" + layer.kind.name, layer.isGiven, layer.kind.help);
@@ -28,16 +28,15 @@ void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug) {
     }
     options
         .value("--motion-blur", flags.blurMoments,
-               "Moments drawn of each picture while the shutter is open, half the time from one to the next")
+               "Number of moments averaged in each picture while the shutter is open, half of the frame time")
         .typeName("N")
         .within(2, 256);
     options
         .value("--f-stop", flags.fStop,
-               "Depth of field: the f-number of the lens, with film 24 mm high; each picture is drawn 32 times")
+               "Depth of field: the f-number of the lens, with film 24 mm high; averages 32 pictures")
         .typeName("N")
         .check(numberWithin(1e-3, 1e3));
-    options
-        .value("--focus", flags.focus, "How far ahead things are sharp with --f-stop; the camera's target if not given")
+    options.value("--focus", flags.focus, "Distance of sharp focus for --f-stop; default the camera's target")
         .typeName("METRES")
         .check(numberWithin(1e-3, 1e6));
 }
@@ -55,14 +54,12 @@ void checkLayerFlags(const LayerFlags& flags, const std::string& output, const s
                       std::filesystem::path(name).replace_extension().string());
     for (const LayerFlag& layer : flags.layers)
         if (layer.hasOwnNumber() && !layer.isGiven)
-            failUsage("--{} says what the numbers of --{} are: give that too", layer.kind.number->name,
-                      layer.kind.name);
-    if (flags.focus > 0.0 && flags.fStop == 0.0) failUsage("--focus says where --f-stop is sharp: give that too");
+            failUsage("--{} sets the numbers of --{}: add both", layer.kind.number->name, layer.kind.name);
+    if (flags.focus > 0.0 && flags.fStop == 0.0) failUsage("--focus sets the distance for --f-stop: add --f-stop");
     const std::vector<std::string> besides = filesBeside(flags);
     if (!besides.empty() && (output.empty() || image::isVideoPath(output)))
-        failUsage(
-            "--{} writes files beside frames: ask for those, -o out/frame_######.png; a video besides with --video",
-            besides.front());
+        failUsage("--{} writes files beside frames: add -o out/frame_######.png; --video adds a video",
+                  besides.front());
 }
 
 std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags) {

@@ -87,11 +87,11 @@ void LivePlay::rebuild(std::vector<std::string> changes, const std::string& said
     } catch (const core::Error& error) {
         if (!session_) throw;
         const std::string message = error.what();
-        return say("That cannot be: " + message.substr(0, message.find('\n')));
+        return say("Not possible: " + message.substr(0, message.find('\n')));
     }
     changes_ = std::move(changes);
     dragging_ = Dragging::nothing;
-    if (!said.empty()) say(kept + said + (isRecording_ ? "; the recording starts anew" : ""));
+    if (!said.empty()) say(kept + said + (isRecording_ ? "; the recording restarts" : ""));
 }
 
 // Of the recording so far, which is not to be lost.
@@ -269,8 +269,7 @@ void LivePlay::report() {
     saidDivergence_ = true;
     printNote("{}\n", session_->divergence()->message);
     screen_.say(
-        fmt::format("Diverged at {:.3f} s: backspace starts again, + halves the step", session_->divergence()->time),
-        1e6);
+        fmt::format("Diverged at {:.3f} s: backspace restarts, + halves the step", session_->divergence()->time), 1e6);
 }
 
 void LivePlay::printSummary(double seconds) const {

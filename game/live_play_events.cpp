@@ -46,7 +46,7 @@ void LivePlay::handle(const WindowEvent& event) {
         case What::release:
             if (dragging_ == Dragging::point && event.isLeft) {
                 session_->hand().release();
-                say("let go");
+                say("released");
             }
             if (event.isLeft == (dragging_ == Dragging::point)) dragging_ = Dragging::nothing;
             return;

@@ -53,7 +53,7 @@ std::string LivePlay::follow(scene::Loaded scene) {
     const double moment = session_->world().time();
     if (std::unique_ptr<live::Session> next = goingOn(scene)) {
         adopt(std::move(next), std::move(scene.keys));
-        return fmt::format("read again; goes on at {:.2f} s", moment);
+        return fmt::format("reloaded; continues at {:.2f} s", moment);
     }
     auto session = std::make_unique<live::Session>(std::move(scene.spec), settings_.threads);
     const auto wanted = static_cast<int>(std::min(moment / session->world().tickSeconds() + 0.5, 1e9));
@@ -64,8 +64,8 @@ std::string LivePlay::follow(scene::Loaded scene) {
     const bool isThere = session->tick() >= wanted;
     adopt(std::move(session), std::move(scene.keys));
     dragging_ = Dragging::nothing;
-    return fmt::format("{}read again; simulated from the start to {:.2f} s{}{}", kept, time,
-                       isThere ? "" : ", as far as 2 s let it", isRecording_ ? "; the recording starts anew" : "");
+    return fmt::format("{}reloaded; simulated from the start to {:.2f} s{}{}", kept, time,
+                       isThere ? "" : ", limited to 2 s", isRecording_ ? "; the recording restarts" : "");
 }
 
 // A scene that cannot be read is watched by the files that it had, by the scenes beside it, on which it may build now,

@@ -24,29 +24,29 @@ const char* const manualExplanation =
     R"(.SH ENVIRONMENT
 .TP
 .B TAUT_ASSETS
-The folder of the shipped scenes, models and textures.
+Folder of the shipped scenes, models and textures.
 .TP
 .B TAUT_SHADERS
-The folder of the shaders.
+Folder of the shaders.
 .TP
 .B TAUT_FONT
 A TrueType file for labels and figures.
 .TP
 .B TAUT_SIMD
-What \fB\-\-isa\fR would say.
+Default of \fB\-\-isa\fR.
 .TP
 .B LP_NUM_THREADS
-How many threads draw without a graphics card.
+Number of threads that draw without a graphics card.
 .SH FILES
-Assets, shaders and the pages of the manual are looked for in \fIshare/taut\fR beside the folder of the
-program, then where it was built.
+Assets, shaders and the pages of the manual are in \fIshare/taut\fR beside the folder of the
+program, or where it was built.
 .SH SEE ALSO
 .BR ffmpeg (1),
 .BR gnuplot (1)
 .PP
-\fBtaut manual\fR \fIPAGE\fR explains how to use the program, \fBtaut schema
-\-\-manual\fR every field of scene files, \fBtaut doctor\fR tells what
-is not installed.
+\fBtaut manual\fR \fIPAGE\fR describes how to use the program, \fBtaut schema
+\-\-manual\fR every field of scene files, \fBtaut doctor\fR reports
+missing packages.
 )";
 
 struct Heading {
@@ -88,10 +88,7 @@ void printPage(const std::string& word) {
 
 Action declareManual(Options& options) {
     const auto page = std::make_shared<std::string>();
-    options
-        .value("PAGE", *page,
-               "A page of the manual, in Markdown, or a word of one of its headings; this program's page for man when "
-               "left out")
+    options.value("PAGE", *page, "A page of the manual, or a word of one of its headings; default the page for man")
         .suggests(manualPages());
     options.footer(
         "Examples:\n"

@@ -66,7 +66,7 @@ std::string optionText(const OptionFacts& option) {
     if (!option.words.empty()) help += fmt::format(" Values: {}.", fmt::join(option.words, ", "));
     if (!option.range.empty()) help += fmt::format(" Range: {}.", option.range);
     if (!option.standard.empty()) help += fmt::format(" Default: {}.", option.standard);
-    if (option.isRequired && !option.isPositional()) help += " Has to be given.";
+    if (option.isRequired && !option.isPositional()) help += " Required.";
     return out + "\n" + filled(help);
 }
 

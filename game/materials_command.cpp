@@ -93,11 +93,11 @@ int show(const std::string& name, const std::vector<path>& files) {
 
 Action declareMaterials(Options& options) {
     const auto name = std::make_shared<std::string>();
-    options.value("FABRIC", *name, "Print this one: every number with its source");
+    options.value("FABRIC", *name, "Fabric to print, with the source of every number");
     options.footer(
-        "The bending length is that at which stiffness and weight balance; a strip's droop is right to 1 % with cells "
-        "of a\n"
-        "seventh of it. Examples:\n"
+        "At the bending length stiffness and weight balance; the droop of a strip has an error of 1 % with cells of a "
+        "seventh\n"
+        "of it. Examples:\n"
         "  taut materials\n"
         "  taut materials denim\n"
         "  taut render drape --set cloth.tablecloth.material=fabric:silk -o out");
@@ -113,7 +113,7 @@ Action declareMaterials(Options& options) {
 }  // namespace
 
 Command materialsCommand() {
-    return {"materials", "List the fabrics that scenes may use, and what of them is measured", declareMaterials};
+    return {"materials", "List fabrics and the sources of their numbers", declareMaterials};
 }
 
 }  // namespace taut::game

@@ -33,7 +33,7 @@ struct Piece {
 };
 constexpr Piece pieces[] = {
     {"cloth", R"(
-[material.{name}]                     # per metre of cloth, whatever the cells
+[material.{name}]                     # per metre of cloth, for any cells
 density_kg_per_m2 = 0.25
 stretch_N_per_m = 900.0
 bending_rigidity_N_m = 3e-5          # silk has 1e-6, denim 1e-4
@@ -67,7 +67,7 @@ hold = ["start"]
 finish = {{ colour = "#c89b4a" }}
 )"},
     {"block", R"(
-[block.{name}]                        # falls, and wobbles as it lies
+[block.{name}]                        # falls, and wobbles on the ground
 size = [0.5, 0.5, 0.5]               # metres
 cells = [6, 6, 6]
 position = [{x}, 1.0, 0.0]          # its centre
@@ -164,8 +164,7 @@ std::string sceneText(const std::string& title, const std::vector<std::string>& 
 int writeNew(const NewFlags& flags) {
     const std::filesystem::path given(flags.name);
     const std::string title = given.extension() == ".toml" ? given.stem().string() : given.filename().string();
-    if (!fields::isName(title))
-        failUsage("\"{}\" cannot be the name of a scene: it has letters, digits, - and _", title);
+    if (!fields::isName(title)) failUsage("\"{}\" cannot be the name of a scene: use letters, digits, - and _", title);
     const std::filesystem::path file = given.parent_path() / (title + ".toml");
     permitOverwritingFile(file, flags.yes ? Overwrite::yes : Overwrite::ask);
     core::prepareFolderOf(file);
@@ -178,11 +177,11 @@ int writeNew(const NewFlags& flags) {
 
 Action declareNew(Options& options) {
     const auto flags = std::make_shared<NewFlags>();
-    options.value("NAME", flags->name, "What the scene is called: NAME.toml is written").required();
-    options.value("--with", flags->with, "What is in it, a cloth when not given; repeatable: side by side")
+    options.value("NAME", flags->name, "Name of the scene: writes NAME.toml").required();
+    options.value("--with", flags->with, "Body of the scene, default cloth; repeatable: side by side")
         .oneOf(words())
         .oneValue();
-    options.flag("-y,--yes", flags->yes, "Overwrite what exists");
+    options.flag("-y,--yes", flags->yes, "Overwrite existing files");
     options.footer(
         "Examples:\n"
         "  taut new first\n"
@@ -193,7 +192,7 @@ Action declareNew(Options& options) {
 }  // namespace
 
 Command newCommand() {
-    return {"new", "Write a small scene to start from", declareNew};
+    return {"new", "Write a small scene", declareNew};
 }
 
 }  // namespace taut::game

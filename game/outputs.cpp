@@ -24,7 +24,7 @@ bool answersYes() {
 }  // namespace
 
 void addOverwriteFlags(Options& options, OverwriteFlags& flags) {
-    const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
+    const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite existing files");
     options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
 }
 

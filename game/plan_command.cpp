@@ -52,8 +52,8 @@ void expectNoOtherChanges(const SearchedScene& scene, const study::Plan& plan, c
                               fmt::format("{}: {} would change too, by its like; give it a value of its own first",
                                           scene.file.string(), change.key));
     if (plan.unseen() > 0)
-        printNote("warning: what happens between {:.3g} s and {:.3g} s was not looked at; look at the film\n",
-                  plan.seconds, plan.runSeconds);
+        printNote("warning: the time from {:.3g} s to {:.3g} s was not simulated; look at the film\n", plan.seconds,
+                  plan.runSeconds);
 }
 
 int plan(const PlanFlags& flags) {
@@ -69,16 +69,16 @@ int plan(const PlanFlags& flags) {
 
 Action declarePlan(Options& options) {
     const auto flags = std::make_shared<PlanFlags>();
-    addSearchFlags(options, *flags, "A scene file, or a shipped scene; it says in [need] what it needs");
+    addSearchFlags(options, *flags, "A scene file, or a shipped scene, with [need]");
     options
         .value("--effort", flags->effort,
-               "What all runs together may cost, in 1e9 springs and points times evaluations: 1 takes about 5 s")
+               "Largest cost of all runs together, in 1e9 springs and points times evaluations: 1 takes about 5 s")
         .within(1e-3, 1e6, "times 1e9: 0.2 means 2e8")
         .showDefault();
     options.footer(
         "The cost of a candidate is springs, points and 5 for each volume cell, times evaluations of the forces and\n"
-        "products of an implicit method's solver; 2.2 times as much where steps split the dashpots off.\n"
-        "Ends with 5 when the need cannot be met, and says how near it came.\n"
+        "products of an implicit method's solver; 2.2 times as much if steps split the dashpots off.\n"
+        "Exits with 5 if the need cannot be met, and prints the smallest error.\n"
         "Examples:\n"
         "  taut plan drape\n"
         "  taut plan my.toml --json out/plan.json --write\n"
@@ -89,7 +89,7 @@ Action declarePlan(Options& options) {
 }  // namespace
 
 Command planCommand() {
-    return {"plan", "Find the cheapest way to compute a scene as well as it needs", declarePlan};
+    return {"plan", "Find the cheapest settings that meet the need of a scene", declarePlan};
 }
 
 }  // namespace taut::game

@@ -51,32 +51,30 @@ Action declarePlay(Options& options) {
     options.value("SCENE", settings.scene, "A scene file, or the name of a shipped scene").required();
     options
         .value("--size", flags->size,
-               "Size of the picture in pixels of a common screen; 512x288 when not given; the window can be drawn "
-               "larger")
+               "Size of the picture in pixels; default 512x288 for a common screen; the window can be enlarged")
         .typeName("WxH");
     options
-        .value(
-            "--quality", settings.quality,
-            "auto: as fine as 30 pictures a second let it be; draft: coarse shadows; normal: no anti-aliasing; full: "
-            "as the scene has it")
+        .value("--quality", settings.quality,
+               "auto: adapts to 30 pictures a second; draft: coarse shadows; normal: no anti-aliasing; full: as in the "
+               "scene")
         .oneOf({"auto", "draft", "normal", "full"})
         .showDefault();
     addRendererFlag(options, settings.gl);
-    options.value("--seconds", settings.seconds, "End by itself after this time, and tell the pictures a second")
+    options.value("--seconds", settings.seconds, "Quit after this time and print the pictures per second")
         .check(numberWithin(leastSeconds, mostSeconds));
     options.value("--record", flags->record, "Record from the start into this scenario file").typeName("FILE");
     options.flag("--watch", settings.watches,
-                 "Read the scene again whenever one of its files is written: same camera, same moment; what is wrong "
-                 "with it stands over the picture");
+                 "Reload the scene when one of its files is written, with the same camera and time; errors are shown "
+                 "over the picture");
     addThreadsFlag(options, settings.threads);
     addInstructionSetFlag(options, flags->isa);
     addOverrideFlag(options, settings.overrides);
-    const Option quiet = options.flag("--quiet", settings.isQuiet, "Warnings and errors only");
-    options.flag("--verbose", settings.isVerbose, "Print every action as it is done").excludes(quiet);
+    const Option quiet = options.flag("--quiet", settings.isQuiet, "Print only warnings and errors");
+    options.flag("--verbose", settings.isVerbose, "Print every action").excludes(quiet);
     options.footer(
-        "In the window h shows the keys. R records: the session becomes a scenario file, which\n"
-        "taut render and taut test play again to the same state. The hand pulls with twice the weight\n"
-        "of what hangs together at most, and slips from what that does not move.\n"
+        "In the window h shows the keys. R records a scenario file, which taut render and taut test play again to the\n"
+        "same state. The hand pulls with at most twice the weight of the connected bodies, and slips from heavier "
+        "ones.\n"
         "Examples:\n"
         "  taut play curtain\n"
         "  taut play my.toml --watch\n"
@@ -87,7 +85,7 @@ Action declarePlay(Options& options) {
 }  // namespace
 
 Command playCommand() {
-    return {"play", "Play a scene in a window: pull, look around, record", declarePlay};
+    return {"play", "Play a scene in a window and record actions", declarePlay};
 }
 
 }  // namespace taut::game

@@ -20,21 +20,21 @@ constexpr Ink plateInk{10, 12, 16}, textInk{240, 243, 247}, keyInk{255, 196, 92}
     faultInk{54, 12, 12};
 
 constexpr std::array<std::pair<const char*, const char*>, 16> help{{
-    {"left drag", "pull what is under the mouse"},
+    {"left drag", "pull"},
     {"right drag", "turn the view"},
-    {"wheel", "nearer, farther"},
-    {"c", "back to the scene's camera"},
-    {"space", "pause and go on"},
+    {"wheel", "zoom"},
+    {"c", "scene's camera"},
+    {"space", "pause"},
     {".", "one tick"},
     {"s", "slow motion: 1/2, 1/4, 1/8, 1/16"},
-    {"backspace", "from the start"},
-    {"m", "next method, from the start"},
-    {"+  -", "half or twice the step, from the start"},
+    {"backspace", "restart"},
+    {"m", "next method, restart"},
+    {"+  -", "half or twice the step, restart"},
     {"d", "springs, strain and contacts"},
     {"o", "figures"},
     {"n", "the name of the point under the mouse"},
     {"y", "copy that name"},
-    {"r", "record; again writes the file"},
+    {"r", "start recording; again writes the file"},
     {"h  q", "this help; quit"},
 }};
 

@@ -25,14 +25,14 @@ int codeOf(ExitCode code) {
 
 void printShortHelp() {
     printResult(
-        "taut plays scenes of ropes, cloth and soft bodies and renders them without a display.\n\n"
-        "  render   a scene as a video, a GIF or pictures     taut render flag -o flag.mp4\n"
-        "  play     it in a window, pulled with the mouse     taut play curtain\n"
-        "  schema   how a scene file is written               taut schema --manual\n"
-        "  check    whether one is right, and what is not     taut check my.toml\n"
-        "  info     what it builds, its time step and cost    taut info my.toml\n"
-        "  test     whether scenes still do what they did     taut test my_scenarios\n\n"
-        "taut --help lists all commands, taut COMMAND --help their flags; taut doctor says what is not installed.\n");
+        "taut simulates ropes, cloth, soft bodies and rigid bodies, and renders them without a display.\n\n"
+        "  render   draw a scene as a video, a GIF or pictures   taut render flag -o flag.mp4\n"
+        "  play     play it in a window                          taut play curtain\n"
+        "  schema   print the scene format                       taut schema --manual\n"
+        "  check    validate scene files                         taut check my.toml\n"
+        "  info     show statistics, time step and cost          taut info my.toml\n"
+        "  test     compare scenarios with goldens               taut test my_scenarios\n\n"
+        "taut --help lists all commands, taut COMMAND --help their flags; taut doctor reports missing packages.\n");
     const std::vector<std::string> scenes = shippedScenes();
     if (!scenes.empty()) printResult("Shipped scenes: {}\n", fmt::join(scenes, ", "));
 }
@@ -57,7 +57,7 @@ int runAction(const Action& action) {
         printNote("taut: {}\n", error.what());
         return codeOf(ExitCode::inputOutput);
     } catch (const std::bad_alloc&) {
-        printNote("taut: there is not enough memory for this\n");
+        printNote("taut: not enough memory\n");
         return codeOf(ExitCode::badContent);
     }
 }
@@ -65,12 +65,10 @@ int runAction(const Action& action) {
 int runCommandLine(int argc, const char* const* argv, std::span<const Command> commands) {
     CommandLine line(
         {.name = "taut",
-         .description = "Plays scenes of ropes, cloth and soft bodies and renders them without a display.",
+         .description = "Simulates ropes, cloth, soft bodies and rigid bodies, and renders them without a display.",
          .version = versionText(),
-         .footer = "Exit codes: 0 ok, 1 a check or golden failed, 2 usage, 3 bad content, 4 diverged, 5 "
-                   "need not met,\n"
-                   "6 input or output, 7 nothing to draw with, 8 golden missing or of other bits, 130 and 143 "
-                   "interrupted."},
+         .footer = "Exit codes: 0 ok, 1 a check or golden failed, 2 usage, 3 bad content, 4 diverged, 5 need not met,\n"
+                   "6 input or output, 7 no renderer, 8 golden missing or of other bits, 130 and 143 interrupted."},
         commands);
     const Request request = line.read(argc, argv);
     switch (request.kind) {

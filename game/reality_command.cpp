@@ -94,20 +94,20 @@ int compareWithReality(const RealityFlags& flags) {
 
 Action declareReality(Options& options) {
     const auto flags = std::make_shared<RealityFlags>();
-    options.value("-o,--output", flags->output, "The folder for the page, the chart, CSV and the scenes")
+    options.value("-o,--output", flags->output, "Folder for the page, the chart, CSV and the scenes")
         .typeName("FOLDER");
-    options.value("--only", flags->rows, "Only these rows, separated by commas")
+    options.value("--only", flags->rows, "Rows to play, separated by commas")
         .separatedBy(',')
         .oneValue()
         .typeName("R1,R4");
-    options.flag("--long", flags->isLong, "The rows that take minutes too");
-    options.value("--cells", flags->cells, "So many cells along the length, instead of each row's own").within(3, 1000);
-    options.value("--beside", flags->beside, "Show beside taut's cantilevers those of other programs, as measured")
-        .typeName("PEERS.csv");
+    options.flag("--long", flags->isLong, "Add the rows that take minutes");
+    options.value("--cells", flags->cells, "Number of cells along the length, instead of each row's own")
+        .within(3, 1000);
+    options.value("--beside", flags->beside, "Add cantilevers of other programs, as measured").typeName("PEERS.csv");
     options.flag("--list", flags->list, "List the rows");
-    options.flag("--quiet", flags->quiet, "No progress");
+    options.flag("--quiet", flags->quiet, "Print no progress");
     options.footer(
-        "The exit code is 1 where a quantity is beyond its tolerance.\n"
+        "The exit code is 1 if a quantity exceeds its tolerance.\n"
         "Examples:\n"
         "  taut reality\n"
         "  taut reality --only R1,R8 -o out/strips\n"
@@ -119,7 +119,7 @@ Action declareReality(Options& options) {
 }  // namespace
 
 Command realityCommand() {
-    return {"reality", "Hold the engine against theory and measurement", declareReality};
+    return {"reality", "Compare the engine with theory and measurement", declareReality};
 }
 
 }  // namespace taut::game

@@ -82,21 +82,21 @@ int record(const RecordFlags& flags) {
 Action declareRecord(Options& options) {
     const auto flags = std::make_shared<RecordFlags>();
     options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene").required();
-    options.value("-o,--output", flags->output, "The tape to write, e.g. run.tape").required();
-    options.flag("-y,--yes", flags->yes, "Overwrite what exists");
-    options.flag("--no-points", flags->noPoints, "Hashes of bodies only: a small tape that names no point");
-    options.value("--seconds", flags->seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+    options.value("-o,--output", flags->output, "Tape to write, e.g. run.tape").required();
+    options.flag("-y,--yes", flags->yes, "Overwrite existing files");
+    options.flag("--no-points", flags->noPoints, "Record hashes of bodies only: a smaller tape without points");
+    options.value("--seconds", flags->seconds, "Length in scene time").check(numberWithin(leastSeconds, mostSeconds));
     addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
     addOverrideFlag(options, flags->overrides);
-    options.flag("--quiet", flags->quiet, "No progress");
+    options.flag("--quiet", flags->quiet, "Print no progress");
     return [flags] { return record(*flags); };
 }
 
 }  // namespace
 
 Command recordCommand() {
-    return {"record", "Keep the state of every tick as hashes, for taut replay", declareRecord};
+    return {"record", "Record the hashes of every tick, for taut replay", declareRecord};
 }
 
 }  // namespace taut::game

@@ -328,7 +328,7 @@ Action declareRender(Options& options, const render::LayerKinds& layers) {
 }  // namespace
 
 Command renderCommand(const Tables& tables) {
-    return {"render", "Play a scene into picture files or a video",
+    return {"render", "Render a scene to pictures or a video",
             [layers = tables.layers](Options& options) { return declareRender(options, layers); }};
 }
 

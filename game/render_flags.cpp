@@ -34,14 +34,14 @@ namespace {
 
 void checkShard(const RenderFlags& flags) {
     (void)shard(flags.shard);
-    if (flags.noPictures) failUsage("--shard shares out what is drawn: leave --no-pictures out");
+    if (flags.noPictures) failUsage("--shard divides the drawing: omit --no-pictures");
     if (!flags.video.empty() || image::isVideoPath(flags.output))
-        failUsage("a shard draws frames, -o FOLDER; of all shards taut join FOLDER -o {} makes the video",
+        failUsage("a shard draws frames: -o FOLDER; then taut join FOLDER -o {} makes the video",
                   flags.video.empty() ? flags.output : flags.video);
     if (flags.continuation.from) failUsage("--from and --shard exclude each other");
     if (flags.continuation.every > 0)
         failUsage(
-            "states are those of the whole run: keep them by a run before, taut render SCENE --no-pictures "
+            "states belong to the entire run: keep them by an earlier run, taut render SCENE --no-pictures "
             "--checkpoint-every 60 --checkpoints FOLDER, and give --checkpoints FOLDER to the shards");
     const std::string& states = flags.continuation.folder;
     std::error_code ignored;
@@ -65,8 +65,8 @@ void checkStills(const RenderFlags& flags) {
         {flags.continuation.isWanted() || !flags.continuation.folder.empty(), "checkpoints"},
     };
     for (const auto& [isGiven, name] : ofRuns)
-        if (isGiven) failUsage("--at draws moments, not a run: leave {} out", name);
-    if (flags.output.empty()) failUsage("say where the picture goes: -o still.png");
+        if (isGiven) failUsage("--at draws moments, not a run: omit {}", name);
+    if (flags.output.empty()) failUsage("name an output for the picture: -o still.png");
     if (image::isVideoPath(flags.output)) failUsage("--at draws pictures, not a video: -o still.png");
     (void)framePattern(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
@@ -102,10 +102,10 @@ void checkFlags(const RenderFlags& flags) {
         failUsage("-o and --video name the same file");
     if (flags.output.empty() && flags.writesMetrics()) failUsage("--metrics writes a file beside the output: add -o");
     if (flags.continuation.isWanted() && flags.output.empty() && flags.continuation.folder.empty())
-        failUsage("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
+        failUsage("states are kept beside the output: add -o, or name a folder with --checkpoints FOLDER");
     if (flags.continuation.resume && (!flags.video.empty() || image::isVideoPath(flags.output)))
-        failUsage("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
-    if (flags.continuation.resume && flags.overwrite.no) failUsage("--resume replaces frames: it does not go with -n");
+        failUsage("a video cannot be continued: --resume continues frames: -o out/frame_######.png");
+    if (flags.continuation.resume && flags.overwrite.no) failUsage("--resume replaces frames: omit -n");
     if (flags.continuation.from && !flags.frames.empty()) failUsage("--from and --frames exclude each other");
     if (!flags.shard.empty()) checkShard(flags);
     checkLayerFlags(flags.layers, flags.output, flags.video);
@@ -114,60 +114,59 @@ void checkFlags(const RenderFlags& flags) {
 namespace {
 
 void addOutputFlags(Options& options, RenderFlags& flags) {
-    options.group("What is written");
+    options.group("Output");
     options.value("-o,--output", flags.output,
-                  "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif); NAME.mp4 when not given");
-    options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
+                  "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif); default NAME.mp4");
+    options.value("--video", flags.video, "A video in addition to the frames of -o").typeName("FILE");
     addOverwriteFlags(options, flags.overwrite);
-    options.flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
+    options.flag("--no-pictures", flags.noPictures, "Simulate only");
     options.flag("--metrics", flags.metrics,
                  "Write metrics.csv, or metrics_A-B.csv of a part: energy, momentum, strain, contacts of each frame");
-    options.value("--metrics-of", flags.metricsOf, "Besides: what these expressions of checks give, to 17 digits")
+    options.value("--metrics-of", flags.metricsOf, "Add these expressions of checks to the metrics, to 17 digits")
         .typeName("EXPR,…");
     options.flag("--hash", flags.hash, "Print the state hash of each frame");
     options.value("--hash-every", flags.hashEvery, "Print the state hash of each frame or each tick")
         .oneOf({"frame", "tick"})
         .each([&flags](const std::string&) { flags.hash = true; });
-    options.flag("--quiet", flags.quiet, "No progress; warnings and errors only");
+    options.flag("--quiet", flags.quiet, "Print no progress; only warnings and errors");
 }
 
 void addRangeFlags(Options& options, RenderFlags& flags) {
     options.group("Range");
     options
         .value("--frames", flags.frames,
-               "Draw these frames only: 0-119, 60, or 60-; from the last state before in --checkpoints")
+               "Frames to draw: 0-119, 60, or 60-; from the last state before in --checkpoints")
         .typeName("A-B");
     options
         .value("--at", flags.at,
-               "Draw the moment at this time alone, -o still.png: the state of the nearest tick. 1,2.5: several, "
-               "numbered from 0, -o still_#.png")
+               "Draw the nearest tick to this time only, -o still.png. 1,2.5: several, numbered from 0, -o still_#.png")
         .typeName("SECONDS,…")
         .separatedBy(',')
         .oneValue()
         .check(numberWithin(0.0, mostSeconds));
     options
         .value("--shard", flags.shard,
-               "Draw this of N pieces of the frames, 0/N to N-1/N, into a folder that they share; then taut join")
+               "Draw this of N pieces of the frames, 0/N to N-1/N, into a common folder; then taut join")
         .typeName("K/N");
     options.gone("--jobs",
-                 "threads draw several pictures at once, and processes share them out by --shard: for k in 0 1 2 3; do "
-                 "taut render SCENE -o FOLDER --shard $k/4 & done; wait; taut join FOLDER -o x.mp4");
+                 "threads draw several pictures at once, and --shard divides them between processes: for k in 0 1 2 3; "
+                 "do taut render SCENE -o FOLDER --shard $k/4 & done; wait; taut join FOLDER -o x.mp4");
     addRunFlags(options, flags.fps, flags.seconds);
 }
 
 void addLookFlags(Options& options, RenderFlags& flags) {
     options.group("Look");
-    options.value("--size", flags.size, "Size of the pictures in pixels; videos have even sides, the next larger ones")
+    options.value("--size", flags.size, "Size of the pictures in pixels; videos round up to even sides")
         .typeName("WxH");
-    options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
+    options.value("--camera", flags.camera, "Camera of the scene").typeName("NAME");
     options
         .value("--samples", flags.samples,
-               "Samples a pixel against jagged edges; 8 and 16 draw each picture two and four times")
+               "Anti-aliasing: samples per pixel; 8 and 16 draw each picture two and four times")
         .oneOf({"1", "4", "8", "16"});
     addSmoothFlag(options, flags.smooth);
     const Option debug = options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
     options.flag("--overlay", flags.overlay,
-                 "Show time, step and limit, largest strain, contacts between bodies, and the energies as a graph");
+                 "Show time, step and limit, largest strain, contacts between bodies, and a graph of the energies");
     addLayerFlags(options, flags.layers, debug);
 }
 
@@ -176,7 +175,7 @@ void addGoingOnFlags(Options& options, RenderFlags& flags) {
     addContinuationFlags(options, flags.continuation);
     options
         .value("--keep-state", flags.state,
-               "Keep the state of the last frame, for scenes that go on from it: run.start = \"dressed.state\"")
+               "Keep the state of the last frame, as the start of other scenes: run.start = \"dressed.state\"")
         .typeName("FILE");
 }
 
@@ -186,7 +185,7 @@ void addMachineFlags(Options& options, RenderFlags& flags) {
     addThreadsFlag(options, flags.threads);
     options
         .value("--draw-threads", flags.drawThreads,
-               "Pictures drawn at the same time, the same whatever it is; as many as pay here when not given")
+               "Number of pictures drawn in parallel, with the same bytes; default by the machine")
         .within(1, 64);
     addInstructionSetFlag(options, flags.isa);
 }

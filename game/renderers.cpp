@@ -36,8 +36,8 @@ GlChoice glNamed(const std::string& gl) {
 void addRendererFlag(Options& options, std::string& gl) {
     options
         .value("--gl", gl,
-               "What draws: osmesa, egl, which takes a graphics card where there is one, or egl:N, a device that taut "
-               "doctor names; osmesa, if it works, when not given")
+               "Renderer: osmesa, egl (a graphics card if there is one), or egl:N, a device listed by taut doctor; "
+               "default osmesa if it works")
         .typeName("NAME")
         .suggests({"osmesa", "egl"})
         .check([](const std::string& text) -> std::string {

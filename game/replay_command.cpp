@@ -60,11 +60,10 @@ world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape)
         return std::move(loaded.spec);
     }
     if (tape.origin.text.empty())
-        failUsage("{}: this tape holds no scene (it is the golden of a scenario): say which to play with --scene",
-                  flags.tape);
+        failUsage("{}: this tape holds no scene (it is the golden of a scenario): name one with --scene", flags.tape);
     if (tape.origin.files.empty() &&
         (!core::isThere(tape.origin.scene) || core::fileContent(tape.origin.scene) != tape.origin.text))
-        printWarning(fmt::format("{} is not what it was; the text on the tape is played", tape.origin.scene));
+        printWarning(fmt::format("{} has changed; the text on the tape is played", tape.origin.scene));
     for (const std::string& change : scene::changedSince(tape.origin.files)) {
         const bool isScene = change.starts_with(tape.origin.scene + " ");
         printWarning(fmt::format("{} since this tape was recorded{}", change,
@@ -108,26 +107,26 @@ int verdict(const ReplayFlags& flags, const regression::Tape& tape, const regres
     printResult("  {}: by {}\n  {}: by {}\n", flags.tape, by(tape.origin),
                 flags.other.empty() ? "now" : flags.other.c_str(), by(now.origin));
     if (difference->fault == regression::TapeFault::state && difference->point < 0)
-        printResult("  which point it is, two tapes with points can tell (taut record without --no-points)\n");
+        printResult("  two tapes with points show the point (taut record without --no-points)\n");
     return static_cast<int>(ExitCode::checkFailed);
 }
 
 int replay(const ReplayFlags& flags) {
     const regression::Tape tape = regression::readTape(flags.tape);
     if (!flags.verify) {
-        if (!flags.scene.empty()) failUsage("--scene goes with --verify");
+        if (!flags.scene.empty()) failUsage("--scene needs --verify");
         printFacts(flags.tape, tape);
         return static_cast<int>(ExitCode::ok);
     }
     if (!flags.other.empty()) {
-        if (!flags.scene.empty()) failUsage("--verify with a second tape plays nothing: leave --scene out");
+        if (!flags.scene.empty()) failUsage("--verify with a second tape plays nothing: omit --scene");
         if (std::filesystem::path(flags.other).extension() == ".toml")
             failUsage("--verify reads a second tape; a scene is played by --verify --scene {}", flags.other);
         return verdict(flags, tape, regression::readTape(flags.other));
     }
     if (tape.origin.bits != world::resultBits) {
         printResult("{}: {}: {}\n", flags.tape, world::recordedBy(tape.origin.bits),
-                    tape.origin.bits < world::resultBits ? "results have changed since; taut record makes it anew"
+                    tape.origin.bits < world::resultBits ? "results have changed since; taut record writes it again"
                                                          : "it needs a newer taut");
         return static_cast<int>(ExitCode::goldenMissing);
     }
@@ -139,7 +138,7 @@ int replay(const ReplayFlags& flags) {
 
 Action declareReplay(Options& options) {
     const auto flags = std::make_shared<ReplayFlags>();
-    options.value("TAPE", flags->tape, "What taut record wrote").required();
+    options.value("TAPE", flags->tape, "A tape of taut record").required();
     const Option verify =
         options
             .value("--verify", flags->other,
@@ -149,7 +148,7 @@ Action declareReplay(Options& options) {
     options.value("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
     addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
-    options.flag("--quiet", flags->quiet, "No progress");
+    options.flag("--quiet", flags->quiet, "Print no progress");
     return [flags, verify] {
         flags->verify = verify.isGiven();
         return replay(*flags);
@@ -159,7 +158,7 @@ Action declareReplay(Options& options) {
 }  // namespace
 
 Command replayCommand() {
-    return {"replay", "Tell what a tape holds, or where another run differs from it", declareReplay};
+    return {"replay", "Show a tape, or compare it with another run", declareReplay};
 }
 
 }  // namespace taut::game

@@ -31,7 +31,7 @@ void removeFile(const std::filesystem::path& path) {
     std::filesystem::remove(path, error);
     if (error)
         throw core::Error(core::ErrorKind::inputOutput,
-                          fmt::format("{}: cannot be taken away: {}", path.string(), error.message()));
+                          fmt::format("{}: cannot be removed: {}", path.string(), error.message()));
 }
 
 void removeFrames(const PartPlace& place, const pipeline::FrameSpan& frames) {
@@ -52,7 +52,7 @@ void removeChanged(const PartPlace& place, const pipeline::PartRecord& own) {
     for (std::int64_t frame = own.first; frame <= own.lastDrawn(); ++frame) {
         const auto sum = there[static_cast<std::size_t>(frame - own.first)];
         if (!sum || sum == own.pictureOf(frame).value_or(*sum)) continue;
-        printNote("note: {} is not what was drawn there: it is drawn again\n", place.pattern.pathOf(frame).string());
+        printNote("note: {} differs from its record: it is drawn again\n", place.pattern.pathOf(frame).string());
         removeFrames(place, {frame, frame});
     }
 }
@@ -88,9 +88,9 @@ void refuseOtherRuns(const RunPart& part, const PartPlace& place, const std::vec
                 record.key == hexadecimal(place.key)
                     ? fmt::format("a run of {} frames, and this one has {}", record.count, part.count)
                     : fmt::format("another run{}", record.fault.empty() ? "" : ", or of none");
-            throw core::Error(core::ErrorKind::inputOutput,
-                              fmt::format("{} is of {}: give this one a folder of its own; -y draws over what is there",
-                                          record.path.string(), other));
+            throw core::Error(
+                core::ErrorKind::inputOutput,
+                fmt::format("{} is of {}: use another folder; -y overwrites it", record.path.string(), other));
         }
         removeFile(record.path);
     }
@@ -128,7 +128,7 @@ RunPart partOf(const RenderFlags& flags, const world::RunSpec& run) {
         const Shard piece = shard(flags.shard);
         const std::int64_t begin = part.frames.first, frames = part.frames.last - begin + 1;
         if (piece.count > frames)
-            failUsage("--shard {}: {} frame{} cannot be shared out to {}", flags.shard, frames, frames == 1 ? "" : "s",
+            failUsage("--shard {}: {} frame{} cannot be divided into {}", flags.shard, frames, frames == 1 ? "" : "s",
                       piece.count);
         part.frames = {begin + piece.begin(frames), begin + piece.end(frames) - 1};
         part.title = "--shard " + flags.shard;
@@ -141,7 +141,7 @@ RunPart partOf(const RenderFlags& flags, const world::RunSpec& run) {
 void noteMissingLocks(const std::vector<pipeline::RunLock>& locks) {
     const auto open = std::find_if(locks.begin(), locks.end(), [](const auto& lock) { return !lock.excludesOthers(); });
     if (open == locks.end()) return;
-    printNote("note: {} knows no locks: see to it that no two runs, and no two of the same shard, write there\n",
+    printNote("note: {} has no locks: let no two runs, and no two of the same shard, write there\n",
               open->folder().string());
 }
 
@@ -173,7 +173,7 @@ PartState claimPart(const RunPart& part, const PartPlace& place, const std::stri
     const std::vector<std::int64_t> there = framesThere(place, part.frames);
     if (own == records.end() && place.resumes && !place.mayOverwrite && !there.empty())
         throw core::Error(core::ErrorKind::inputOutput,
-                          fmt::format("{} is there, and no {} says of which run; -y draws it again",
+                          fmt::format("{} is there, without a record in {}; -y draws it again",
                                       place.pattern.pathOf(there.front()).string(), name));
     const std::string program = pipeline::machine().program;
     const auto isAlike = [&](const pipeline::PartRecord& record) {

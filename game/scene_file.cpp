@@ -68,7 +68,7 @@ void addOverrideFlag(Options& options, std::vector<std::string>& overrides, cons
 }
 
 void addConfinedFlag(Options& options, bool& isConfined) {
-    options.flag("--confined", isConfined, "Read files below the scene's folder and the shipped assets only");
+    options.flag("--confined", isConfined, "Read only files below the scene's folder and the shipped assets");
 }
 
 std::string referenceTo(const std::filesystem::path& scene, const std::filesystem::path& folder) {
@@ -121,12 +121,11 @@ void notePreparation(const world::SceneSpec& spec) {
 
 void expectWritable(const std::filesystem::path& file, const world::SceneSpec& spec,
                     const std::vector<std::string>& overrides) {
-    if (!overrides.empty())
-        failUsage("--write and --set do not go together: what is found would not be what the file says");
+    if (!overrides.empty()) failUsage("--write and --set exclude each other: the values would not fit the file");
     if (!spec.bases.empty())
         failUsage(
-            "{}: --write needs a scene that is one file; this one builds on {}: take that, "
-            "or leave --write out and copy the values",
+            "{}: --write needs a scene that is one file; this one builds on {}: use that, or omit --write and copy the "
+            "values",
             file.string(), spec.bases.front());
 }
 

@@ -13,11 +13,11 @@ namespace taut::game {
 
 void addSearchFlags(Options& options, SearchFlags& flags, const std::string& says) {
     options.value("SCENE", flags.scene, says).required();
-    options.value("-o,--json", flags.json, "Everything that was found, as JSON").typeName("FILE");
-    options.flag("--write", flags.write, "Write the values found into the scene file; the rest of it stays");
+    options.value("-o,--json", flags.json, "File for all results, as JSON").typeName("FILE");
+    options.flag("--write", flags.write, "Write the values into the scene file and keep the rest of it");
     addOverrideFlag(options, flags.overrides, "Override a field of the scene; repeatable");
     addThreadsFlag(options, flags.threads);
-    options.flag("--quiet", flags.quiet, "No progress");
+    options.flag("--quiet", flags.quiet, "Print no progress");
 }
 
 int searchScene(const SearchFlags& flags,

@@ -13,7 +13,7 @@ namespace {
 
 Action declareSchema(Options& options) {
     const auto manual = std::make_shared<bool>(false);
-    options.flag("--manual", *manual, "Print it for people: every field with its unit, range and default");
+    options.flag("--manual", *manual, "Print a text instead: every field with its unit, range and default");
     return [manual] {
         writeResult((*manual ? scene::manual() : scene::jsonSchema()) + "\n");
         return static_cast<int>(ExitCode::ok);
@@ -23,7 +23,7 @@ Action declareSchema(Options& options) {
 }  // namespace
 
 Command schemaCommand() {
-    return {"schema", "Print the scene format as a JSON schema, for editors", declareSchema};
+    return {"schema", "Print the scene format as a JSON schema", declareSchema};
 }
 
 }  // namespace taut::game

@@ -34,7 +34,7 @@ int sheet(const SheetFlags& flags) {
     const image::FramePattern pattern = patternOf(flags.frames);
     const std::filesystem::path output =
         flags.output.empty() ? pattern.folder() / "sheet.png" : std::filesystem::path(flags.output);
-    if (output.extension() != ".png") failUsage("{}: let the name of the sheet end in .png", output.string());
+    if (output.extension() != ".png") failUsage("{}: the name of the sheet must end in .png", output.string());
     const image::Image picture = report::contactSheet(pattern, flags.layout);
     image::writePng(output, picture);
     printResult("{}: {}x{} pixels\n", output.string(), picture.width, picture.height);
@@ -43,13 +43,10 @@ int sheet(const SheetFlags& flags) {
 
 Action declareSheet(Options& options) {
     const auto flags = std::make_shared<SheetFlags>();
-    options
-        .value("FRAMES", flags->frames,
-               "The folder of the frames, whose record tells their names, or the names: out/p_######.png")
-        .required();
-    options.value("-o,--output", flags->output, "The PNG to write; sheet.png in that folder when left out");
-    options.value("--pictures", flags->layout.pictures, "How many frames to show").within(1, 400).showDefault();
-    options.value("--columns", flags->layout.columns, "How many stand side by side").within(1, 100).showDefault();
+    options.value("FRAMES", flags->frames, "Folder of the frames, or their names: out/p_######.png").required();
+    options.value("-o,--output", flags->output, "PNG to write; default sheet.png in that folder");
+    options.value("--pictures", flags->layout.pictures, "Number of frames").within(1, 400).showDefault();
+    options.value("--columns", flags->layout.columns, "Number of columns").within(1, 100).showDefault();
     options.value("--width", flags->layout.width, "Width of the sheet in pixels").within(64, 16384).showDefault();
     return [flags] { return sheet(*flags); };
 }

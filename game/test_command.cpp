@@ -40,7 +40,7 @@ report::TestReport blankReport(const TestRun& run) {
     report.program = machine.program;
     report.compiler = machine.compiler;
     report.machine = fmt::format("{}, {}", machine.processor, machine.simd);
-    report.tolerance = fmt::format("A picture is right when {}. A state is right to the last bit.",
+    report.tolerance = fmt::format("A picture passes if {}. A state passes if it is right to the last bit.",
                                    regression::inWords(run.manifest.tolerance));
     return report;
 }
@@ -140,8 +140,10 @@ void refuseToUpdate(const regression::Scenario& scenario, const regression::Play
     if (played.divergence) throw core::Error(core::ErrorKind::diverged, played.divergence->message);
     for (const report::TestCheck& check : played.checks)
         if (check.verdict == report::Verdict::failed)
-            throw CheckFailed(fmt::format("{}: a check fails, so nothing of it becomes golden\n{}: {}", scenario.name,
-                                          check.source, check.reason));
+            throw CheckFailed(
+                fmt::format("{}: a check fails, so no golden was recorded\n"
+                            "{}: {}",
+                            scenario.name, check.source, check.reason));
     for (const regression::PlayedPicture& picture : played.pictures)
         if (!picture.fault.empty())
             throw CheckFailed(
@@ -171,48 +173,46 @@ int update(const TestFlags& flags) {
 Action declareTest(Options& options) {
     const auto flags = std::make_shared<TestFlags>();
     options.value("SCENARIOS", flags->paths, "Scenario files, folders of them, or names of shipped ones").required();
-    options.value("-o,--output", flags->output, "The folder for report.html and the pictures of this run")
-        .showDefault();
-    options.value("--goldens", flags->goldens, "The folder of goldens; the first folder's 'golden' when left out");
-    options.value("--junit", flags->junit, "Write the results as JUnit XML too").typeName("FILE");
-    options.value("--filter", flags->filters, "Only scenarios of this name, * for any letters; repeatable")
+    options.value("-o,--output", flags->output, "Folder for report.html and the pictures of this run").showDefault();
+    options.value("--goldens", flags->goldens, "Folder of goldens; default 'golden' in the first folder");
+    options.value("--junit", flags->junit, "Also write the results as JUnit XML").typeName("FILE");
+    options.value("--filter", flags->filters, "Scenarios of this name, * for any letters; repeatable")
         .typeName("NAME")
         .oneValue();
     options
         .value("--shard", flags->shard,
-               "Play this of N shares of the scenarios, 0/N to N-1/N, into a folder that they share; then taut join")
+               "Play this of N shares of the scenarios, 0/N to N-1/N, into a common folder; then taut join")
         .typeName("K/N");
-    options.flag("--resume", flags->resume,
-                 "With --shard: where that shard is there already, only its exit code again");
-    options.value("--update", flags->updates, "Make what this scenario does its golden; repeatable, with --why")
+    options.flag("--resume", flags->resume, "With --shard: if that shard exists, only return its exit code");
+    options.value("--update", flags->updates, "Record new goldens of this scenario; repeatable, with --why")
         .typeName("NAME")
         .oneValue();
-    options.value("--why", flags->why, "The reason for an update, kept in the manifest").typeName("TEXT");
+    options.value("--why", flags->why, "Reason for an update, kept in the manifest").typeName("TEXT");
     addRendererFlag(options, flags->gl);
     addThreadsFlag(options, flags->threads);
     addInstructionSetFlag(options, flags->isa);
     options.flag("--calibrate", flags->calibrate,
-                 "Measure what the thresholds of pictures let through: noise, and mistakes made on purpose");
+                 "Measure noise and deliberate errors against the thresholds of pictures");
     options.flag("--require-goldens", flags->requireGoldens,
-                 "A scenario with checks alone, never recorded, is a missing golden: for CI");
+                 "Report a scenario without goldens as missing, even if it has checks: for CI");
     addConfinedFlag(options, flags->isConfined);
-    options.flag("--quiet", flags->quiet, "No progress");
+    options.flag("--quiet", flags->quiet, "Print no progress");
     options.footer(
         "Examples:\n"
         "  taut test my --require-goldens --confined             in CI, where others propose scenarios\n"
         "  taut test assets/scenarios --goldens tests/golden --junit out/test/junit.xml\n"
         "  taut test my -o out/test --shard 0/4 --resume         one of four; then taut join out/test\n"
         "  taut test my --update flag --why \"the wind blows from the left now\"\n"
-        "Exit codes: 0 all right, 1 a check or golden failed, 3 a scenario cannot be read, 4 a scenario diverged,\n"
-        "8 a golden is missing, or was recorded by other bits (results have changed since); checks are judged all the\n"
-        "same. Of several the first of 3, 4, 1, 8.");
+        "Exit codes: 0 passed, 1 a check or golden failed, 3 a scenario cannot be read, 4 a scenario diverged,\n"
+        "8 a golden is missing, or was recorded by other bits (results have changed since); checks are evaluated\n"
+        "nevertheless. Of several the first of 3, 4, 1, 8.");
     return [flags] { return flags->updates.empty() && flags->why.empty() ? test(*flags) : update(*flags); };
 }
 
 }  // namespace
 
 Command testCommand() {
-    return {"test", "Play scenarios and compare their states and pictures with goldens", declareTest};
+    return {"test", "Compare scenarios with goldens and evaluate their checks", declareTest};
 }
 
 }  // namespace taut::game

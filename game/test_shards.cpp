@@ -118,10 +118,10 @@ void expectOneRun(const std::filesystem::path& folder, const std::map<std::int64
     for (const auto& [index, shard] : shards)
         if (shard.piece.count != first.piece.count || shard.key != first.key)
             refuse(folder, fmt::format("{} and {} are not shards of one run: other scenarios, goldens or number of "
-                                       "shards; take away which is not meant",
+                                       "shards; remove one of them",
                                        nameOf(first), nameOf(shard)));
     if (files.size() != shards.size())
-        refuse(folder, "there are shards of two runs, cut into different numbers; take away those of one");
+        refuse(folder, "there are shards of two runs, of different numbers of shards; remove those of one");
     std::vector<std::string> missing;
     for (std::int64_t i = 0; i < first.piece.count; ++i)
         if (!shards.contains(i)) missing.push_back(Shard{i, first.piece.count}.text());
@@ -140,7 +140,7 @@ void deal(const TestFlags& flags, TestRun& run) {
     run.key = keyOf(flags, run);
     const auto count = static_cast<std::int64_t>(run.names.size());
     if (piece.count > count)
-        failUsage("--shard {}: {} scenario{} cannot be shared out to {}", flags.shard, count, count == 1 ? "" : "s",
+        failUsage("--shard {}: {} scenario{} cannot be divided into {}", flags.shard, count, count == 1 ? "" : "s",
                   piece.count);
     std::vector<double> costs;
     for (const regression::Scenario& scenario : run.read.scenarios)
@@ -218,8 +218,8 @@ TestShard joinedShards(const std::filesystem::path& folder) {
         TestShard shard = readShard(file);
         const std::string name = file.filename().string();
         if (const auto [holder, isFirst] = holders.emplace(shard.piece.text(), name); !isFirst)
-            refuse(folder, fmt::format("{} holds shard {}, which {} holds too; take away the copy", name,
-                                       shard.piece.text(), holder->second));
+            refuse(folder, fmt::format("{} holds shard {}, and so does {}; remove the copy", name, shard.piece.text(),
+                                       holder->second));
         shards.emplace(shard.piece.index, std::move(shard));
     }
     expectOneRun(folder, shards, files);

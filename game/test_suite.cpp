@@ -70,18 +70,17 @@ void choose(const TestFlags& flags, regression::ReadScenarios& read) {
 void checkFlags(const TestFlags& flags) {
     const bool hasWhy = flags.why.find_first_not_of(" \t\r\n") != std::string::npos;
     if (!flags.updates.empty() && !hasWhy)
-        failUsage("--update changes what counts as right: say why with --why \"…\"; the manifest keeps it");
-    if (flags.updates.empty() && !flags.why.empty()) failUsage("--why goes with --update NAME");
-    if (!flags.updates.empty() && !flags.filters.empty())
-        failUsage("--update names the scenarios itself: leave --filter out");
-    if (!flags.updates.empty() && flags.calibrate) failUsage("--calibrate changes no golden: leave --update out");
-    if (flags.resume && flags.shard.empty())
-        failUsage("--resume passes over a shard that is there: it goes with --shard K/N");
+        failUsage("--update changes goldens: give the reason with --why \"…\"; the manifest keeps it");
+    if (flags.updates.empty() && !flags.why.empty()) failUsage("--why needs --update NAME");
+    if (!flags.updates.empty() && !flags.filters.empty()) failUsage("--update names the scenarios: omit --filter");
+    if (!flags.updates.empty() && flags.calibrate) failUsage("--calibrate changes no golden: omit --update");
+    if (flags.resume && flags.shard.empty()) failUsage("--resume skips a finished shard: it needs --shard K/N");
     if (flags.shard.empty()) return;
     (void)shard(flags.shard);
-    if (!flags.updates.empty()) failUsage("--shard changes no golden: leave --update out");
-    if (flags.calibrate) failUsage("--calibrate measures all scenarios: leave --shard out");
-    if (!flags.junit.empty()) failUsage("a shard is no whole report: taut join FOLDER --junit FILE writes that of all");
+    if (!flags.updates.empty()) failUsage("--shard changes no golden: omit --update");
+    if (flags.calibrate) failUsage("--calibrate measures all scenarios: omit --shard");
+    if (!flags.junit.empty())
+        failUsage("a shard is not the entire report: taut join FOLDER --junit FILE writes that of all");
 }
 
 regression::DrawingOptions drawingOptions(const TestFlags& flags, int threads) {
@@ -101,7 +100,7 @@ void refuseLinks(const std::filesystem::path& goldens) {
         if (std::filesystem::is_symlink(path))
             throw core::Error(
                 core::ErrorKind::badContent,
-                fmt::format("{} is a link; goldens of confined scenarios are none and hold none", path.string()));
+                fmt::format("{} is a link; goldens of confined scenarios may not be or contain links", path.string()));
     };
     refuseLink((goldens / "").lexically_normal().parent_path());  // not where it leads
     std::error_code none;

@@ -75,7 +75,7 @@ std::string pageWith(const char* page, std::initializer_list<const char*> styles
     const std::filesystem::path library = viewerLibrary(wish), own = viewerFolder();
     if (library.empty())
         throw core::Error(core::ErrorKind::inputOutput,
-                          fmt::format("{}: three.js, which draws in the page, is not there; {}", flag, toInstall));
+                          fmt::format("{}: three.js, the viewer of pages, is missing; {}", flag, toInstall));
     std::string style, scriptElements;
     for (const char* file : styles) style += core::fileContent(own / file);
     for (const char* script : scripts) scriptElements += scriptElement(library / script);
@@ -148,7 +148,7 @@ nlohmann::json sceneJson(const std::filesystem::path& file, const world::SceneSp
     for (const scene::Rampable& other : rampable) keys.push_back(other.key);
     const std::string meant = fields::suggestion(key, keys);
     failUsage("--sliders: ramps do not change {}; {}", key,
-              meant.empty() ? "taut schema --manual lists what they do, under \"Ramps\"" : meant);
+              meant.empty() ? "taut schema --manual lists their keys, under \"Ramps\"" : meant);
 }
 
 }  // namespace
@@ -159,11 +159,10 @@ std::filesystem::path viewerLibrary(const std::string& wish) {
     if (!named.empty()) {
         const std::string lack = lackOf(named);
         if (lack.empty()) return named;
-        throw core::Error(
-            core::ErrorKind::inputOutput,
-            fmt::format("{}: there is no {} in it, as three.js has it up to release 147; Debian's package "
-                        "libjs-three has it in /usr/share/javascript/three",
-                        named, lack));
+        throw core::Error(core::ErrorKind::inputOutput,
+                          fmt::format("{}: there is no {} in it, which three.js has up to release 147; Debian's "
+                                      "package libjs-three has it in /usr/share/javascript/three",
+                                      named, lack));
     }
     for (const char* folder : {"/usr/share/javascript/three", "/usr/local/share/javascript/three"})
         if (lackOf(folder).empty()) return folder;
@@ -192,8 +191,7 @@ std::filesystem::path webEngine(const std::string& wish) {
             throw core::Error(
                 core::ErrorKind::inputOutput,
                 named.empty()
-                    ? "--live: the engine for pages is not there; sh game/web.sh builds it, and --engine names "
-                      "its folder"
+                    ? "--live: the engine for pages is missing; sh game/web.sh builds it, and --engine names its folder"
                     : fmt::format("{}: there is no {} in it; sh game/web.sh writes it", named, file));
     return folder;
 }
@@ -205,7 +203,7 @@ std::string livePage(const std::filesystem::path& file, const scene::Loaded& sce
             std::find_if(rampable.begin(), rampable.end(), [&](const auto& other) { return other.key == key; });
         if (own == rampable.end()) failSlider(key, rampable);
         if (own->value.size() > 1 && std::all_of(own->value.begin(), own->value.end(), [](double x) { return x == 0; }))
-            failUsage("--sliders: {} has no direction that a slider could keep; give it a length in the scene", key);
+            failUsage("--sliders: {} has no direction for a slider; give it a length in the scene", key);
     }
     const std::filesystem::path engine = webEngine(wish.engine);
     nlohmann::json live{{"methods", world::methodNames()}, {"edits", wish.edits}};
@@ -230,7 +228,7 @@ geometry::Format pageFormat(std::shared_ptr<const geometry::WebPage> page) {
                                                const geometry::GeometryOptions& options) {
         return std::make_unique<geometry::WebPageWriter>(path, *page, options);
     };
-    format.needsNormals = "a page is shaded by its normals";
+    format.needsNormals = "a page needs its normals";
     return format;
 }
 

@@ -9,10 +9,10 @@ const typingPause = 400;     // [ms] after a key until the scene is read again
 const slowPicture = 1 / 30, fastPicture = 1 / 50;  // [s] longer ones are drawn coarser, shorter ones finer
 const roomAround = 0.3;      // of the size of all that is seen: how far it may go until its shadow has to be placed anew
 const help = [
-  ['drag', 'pull what is under the mouse or finger'], ['drag beside it', 'turn the view; two fingers move it'],
-  ['wheel, pinch', 'nearer, farther'], ['c', 'back to the scene\'s camera'], ['space', 'pause and go on'], ['.', 'one tick'],
-  ['s  [  ]', 'slow motion: slower, faster'], ['backspace', 'from the start'], ['m', 'next method, from the start'],
-  ['+  -', 'half or twice the step, from the start'], ['o', 'figures and sliders'], ['e', 'edit the scene'],
+  ['drag', 'pull'], ['drag beside it', 'turn the view; two fingers move it'],
+  ['wheel, pinch', 'zoom'], ['c', 'scene\'s camera'], ['space', 'pause'], ['.', 'one tick'],
+  ['s  [  ]', 'slow motion: slower, faster'], ['backspace', 'restart'], ['m', 'next method, restart'],
+  ['+  -', 'half or twice the step, restart'], ['o', 'figures and sliders'], ['e', 'edit the scene'],
   ['r', 'download what was done as a scenario, for taut test and taut render'],
   ['drop a file', 'a scene (.toml) and what it names (.obj, pictures)'], ['h', 'this help'],
 ];

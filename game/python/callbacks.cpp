@@ -22,7 +22,7 @@ void ask(const Held& function, const std::string& what, Activity& activity, cons
     } asking(activity.asking);
     try {
         const py::object answer = (*function)(points.t, arrayOf(points.x), arrayOf(points.v), arrayOf(points.mass));
-        take(answer, fmt::format("{}: what it returns", what), into);
+        take(answer, fmt::format("{}: its return value", what), into);
     } catch (py::error_already_set& error) {
         addNote(error, fmt::format("in {} at {:.6g} s, asked for {} points{}", what, points.t, points.x.size(),
                                    activity.phase == Activity::Phase::inTick ? "; the tick is undone" : ""));

@@ -6,7 +6,7 @@ namespace taut::python {
 namespace {
 
 constexpr const char* errorHelp =
-    "What taut cannot do, and what to do about it, in its own words.\n\n"
+    "An error of taut with its remedy.\n\n"
     "kind: \"usage\", \"content\" (of a scene or of bytes), \"diverged\", \"file\", \"renderer\" or \"interrupted\".";
 constexpr const char* divergedHelp =
     "The motion has left all bounds; the world keeps the last good state, to be looked at.\n\n"

@@ -53,7 +53,8 @@ LiveWorld::LiveWorld(SceneSource source, scene::Loaded loaded, int threads)
 std::shared_ptr<LiveWorld> LiveWorld::from(const std::string& bytes) {
     const SceneSource source = pipeline::fromBytes(bytes).source;
     const char* remedy =
-        "\na pickle reads its scene again: put that back where it was, or load() it and restore() what save() gave";
+        "\n"
+        "a pickle reads its scene again: put that back where it was, or load() it and restore() the bytes of save()";
     try {
         auto world = std::make_shared<LiveWorld>(source, 0);
         remedy = "";  // restore() has its own
@@ -97,7 +98,7 @@ void LiveWorld::requireBodies(const std::string& target) const {
 // With the lock let go; every 50 ms it is seen whether the user wants it to end.
 void LiveWorld::step(std::int64_t ticks) {
     using Clock = std::chrono::steady_clock;
-    if (ticks < 0) refuse(fmt::format("a world cannot go {} ticks back; restore() what save() gave", -ticks));
+    if (ticks < 0) refuse(fmt::format("a world cannot go {} ticks back; restore() the bytes of save()", -ticks));
     requireStill("step");
     if (divergence_) throw DivergedError(*divergence_);
     struct Ticking {
@@ -200,7 +201,7 @@ void LiveWorld::restore(const std::string& bytes) {
             changes += (changes.empty() ? ": " : ", ") + change;
         throw core::Error(core::ErrorKind::badContent,
                           "these bytes are of another scene, or of something else that happens before their tick" +
-                              changes + "; load the scene and what is set of it as they were");
+                              changes + "; load the scene with the same overrides");
     }
     std::vector<world::RampAction> ramps;
     for (const std::string& key : state.ramps) ramps.push_back(actions_->ramp(key, spec()));

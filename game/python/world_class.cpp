@@ -92,7 +92,7 @@ py::list jointsOf(const LiveWorld& world) {
 // A surface as it is drawn.
 struct Surface {
     // As a world's: of an object that holds none.
-    static void* operator new(std::size_t) { refuse("this Surface holds nothing; surfaces are what a world gives"); }
+    static void* operator new(std::size_t) { refuse("this Surface is empty; World.surfaces() returns surfaces"); }
     std::string name;
     py::array positions, normals, triangles;
 };
@@ -197,7 +197,7 @@ void addAsking(Class& type) {
             for (std::string& warning : printed(w.asked().warnings())) all.push_back(std::move(warning));
             return all;
         },
-        "What the scene, its steps and its callbacks give reason to say.");
+        "Warnings of the scene, its steps and its callbacks.");
     type.def_property_readonly(
         "equal_bits", [](const LiveWorld& w) { return w.asked().callbacks().empty(); },
         "Whether the bits are promised to be the same on every machine: not with forces or systems of Python.");
@@ -205,9 +205,8 @@ void addAsking(Class& type) {
                                "Of each island a dict: name, bodies, points, springs, mass [kg], method, step [s], "
                                "step_limit [s], substeps.");
     type.def_property_readonly("joints", &jointsOf,
-                               "Of each joint a dict: name, kind, a, b, points that it tied as the scene started, and "
-                               "left, how many of those it ties still. apply({\"do\": \"release\", \"id\": name}) "
-                               "lets go.");
+                               "A dict per joint: name, kind, a, b, points (tied at the start), and left (still tied). "
+                               "apply({\"do\": \"release\", \"id\": name}) releases a joint.");
     type.def_property_readonly(
         "methods",
         [](const LiveWorld& w) {
@@ -243,7 +242,7 @@ void addArrays(Class& type) {
         "A dict of all that is measured, by the names of claims, else by those of metrics.csv: momentum [kg m/s] and\n"
         "angular_momentum [kg m²/s] as (3,), max_strain, contacts, penetration [m], body_contacts, crossings, …;\n"
         "besides broken_springs, volume and rest_volume [m³].");
-    type.def("surfaces", &surfacesOf, "What is drawn, as a list of Surface: bodies and colliders.");
+    type.def("surfaces", &surfacesOf, "Drawn surfaces, a list of Surface: bodies and colliders.");
     type.def("render", &pictureOf, "size"_a = py::none(), py::kw_only(), "camera"_a = "", "samples"_a = py::none(),
              "debug"_a = false,
              "A picture, (height, width, 3) of uint8, sRGB, rows from top to bottom.\n\n"
@@ -254,15 +253,15 @@ void addArrays(Class& type) {
 
 void addDoing(Class& type) {
     type.def("step", &LiveWorld::step, "ticks"_a = 1,
-             "Goes on by so many ticks; other threads of Python run meanwhile. Raises taut.Diverged, and what a force "
-             "or a system raises: then that tick has not happened.");
+             "Advances by so many ticks; other threads of Python run meanwhile. Raises taut.Diverged, and the "
+             "exceptions of forces and systems, which undo the tick.");
     type.def("run", &runUntil, py::kw_only(), "until"_a, "Goes on to the first tick at or after a moment [s].");
     type.def(
         "apply", [](LiveWorld& w, const py::dict& action) { w.apply(tomlOf(action, "apply()")); }, "action"_a,
-        "Does what a timeline may say, now: {\"do\": \"push\", \"target\": \"cloth.flag\", \"impulse_Ns\": [0, 0, "
+        "Performs an action of the timeline now: {\"do\": \"push\", \"target\": \"cloth.flag\", \"impulse_Ns\": [0, 0, "
         "1]}.\n\n"
-        "Keys and units are those of the scene format, without t; `taut schema` has them all. Raises taut.Error "
-        "for what cannot be done, and then nothing is.");
+        "Keys and units are those of the scene format, without t; `taut schema` has them all. Raises taut.Error for an "
+        "impossible action, and changes nothing then.");
     type.def(
         "place",
         [](LiveWorld& w, const std::string& collider, const py::object& position, const py::object& rotation) {
@@ -271,8 +270,8 @@ void addDoing(Class& type) {
             w.place(collider, to, anglesOf(rotation));
         },
         "collider"_a, "position"_a = py::none(), "rotation_deg"_a = py::none(),
-        "Leads a collider, \"collider.ball\", to a position [m] and angles [degrees] about x, then y, then z, where it "
-        "is at the end of the coming tick, or in a system of this one. What is in its way is swept along.");
+        "Moves a collider, \"collider.ball\", to a position [m] and angles [degrees] about x, then y, then z, at the "
+        "end of the next tick, or in a system of this one. It sweeps points in its path along.");
     type.def(
         "place_of",
         [](const LiveWorld& w, const std::string& collider) {
@@ -284,19 +283,18 @@ void addDoing(Class& type) {
         "Where a collider is: its position (3,) [m] and its rotation (4,), a unit quaternion w, x, y, z.");
     type.def("add_force", &addForce, "force"_a, "on"_a = py::none(), py::kw_only(), "energy"_a = py::none(),
              "name"_a = "", "stiffness"_a = 0.0, "damping_per_s"_a = 0.0,
-             "Adds force(t, x, v, mass) -> (n, 3) [N] to the points of targets, of all bodies if none is named.\n\n"
-             "It gets the time [s], positions (n, 3) [m], velocities (n, 3) [m/s] and masses (n,) [kg] of the points "
-             "of one island, body by body in the order of authoring. It is called at every evaluation, one island "
-             "after the other in their order; for a moment again where a tick is repeated in shorter steps.\n"
-             "energy(t, x, v, mass) -> (n,) [J] counts among the elastic. stiffness [N/m] and damping_per_s [1/s] are "
-             "what it adds on a point at most, for steps that \"auto\" chooses.\n"
-             "While they are asked, the world refuses to be used, by them and by other threads.\n"
-             "What it raises ends the tick, which then has not happened. From here on nobody promises equal bits on "
-             "every machine: see equal_bits. Gives its name, \"force.NAME\".");
+             "Adds force(t, x, v, mass) -> (n, 3) [N] to the points of targets, by default of all bodies.\n\n"
+             "Its arguments are the time [s], positions (n, 3) [m], velocities (n, 3) [m/s] and masses (n,) [kg] of "
+             "the points of one island, body by body in the order of the scene. It is called at every evaluation, one "
+             "island after the other in their order, and again if a tick is repeated in shorter steps.\n"
+             "energy(t, x, v, mass) -> (n,) [J] counts as elastic energy. stiffness [N/m] and damping_per_s [1/s] are "
+             "upper bounds of its effect on a point, for \"auto\" steps.\n"
+             "During a call the world cannot be used, by this or other threads.\n"
+             "An exception undoes the tick. With such a force equal bits are not promised: see equal_bits. Returns its "
+             "name, \"force.NAME\".");
     type.def("add_system", &LiveWorld::addSystem, "system"_a,
              "Calls system(world, t, dt) at the start of every tick, with the time at its end and its length [s]. It "
-             "may ask the world, place() colliders and apply() actions. What it raises ends the tick, which then has "
-             "not happened.");
+             "may query the world, place() colliders and apply() actions. An exception undoes the tick.");
 }
 
 void addSaving(Class& type) {

@@ -88,7 +88,7 @@ Json WorldObject::call(const std::string& what, const Json& with) {
 }
 
 void WorldObject::step(std::int64_t ticks) {
-    if (ticks < 0) refuse(fmt::format("a world cannot go {} ticks back; restore() what save() gave", -ticks));
+    if (ticks < 0) refuse(fmt::format("a world cannot go {} ticks back; restore() the bytes of save()", -ticks));
     for (std::int64_t i = 0; i < ticks; ++i) {
         if (!divergence_) divergence_ = world_.advance();
         if (divergence_) throw core::Error(core::ErrorKind::diverged, divergence_->message);
@@ -149,8 +149,8 @@ void WorldObject::restore(std::span<const std::byte> bytes) {
     const pipeline::SavedState state = pipeline::fromBytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (state.key != keys_.stateAt(state.tick))
         throw core::Error(core::ErrorKind::badContent,
-                          "these bytes are of another scene, or of something else that happens before their tick; load "
-                          "the scene and what is set of it as they were");
+                          "these bytes are of another scene, or of one with other actions before their tick; load the "
+                          "scene with the same overrides");
     std::vector<world::RampAction> ramps;
     for (const std::string& key : state.ramps) ramps.push_back(actions_->ramp(key, world_.spec()));
     world_.restore(state.world, std::move(ramps));

@@ -119,11 +119,11 @@ window=$(xdotool search --onlyvisible --name 'taut play' | head -n 1)
 cp sheet.toml before.toml
 sed 's/300\.0/400.0/' before.toml >new.toml
 mv new.toml sheet.toml
-until_true said_times '^read again; simulated from the start to' 1
+until_true said_times '^reloaded; simulated from the start to' 1
 echo 'nonsense = 1' >>sheet.toml
 until_true said_times '^sheet.toml:[0-9]*:1: error: ' 1
 sed 's/eye = .*/eye = [1.0, 1.0, 3.5]/; s/300\.0/400.0/' before.toml >sheet.toml
-until_true said_times '^read again; goes on at' 1
+until_true said_times '^reloaded; continues at' 1
 xdotool mousemove --window "$window" 160 130
 press n
 until_true sh -c "xdotool key --window $window y; grep -q '^copied cloth.sheet@#' said"

@@ -93,7 +93,7 @@ TEST(Manual, IsAPageThatGroffSetsWithoutAWarning) {
         printed(folder, "set -o pipefail\n'" TAUT_PROGRAM "' manual | groff -man -ww -Tutf8 -P -cbou");
     const std::string words = std::regex_replace(page, std::regex("\\s+"), " ");  // however wide it is set
     for (const char* part :
-         {" NAME taut - plays ", " taut render [OPTION ...] SCENE ", " -y, --yes Overwrite what exists. ",
+         {" NAME taut - simulates ", " taut render [OPTION ...] SCENE ", " -y, --yes Overwrite existing files. ",
           " Values: frame, tick. ", " EXIT STATUS ", " taut render flag -o flag.mp4 "})
         EXPECT_TRUE(has(words, part)) << part << " in " << page;
 }

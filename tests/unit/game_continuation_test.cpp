@@ -68,7 +68,7 @@ TEST_F(Continuation, GivesTheStatesOfARunThatNeverStopped) {
     EXPECT_TRUE(std::filesystem::exists(state("000020")));
     const Outcome rest = play({"--from", "25"});
     EXPECT_EQ(rest.code, 0) << rest.err;
-    EXPECT_TRUE(has(rest.err, "going on with frame 20")) << rest.err;
+    EXPECT_TRUE(has(rest.err, "continuing with frame 20")) << rest.err;
     EXPECT_EQ(rest.out, from(whole_.out, 25));
     EXPECT_EQ(play({"--from", "10"}).out, from(whole_.out, 10));
 }
@@ -79,7 +79,7 @@ TEST_F(Continuation, ReusesWhatIsBeforeAChangeOfTheTimeline) {
     changed.replace(changed.find("t = 0.4"), 7, "t = 0.45");
     write(changed);
     const Outcome rest = play({"--from", "20"});
-    EXPECT_TRUE(has(rest.err, "going on with frame 20")) << rest.err;
+    EXPECT_TRUE(has(rest.err, "continuing with frame 20")) << rest.err;
     EXPECT_NE(rest.out, from(whole_.out, 20));
     EXPECT_TRUE(has(play({"--from", "29", "--set", "world.gravity=[0,-9,0]"}).err, "scene.toml has changed"));
     std::filesystem::remove_all(states());
@@ -101,7 +101,7 @@ TEST_F(Continuation, PassesOverADamagedState) {
     const Outcome rest = play({"--from", "20"});
     EXPECT_EQ(rest.code, 0) << rest.err;
     EXPECT_TRUE(has(rest.err, "checkpoint_000020.taut: this checkpoint is damaged or cut short")) << rest.err;
-    EXPECT_TRUE(has(rest.err, "going on with frame 10")) << rest.err;
+    EXPECT_TRUE(has(rest.err, "continuing with frame 10")) << rest.err;
     EXPECT_EQ(rest.out, from(whole_.out, 20));
 
     std::fstream file(state("000010"), std::ios::in | std::ios::out | std::ios::binary);
@@ -173,7 +173,7 @@ TEST_F(Continuation, ResumesWhatWasKilledBeforeItsFirstState) {
             std::filesystem::remove(lost);
     const Outcome again = test::run(command);
     EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_TRUE(has(again.err, "going on with frame 0")) << again.err;
+    EXPECT_TRUE(has(again.err, "continuing with frame 0")) << again.err;
     std::vector<std::string> other = command;
     other.insert(other.end(), {"--set", "cloth.sheet.cells=[5,6]"});
     EXPECT_EQ(test::run(other).code, 6) << "other pictures are not drawn over";
@@ -182,8 +182,8 @@ TEST_F(Continuation, ResumesWhatWasKilledBeforeItsFirstState) {
 TEST_F(Continuation, ARepeatedRunDoesNotTakeTheStatesOfTheLast) {
     const Outcome again = play({"--checkpoint-every", "10"});
     EXPECT_EQ(again.code, 6);
-    EXPECT_TRUE(has(again.err, "holds states of an earlier run; --resume goes on")) << again.err;
-    EXPECT_TRUE(has(play({"--from", "25"}).err, "going on with frame 20"));
+    EXPECT_TRUE(has(again.err, "holds states of an earlier run; --resume continues")) << again.err;
+    EXPECT_TRUE(has(play({"--from", "25"}).err, "continuing with frame 20"));
     EXPECT_EQ(play({"--checkpoint-every", "10", "-y"}).out, whole_.out);
 }
 
@@ -230,7 +230,7 @@ TEST_F(Continuation, StartsWhereAnotherRunHasKeptItsState) {
     const std::string states = (folder_ / "later").string();
     EXPECT_EQ(run({"--checkpoint-every", "10", "--checkpoints", states}).code, 0);
     const Outcome rest = run({"--from", "25", "--checkpoints", states});
-    EXPECT_TRUE(has(rest.err, "going on with frame 20")) << rest.err;
+    EXPECT_TRUE(has(rest.err, "continuing with frame 20")) << rest.err;
     EXPECT_EQ(rest.out, from(whole_.out, 25));
     const std::string tape = (folder_ / "later.tape").string();
     EXPECT_TRUE(has(test::run({"record", later, "-o", tape, "--quiet"}).out, "29 ticks"));

@@ -111,8 +111,7 @@ TEST(OwnFormat, StandsInTheHelpAndInWhatIsSaidOfOthers) {
                     "Blender, VTK) or .ply (MeshLab; may tear)\n"));
     const std::string torn = exportWithPly({scene, "-o", (folder / "a.glb").string(), "--quiet"}).err;
     EXPECT_TRUE(has(torn, "): write .usda or .ply, where they may change, or end before it with --frames 0-")) << torn;
-    EXPECT_TRUE(
-        has(exportWithPly({scene, "-o", "a.glb", "--digits", "3"}).err, "--digits are those of .usda and .ply;"));
+    EXPECT_TRUE(has(exportWithPly({scene, "-o", "a.glb", "--digits", "3"}).err, "--digits applies to .usda and .ply;"));
     EXPECT_FALSE(has(run({"export", "--help"}).out, "ply"));
 }
 
@@ -125,15 +124,15 @@ TEST(OwnFormat, WithoutItTheOthersAreNamed) {
         return outcome.err.substr(0, outcome.err.find('\n'));
     };
     EXPECT_EQ(said({}),
-              "taut: say where the geometry goes: -o out.usda, -o out.glb, --web out.html, or --points out.npz");
+              "taut: name an output for the geometry: -o out.usda, -o out.glb, --web out.html, or --points out.npz");
     EXPECT_EQ(said({"-o", "a.html"}),
               "taut: a.html: geometry goes to .usda (Houdini, Omniverse, Unreal, Blender; may tear) or .glb (the web, "
               "Blender, VTK); a page that shows it is --web a.html");
     EXPECT_EQ(said({"--web", "a.glb"}), "taut: a.glb: --web writes a page, .html");
-    EXPECT_EQ(said({"--web", "a.htm", "--no-normals"}), "taut: --no-normals: a page is shaded by its normals");
+    EXPECT_EQ(said({"--web", "a.htm", "--no-normals"}), "taut: --no-normals: a page needs its normals");
     EXPECT_EQ(said({"--points", "a.txt"}), "taut: a.txt: points go to .npz (numpy.load) or .csv");
     EXPECT_EQ(said({"-o", "a.glb", "--digits", "3"}),
-              "taut: --digits are those of .usda; other formats hold all of a number");
+              "taut: --digits applies to .usda; other formats have full precision");
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class NormalsLayer : public render::Layer {
 
 Outcome runWithNormals(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
     game::Tables tables;
-    render::LayerKind normals{"normals", "Beside each frame a NAME.normals.png: where surfaces face"};
+    render::LayerKind normals{"normals", "Write a NAME.normals.png beside each frame: normals of surfaces"};
     normals.ask = [&](double, const view::FrameView&) { return std::make_shared<NormalsLayer>(folder); };
     tables.layers.add(normals);
     return run(arguments, game::builtInCommands(tables));
@@ -122,20 +122,20 @@ TEST(OwnLayer, IsDrawnIntoFilesOfItsNameAndStandsInTheRecord) {
 
 TEST(OwnLayer, HasAFlagAsTheOthersHave) {
     const TemporaryFolder folder;
-    EXPECT_TRUE(
-        has(runWithNormals(folder, {"render", "--help"}).out, "\n  --normals                   Beside each frame a"));
+    EXPECT_TRUE(has(runWithNormals(folder, {"render", "--help"}).out,
+                    "\n  --normals                   Write a NAME.normals.png"));
     EXPECT_FALSE(has(run({"render", "--help"}).out, "normals"));
     EXPECT_TRUE(has(runWithNormals(folder, {"render", "flag", "-o", "a.mp4", "--normals"}).err,
-                    "--normals writes files beside frames: ask for those, -o out/frame_######.png;"));
+                    "--normals writes files beside frames: add -o out/frame_######.png;"));
 }
 
 // What the program says of its own, word for word.
 TEST(OwnLayer, WithoutItTheOthersAreAsTheyWere) {
     EXPECT_TRUE(has(run({"render", "flag", "-o", "out", "--depth-range", "10"}).err,
-                    "--depth-range says what the numbers of --depth are: give that too"));
+                    "--depth-range sets the numbers of --depth: add both"));
     EXPECT_TRUE(has(run({"render", "flag", "-o", "a.mp4", "--mask", "--depth"}).err,
-                    "--depth writes files beside frames: ask for those, -o out/frame_######.png; a video besides with "
-                    "--video"));
+                    "--depth writes files beside frames: add -o out/frame_######.png; --video adds a "
+                    "video"));
 }
 
 }  // namespace

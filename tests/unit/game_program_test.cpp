@@ -201,7 +201,7 @@ TEST(Program, DoctorSaysWhatIsLostWithoutEachThingAndWhichPackageHasIt) {
     for (const char* line : {"ffmpeg      MISSING: no videos; ", "gnuplot     MISSING: no charts and maps; ",
                              "font        MISSING: no labels in scenes and no figures over pictures: ",
                              "window      MISSING: no taut play, ", " the package xvfb\n", "egl         no device here",
-                             "Everything needed is there.\n",
+                             "All packages are installed.\n",
                              "apt install ffmpeg gnuplot-nox fonts-dejavu-core libegl-mesa0 libgl1-mesa-dri\n"})
         EXPECT_TRUE(has(text, line)) << line << " in " << text;
     const std::string nothing = bare + " TAUT_ASSETS=" + folder.path().string() +
@@ -210,7 +210,7 @@ TEST(Program, DoctorSaysWhatIsLostWithoutEachThingAndWhichPackageHasIt) {
     EXPECT_EQ(WEXITSTATUS(std::system(nothing.c_str())), 7);
     EXPECT_TRUE(has(test::contentOf(told), "pictures    MISSING: none without osmesa or egl;"))
         << test::contentOf(told);
-    EXPECT_TRUE(has(test::contentOf(told), "\nSomething is missing.\n")) << test::contentOf(told);
+    EXPECT_TRUE(has(test::contentOf(told), "\nPackages are missing.\n")) << test::contentOf(told);
 }
 
 TEST(Program, ADeviceIsANumber) {
@@ -327,7 +327,7 @@ TEST(Program, CheckDoesNotBuildMorePointsThanItHasTimeFor) {
                     "[wind.storm]\nvelocity = [200, 0, 0]\n");  // 2 000 000 points; the world would warn of the storm
     const Outcome outcome = run({"check", file});
     EXPECT_EQ(outcome.code, 0);
-    EXPECT_TRUE(has(outcome.err, "too many points to build")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "too many points to simulate the start")) << outcome.err;
     EXPECT_FALSE(has(outcome.err, "storm")) << outcome.err;
 }
 
@@ -385,7 +385,7 @@ TEST(Program, InfoRehearsesWhatTheSceneCosts) {
     const std::string springs = "[ { a = \"nail\", b = \"bob\", stiffness_N_per_m = 1e6, rest_length_m = 0.9 } ]";
     const std::string part =
         run({"info", scene, "--set", "solver.dt=0.1", "--set", "net.spring.springs=" + springs}).out;
-    EXPECT_TRUE(has(part, " ticks rehearsed, the others as the last ")) << part;
+    EXPECT_TRUE(has(part, " ticks simulated, the others as the last ")) << part;
 }
 
 TEST(Program, InfoTellsOfContactBetweenBodies) {

@@ -200,7 +200,7 @@ TEST(TestCommand, AFailedCheckSaysValueBoundAndMoment) {
     EXPECT_TRUE(has(failed.out, "0.95")) << failed.out;
     const Outcome refused = acceptRun(folder, "spring", "The first of its kind.");
     EXPECT_EQ(refused.code, 1);
-    EXPECT_TRUE(has(refused.err, "a check fails, so nothing of it becomes golden")) << refused.err;
+    EXPECT_TRUE(has(refused.err, "a check fails, so no golden was recorded")) << refused.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "golden"));
 }
 
@@ -230,13 +230,13 @@ TEST(TestCommand, RefusesWhatCannotBeMeant) {
         {"two of one name", {"FOLDER", "FOLDER/twice"}, 2, "two scenarios are called spring"},
         {"a bad scenario", {"FOLDER/bad"}, 3, "spring.toml:3:"},
         {"a bad manifest", {"FOLDER/json"}, 3, "this is no JSON"},
-        {"an update without reason", {"FOLDER", "--update", "spring"}, 2, "say why with --why"},
-        {"an empty reason", {"FOLDER", "--update", "spring", "--why", " "}, 2, "say why with --why"},
-        {"a reason for nothing", {"FOLDER", "--why", "x"}, 2, "--why goes with --update"},
+        {"an update without reason", {"FOLDER", "--update", "spring"}, 2, "give the reason with --why"},
+        {"an empty reason", {"FOLDER", "--update", "spring", "--why", " "}, 2, "give the reason with --why"},
+        {"a reason for nothing", {"FOLDER", "--why", "x"}, 2, "--why needs --update"},
         {"an unknown name", {"FOLDER", "--update", "sprng", "--why", "x"}, 2, "did you mean spring?"},
         {"a filter that fits nothing", {"FOLDER", "--filter", "sprinf"}, 2, "did you mean spring?"},
-        {"both ways of choosing", {"FOLDER", "--update", "spring", "--why", "x", "--filter", "a"}, 2, "leave --filter"},
-        {"calibrating an update", {"FOLDER", "--update", "spring", "--why", "x", "--calibrate"}, 2, "leave --update"},
+        {"both ways of choosing", {"FOLDER", "--update", "spring", "--why", "x", "--filter", "a"}, 2, "omit --filter"},
+        {"calibrating an update", {"FOLDER", "--update", "spring", "--why", "x", "--calibrate"}, 2, "omit --update"},
         {"nowhere to write", {"FOLDER", "-o", "FOLDER/file/out"}, 6, "file"},
         {"no place for JUnit", {"FOLDER", "-o", "FOLDER/out", "--junit", "FOLDER/file/j.xml"}, 6, "file"},
         {"goldens that are a file",

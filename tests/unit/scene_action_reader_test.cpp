@@ -68,7 +68,7 @@ TEST(ActionReader, RefusesTheRestWithItsRemedy) {
     expect("{ do = \"push\", target = \"rope.line\", impulse_Ns = [3, 0] }", "apply(): error: ");
     expect("{ do = \"pusch\", target = \"rope.line\" }", "did you mean \"push\"?");
     expect("{ do = \"push\", target = \"rope.line\", impulse_Ns = [3, 0, 0], t = 1.0 }", "leave t out");
-    expect("{ do = \"ramp\", key = \"wind.breeze.sped\", to = 1 }", "what may change: ");
+    expect("{ do = \"ramp\", key = \"wind.breeze.sped\", to = 1 }", "keys of ramps: ");
     expect("{ do = \"release\" ", "apply(): error: ");
     expect("{ do = \"release\", id = \"hand\" }, { do = \"release\", id = \"hand\" }", "one action");
 }

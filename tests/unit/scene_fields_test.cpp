@@ -398,7 +398,7 @@ TEST(SceneFields, WhatIsDrawnRoundKeepsItsRadiusIfNoThicknessIsGiven) {
     EXPECT_EQ(given.spec.bodies.of<world::RopeSpec>()[0].thickness, 0.014);
     ASSERT_EQ(given.warnings.size(), 1U);
     EXPECT_EQ(folder.withoutFolder(printed(given.warnings[0])),
-              "s.toml:5:13: warning: drawn with a radius of 0.03 m, it sinks 0.016 m into what it touches\n"
+              "s.toml:5:13: warning: with a drawn radius of 0.03 m it sinks in by 0.016 m at contact\n"
               "  thickness = 0.014\n"
               "              ^ leave thickness out");
     for (const char* fine : {"radius = 0.03\nthickness = 0.015\n", "thickness = 0.001\ncollide = false\n"})

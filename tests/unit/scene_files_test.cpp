@@ -186,7 +186,7 @@ TEST(SceneFiles, AKeptStateIsReadWhereARunStarts) {
     EXPECT_EQ(folder.messageOf(text + "seconds = 1\n", options),
               "s.toml:3:9: error: this state was kept at 1.01667 s, when the run is over: seconds is 1\n"
               "  start = \"kept.state\"\n"
-              "          ^ the run goes on from the time of the state: make seconds larger");
+              "          ^ the run continues from the time of the state: make seconds larger");
     EXPECT_EQ(folder.messageOf(text + "[[golden]]\nframes = [3]\n", options),
               "s.toml:5:11: error: frame 3 is before the start: the first is 61, from kept.state\n"
               "  frames = [3]\n"

@@ -40,7 +40,7 @@ TEST(SceneErrors, KeysOfAFitLeadToNumbers) {
               "          ^ name one of its numbers, rope.r.ends.1.0");
     EXPECT_EQ(keyMessage("rope.r.ends.1.0"), "");
     EXPECT_EQ(keyMessage("picture.samples", "[picture]\nsamples = 4\n"),
-              "s.toml:6:9: error: picture.samples is a whole number, which nothing can be fitted with\n"
+              "s.toml:6:9: error: picture.samples is a whole number, which cannot be fitted\n"
               "  keys = [\"picture.samples\"]\n"
               "          ^");
     EXPECT_EQ(keyMessage("material.m.bending_rigidity_N_m",
@@ -98,7 +98,7 @@ TEST(SceneErrors, TargetsOfAFitAreNumbersWithASigma) {
     EXPECT_EQ(with("that = \"time\"\ncurve = \"curve.csv\"\n"), "");
     folder.write("bad.csv", "time,value\n0,1\n1,x\n");
     EXPECT_EQ(with("that = \"time\"\ncurve = \"bad.csv\"\nsigma = 1\n"),
-              "s.toml:11:9: error: cannot use this curve: bad.csv:3: \"1,x\" is not time, value, and sigma or not\n"
+              "s.toml:11:9: error: cannot use this curve: bad.csv:3: \"1,x\" is not time, value, and optionally sigma\n"
               "  curve = \"bad.csv\"\n"
               "          ^");
     EXPECT_EQ(with("that = \"time\"\ncurve = \"bad.csv\"\n"),

@@ -147,7 +147,7 @@ TEST(SceneInheritance, FaultsAreSaidOnceAndWhereTheyStand) {
         {"a like of nothing", "[rope.flag]\nends = [[0,0,0],[1,0,0]]\n[rope.b]\nlike = \"flog\"\n",
          "s.toml:4:7: error: [rope.b] needs ends\n"
          "  [rope.b]\n"
-         "        ^ ends is a list of two points, each a list of 3 numbers [m]: Its two ends\n"
+         "        ^ ends is a list of two points, each a list of 3 numbers [m]: The two ends\n"
          "s.toml:5:8: error: there is no rope \"flog\"\n"
          "  like = \"flog\"\n"
          "         ^ did you mean \"flag\"?"},

@@ -212,7 +212,7 @@ mass_kg = 1)",
      R"(5:10: there is no rope.rial ^ did you mean "rope.rail"?)"},
     {"a wildcard that fits nothing", massAt, "cloth.*@all", "5:10: there is no cloth.*"},
     {"a target without a selector", massAt, "rope.r",
-     R"(5:10: "rope.r" does not say which points ^ write rope.r@all or another selector)"},
+     R"(5:10: "rope.r" selects no points ^ write rope.r@all or another selector)"},
     {"an array without a number", rope, R"(array = { count = [3, 1, 1], step_x = [1, 0, 0] }
 [[mass]]
 target = "rope.r@end"
@@ -332,13 +332,13 @@ edges = [{ name = "side1", corners = [0, 1] },
          { name = "hem", corners = [0, 3] },
          { name = "hem", corners = [1, 1] }])",
      R"(6:23: this hole lies outside of the outline
-7:19: "side1" cannot be the name of an edge ^ all, side0, side1, hole0 and so on are there already
+7:19: "side1" cannot be the name of an edge ^ all, side0, side1, hole0 and so on are reserved
 8:36: the outline has the corners 0 … 2
 9:19: there is an edge "hem" already
-9:36: an edge leads from one corner to another ^ from the last to the first it goes on round: [3, 0])"},
+9:36: an edge leads from one corner to another ^ from the last corner to the first the edge continues around: [3, 0])"},
     {"a sheet that no energy has", file, R"([material.m]
 bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 9e-6 })",
-     "3:59: no sheet is so soft at 45° with this warp and weft ^ it must be above (√warp - √weft)²/4 = 1e-05 N m"},
+     "3:59: the bias is too soft for this warp and weft ^ it must be above (√warp - √weft)²/4 = 1e-05 N m"},
     {"a hysteresis that slips nowhere", file, R"([material.m]
 bending_rigidity_N_m = 1e-5
 bending_hysteresis_N = 1e-3)",
@@ -347,11 +347,11 @@ bending_hysteresis_N = 1e-3)",
     {"a curvature at which nothing slips", file, R"([material.m]
 bending_rigidity_N_m = 1e-5
 bending_yield_per_m = 5)",
-     "4:23: nothing slips without a hysteresis ^ give bending_hysteresis_N too"},
+     "4:23: a yield curvature needs a hysteresis ^ give bending_hysteresis_N too"},
     {"a hysteresis without bending rigidity", file, R"([material.m]
 bending_hysteresis_N = 1e-3
 bending_yield_per_m = 5)",
-     "3:24: a hysteresis is that of a sheet with a rigidity ^ give bending_rigidity_N_m too"},
+     "3:24: a hysteresis needs a bending rigidity ^ give bending_rigidity_N_m too"},
     {"a block of a ratio and a pressure", file, R"([block.b]
 bulk_Pa = 1e5
 poisson = 0.3)",
@@ -421,7 +421,7 @@ fade_end = 10)",
     {"a ground that fades beyond its end", file, "[background]\nfade_start = 50",
      "3:14: fade_end must be above fade_start"},
     {"a slanted cloth", cloth, "across = [1, 1, 0]",
-     "5:10: across and down must be at right angles ^ give down too; it is [0, -1, 0] now"},
+     "5:10: across and down must be at right angles ^ set down too; its default is [0, -1, 0]"},
     {"a slanted cloth in both directions", cloth, "across = [1, 0, 0]\ndown = [1, -1, 0]",
      "6:8: across and down must be at right angles"},
     {"a rope from a point to itself", file, "[rope.r]\nends = [[1, 2, 3], [1, 2, 3]]",
@@ -433,10 +433,10 @@ fade_end = 10)",
     {"a net without points", file, "[net.n]\npoints = []", "3:10: a net needs points"},
     // Actions that are incomplete.
     {"an action without a moment", ropeAction, R"({ do = "grab", id = "h", target = "rope.r@end" })",
-     "3:3: [[at]] needs t ^ t is a number [s]: Moment; the nearest tick is taken"},
+     "3:3: [[at]] needs t ^ t is a number [s]: Time, rounded to the nearest tick"},
     {"an action that does nothing", ropeAction, R"({ t = 1, target = "rope.r@end" })",
-     "3:3: [[at]] needs do ^ do is one of grab, move, release, push, hold, free, cut, add-mass, ramp, spawn: What "
-     "happens"},
+     "3:3: [[at]] needs do ^ do is one of grab, move, release, push, hold, free, cut, add-mass, ramp, spawn: "
+     "Action"},
     {"an unknown action", ropeAction, R"({ t = 1, do = "gab", id = "h", target = "rope.r@end" })",
      "3:17: do must be one of grab, move, release, push, hold, free, cut, add-mass, ramp, spawn, not \"gab\" ^ did you "
      "mean \"grab\"?"},
@@ -449,7 +449,7 @@ fade_end = 10)",
      R"(3:3: do = "grab" needs id ^ id is the name of the hand)"},
     {"a rigid hand with a largest force", ropeAction,
      R"({ t = 1, do = "grab", id = "h", target = "rope.r", rigid = true, max_force_N = 30 })",
-     "3:82: a rigid hand leads its points whatever it takes ^ leave max_force_N or rigid out"},
+     "3:82: a rigid hand leads its points with unlimited force ^ leave max_force_N or rigid out"},
     {"a hand without a name", ropeAction, R"({ t = 1, do = "grab", id = "", target = "rope.r@end" })",
      "3:30: a hand needs a name"},
     {"a move of nothing", ropeAction, R"({ t = 1, do = "move", to = [0, 0, 0] })",
@@ -507,9 +507,9 @@ ends = [[0, 0, 0], [1, 0, 0]])",
 shape = "sphere"
 )"},
     {"a body moved like a collider", ropeAction, R"({ t = 1, do = "move", target = "rope.r", to = [0, 0, 0] })",
-     R"(3:34: "rope.r" is no collider ^ a move takes a collider, or a hand by its id)"},
+     R"(3:34: "rope.r" is no collider ^ a move takes a collider, or the id of a hand)"},
     {"a collider led twice", ropeAction, R"({ t = 1, do = "move", target = "collider.ball", to = [0, 0, 0] })",
-     "3:34: collider.ball is led by its keys ^ move it by one of the two", R"([collider.ball]
+     "3:34: collider.ball follows its keys ^ move it by keys or by actions", R"([collider.ball]
 shape = "sphere"
 keys = [{ t = 0 }]
 )"},
@@ -543,12 +543,12 @@ camera = "main")",
     {"a move after the release", ropeAction, R"({ t = 1, do = "grab", id = "h", target = "rope.r@end" },
   { t = 2, do = "release", id = "h" },
   { t = 3, do = "move", id = "h", to = [0, 0, 0] })",
-     R"(5:30: "h" has let go before 3 s)"},
+     R"(5:30: "h" was released before 3 s)"},
     {"a second grab", ropeAction, R"({ t = 1, do = "grab", id = "h", target = "rope.r@end" },
   { t = 2, do = "grab", id = "h", target = "rope.r@start" })",
-     R"(4:30: "h" is holding something since 1 s ^ release it first, or give this hand another id)"},
+     R"(4:30: "h" holds something since 1 s ^ release it first, or give this hand another id)"},
     {"a hand called as a joint", joint, R"(at = [{ t = 1, do = "grab", id = "peg", target = "rope.r@end" }])",
-     R"(2:34: "peg" is the name of a joint ^ give the hand another id, for both are released by it)"},
+     R"(2:34: "peg" is the name of a joint ^ give the hand another id, because release takes the name of either)"},
     {"a mistyped joint", joint, R"(at = [{ t = 1, do = "release", id = "pegg" }])",
      R"(2:37: "pegg" has grabbed nothing before 1 s, and no joint has that name ^ did you mean "peg"?)"},
     {"a release where joints have no names", file, R"(at = [{ t = 1, do = "release", id = "peg" }]
@@ -594,8 +594,8 @@ b = "rope.s@start"
     {"an unknown section", ropeAction, R"({ t = 1, do = "ramp", key = "wnid.w.velocity", to = [0, 0, 0] })",
      R"(3:31: there is no "wnid" to change ^ did you mean "wind"?)"},
     {"a section that nothing changes in", ropeAction, R"({ t = 1, do = "ramp", key = "solver.dt", to = 0.1 })",
-     "3:31: nothing of solver can change while the scene runs ^ what may: world, material, rope, block, net, anchor, "
-     "wind, filling, collider, camera, light, lamp, environment, background"},
+     "3:31: no key of solver can change while the scene runs ^ keys of ramps: world, material, rope, block, net, "
+     "anchor, wind, filling, collider, camera, light, lamp, environment, background"},
     {"an unknown wind", ropeAction, R"({ t = 1, do = "ramp", key = "wind.breze.velocity", to = [0, 0, 0] })",
      R"(3:31: there is no wind "breze" ^ did you mean "breeze"?)", "[wind.breeze]\n"},
     {"a wind where there is none", ropeAction,
@@ -604,10 +604,9 @@ b = "rope.s@start"
     {"an unknown field", ropeAction, R"({ t = 1, do = "ramp", key = "wind.breeze.velocty", to = [0, 0, 0] })",
      R"(3:31: [wind.breeze] has no key "velocty" ^ did you mean "velocity"?)", "[wind.breeze]\n"},
     {"a key without a field", ropeAction, R"({ t = 1, do = "ramp", key = "wind.breeze", to = [0, 0, 0] })",
-     R"(3:31: "wind.breeze" names no field ^ what may change: velocity, gust.amplitude, drag, lift)",
-     "[wind.breeze]\n"},
+     R"(3:31: "wind.breeze" names no field ^ keys of ramps: velocity, gust.amplitude, drag, lift)", "[wind.breeze]\n"},
     {"a number of segments", ropeAction, R"({ t = 1, do = "ramp", key = "rope.r.segments", to = 12 })",
-     "3:31: rope.r.segments cannot change while the scene runs ^ what may of it: stretch_N, bend_N, "
+     "3:31: rope.r.segments cannot change while the scene runs ^ keys of ramps: stretch_N, bend_N, "
      "bending_rigidity_N_m2, damping_time_s, drag_per_s"},
     {"a field without a value", clothAction, R"({ t = 1, do = "ramp", key = "material.m.shear_N_per_m", to = 12 })",
      "3:31: material.m.shear_N_per_m has no value to begin from ^ give it in [material.m]"},
@@ -683,7 +682,7 @@ material = "m")",
      "5:26: a number has no unit behind it ^ values are in SI units, see taut schema --manual"},
     {"a chain that turns back", claim, "1 < speed(rope.r) > 2",
      "5:27: a chain of comparisons must go one way, as in 0.1 < x < 0.2"},
-    {"a claim about nothing", claim, "1 < 2", "5:9: this claim says nothing about the scene"},
+    {"a claim about nothing", claim, "1 < 2", "5:9: this claim does not depend on the scene"},
     {"a place with two parts", claim, "distance(rope.r, [0, 1]) < 1",
      R"(5:31: "," is missing between the three components)"},
     {"a body without a kind", claim, "speed(r) < 1", R"(5:15: "r" is no target ^ write KIND.NAME, e.g. cloth.flag)"},
@@ -740,8 +739,8 @@ from = 1.5)",
 at = 1
 [rope.r]
 ends = [[0, 0, 0], [1, 0, 0]])",
-     "2:1: [[check]] needs that ^ that is a text: The claim, e.g. \"max_strain(cloth.*) < 0.1\"; it must hold all the "
-     "time unless a moment or a span is given"},
+     "2:1: [[check]] needs that ^ that is a text: Claim, e.g. \"max_strain(cloth.*) < 0.1\"; it must hold at "
+     "every tick unless a time or a span is given"},
 };
 
 constexpr Row doubted[] = {
@@ -755,7 +754,7 @@ that = "body_contacts() < 1")-",
     {"a touch of two ropes", ropesClaim, R"-(touch = "others"
 [[check]]
 that = "touching(rope.touching, rope.r) < 1")-",
-     "8:33: rope.r touches nothing: however near they are, they go through each other ^ give it touch = \"others\" or "
+     "8:33: rope.r touches nothing: it passes through other bodies ^ give it touch = \"others\" or "
      "\"all\""},
     {"a penetration of faces", ropesClaim, R"-([[check]]
 that = "face_penetration(rope.*) < 1")-",

@@ -256,10 +256,10 @@ TEST(SceneErrors, KeysAndTablesOutOfPlaceAreReportedWithARemedy) {
         {"two required keys that are missing", "[[mass]]\n",
          "s.toml:2:1: error: [[mass]] needs target\n"
          "  [[mass]]\n"
-         "  ^ target is a text: The points: KIND.NAME@SELECTOR\n"
+         "  ^ target is a text: Points: KIND.NAME@SELECTOR\n"
          "s.toml:2:1: error: [[mass]] needs mass_kg\n"
          "  [[mass]]\n"
-         "  ^ mass_kg is a number [kg]: Shared evenly among the points"},
+         "  ^ mass_kg is a number [kg]: Added mass, shared evenly among the points"},
         {"a required key inside that is missing",
          "[collider.s]\n"
          "shape = \"sphere\"\n"

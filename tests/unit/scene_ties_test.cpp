@@ -68,9 +68,9 @@ TEST(SceneTies, WhatIsWrongWithThemIsReported) {
          "  hold_on = \"rope.r\"\n"
          "            ^ write collider.NAME"},
         {"nothing is held", nothing.c_str(),
-         "s.toml:14:11: error: hold_on carries the points of hold, and there is no hold\n"
+         "s.toml:14:11: error: hold_on attaches the points of hold, and there is no hold\n"
          "  hold_on = \"collider.figure\"\n"
-         "            ^ say which points, e.g. hold = [\"top\"]"},
+         "            ^ name the points, e.g. hold = [\"top\"]"},
         {"points of a collider", selector.c_str(),
          "s.toml:14:5: error: a collider has no points to choose from\n"
          "  b = \"collider.figure@top\"\n"

@@ -76,7 +76,7 @@ TEST(ChartCommand, RefusesTheNameOfOneFile) {
     for (const char* ending : {".png", ".svg", ".csv"}) {
         const Outcome outcome = run({"chart", "growth", "--methods", "rk4", "--budget", "0.5", "-o", place + ending});
         EXPECT_EQ(outcome.code, 2) << ending;
-        EXPECT_TRUE(has(outcome.err, "into a folder: -o " + place)) << outcome.err;
+        EXPECT_TRUE(has(outcome.err, "several files: -o " + place)) << outcome.err;
         EXPECT_FALSE(std::filesystem::exists(place + ending));
     }
 }

@@ -99,7 +99,7 @@ TEST(FitCommand, AsksForWhatToFit) {
     test::writeText(path, "schema = 1\n[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\n");
     const Outcome outcome = run({"fit", path.string(), "--quiet"});
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_TRUE(has(outcome.err, "it has no [fit]")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "the scene has nothing to fit: add [fit]")) << outcome.err;
 }
 
 }  // namespace

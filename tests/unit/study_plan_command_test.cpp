@@ -101,8 +101,8 @@ TEST(PlanCommand, SaysWhatItDidNotLookAt) {
     const auto json = folder / "plan.json";
     const Outcome outcome = run({"plan", path.string(), "--quiet", "--write", "-o", json.string()});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_TRUE(has(outcome.out, "between 0.1 s and the end of the run at 1 s was not looked at")) << outcome.out;
-    EXPECT_TRUE(has(outcome.err, "warning: what happens between 0.1 s and 1 s was not looked at")) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "between 0.1 s and the end of the run at 1 s was not simulated")) << outcome.out;
+    EXPECT_TRUE(has(outcome.err, "warning: the time from 0.1 s to 1 s was not simulated")) << outcome.err;
     // 0.9: a second of which a tenth was looked at; 1e-12 rounding.
     EXPECT_NEAR(nlohmann::json::parse(core::fileContent(json))["not_looked_at_s"].get<double>(), 0.9, 1e-12);
 }
@@ -175,7 +175,7 @@ TEST(PlanCommand, AsksForANeed) {
     const auto path = fileOf(folder, "schema = 1\n[rope.r]\nends = [[0, 2, 0], [1, 2, 0]]\n");
     const Outcome outcome = run({"plan", path.string(), "--quiet"});
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_TRUE(has(outcome.err, "it has no [need]")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "the scene has no need: add [need]")) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "horizon_s = 0.5")) << outcome.err;
 }
 

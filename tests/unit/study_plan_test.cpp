@@ -54,7 +54,7 @@ TEST(PlanNeed, AMissingOneIsExplainedByAnExample) {
 TEST(PlanNeed, WithoutAnAccuracyItIsRefused) {
     world::SceneSpec scene = sceneWithNeed();
     scene.need.rmsPosition.reset();
-    EXPECT_TRUE(has(planRefusal(scene), "how accurate"));
+    EXPECT_TRUE(has(planRefusal(scene), "no accuracy of the positions"));
 }
 
 TEST(PlanNeed, AHorizonBeyondTheRunContradictsIt) {

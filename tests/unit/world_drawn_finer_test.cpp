@@ -150,7 +150,7 @@ TEST(BoundMesh, AVertexFarFromTheBodyIsRefusedByTheLineOfItsFace) {
         EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         EXPECT_TRUE(std::string(error.what())
                         .starts_with("s.toml:3:1: error: cannot use this skin: lid.obj:7: error: a corner of this "
-                                     "face is 0.9 m from cloth.a; 0.707 m is the most\n"))
+                                     "face is 0.9 m from cloth.a, more than 0.707 m\n"))
             << error.what();
     }
 }

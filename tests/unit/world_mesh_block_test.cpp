@@ -100,8 +100,8 @@ TEST(MeshBlock, WhatCannotBeFilledIsRefused) {
     BlockSpec block = toy(mesh);
     block.cell = 1e-6;
     EXPECT_EQ(refusal(block),
-              "s.toml:3:1: error: there are 1e+18 cubes of cells_m = 1e-06 in the box around toy.obj; 2e+06 are the "
-              "most: give it larger ones");
+              "s.toml:3:1: error: there are 1e+18 cubes of cells_m = 1e-06 in the box around toy.obj, more than "
+              "2e+06: make them larger");
     mesh->triangles.pop_back();
     const std::string open = refusal(toy(mesh));
     EXPECT_TRUE(
@@ -137,8 +137,8 @@ TEST(MeshBlock, WhatIsThinnerThanACellOrCrossesItselfIsSaid) {
     scene.bodies.of<BlockSpec>()[0].meshData = meshOf(boxes);
     ASSERT_EQ(meshCellDoubts(scene).size(), 1U);
     EXPECT_EQ(printed(meshCellDoubts(scene)[0]),
-              "block.toy: toy.obj:27 crosses itself: 10 edges go through faces, the first through this one; what is "
-              "filled twice counts once");
+              "block.toy: toy.obj:27 crosses itself: 10 edges go through faces, the first through this one; parts "
+              "that are filled twice count once");
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST(Rehearsal, WarnsOfABodyThatLeavesThePictureInTheFirstSecond) {
     scene.bodies[0].hold.clear();
     EXPECT_EQ(printed(rehearse(scene).warnings),
               std::vector<std::string>{"rope.line leaves the picture in the first second: move the camera, or "
-                                       "what holds it"});
+                                       "hold it in place"});
 }
 
 // A mass of 1 kg that hangs by a spring of 1e6 N/m: ω = 1000 /s, of which leap-frog stands steps of 2 ms.

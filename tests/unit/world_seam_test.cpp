@@ -390,8 +390,8 @@ TEST(Seams, WhatCannotBeSewnIsRefused) {
            "it, as @left of a cloth"},
           {with(left, left), "seams.toml:25:1: error: the seam sews \"cloth.b@left\" to itself; name two edges"},
           {with("\"cloth.a@right\"", left),
-           "seams.toml:25:1: error: the seam \"cloth.a@right\" – \"cloth.b@left\" starts 0.200000 m apart; say how "
-           "long it takes to close, e.g. over_s = 1.0"},
+           "seams.toml:25:1: error: the seam \"cloth.a@right\" – \"cloth.b@left\" starts 0.200000 m apart; give the "
+           "time to close, e.g. over_s = 1.0"},
           {with("\"collider.k\"", left, "[collider.k]\nshape = \"sphere\"\n"), "collider.k"}})
         EXPECT_NE(messageOf(text).find(message), std::string::npos) << messageOf(text);
 }

@@ -32,8 +32,8 @@ TEST(StartDoubts, AreOfBodiesInOnePlaceThatTouch) {
         scene.bodies.add(cloth);
     }
     EXPECT_EQ(doubtsOf(scene),
-              (Doubts{"cloth.a and cloth.b start in the same place, by 50 points: nothing says which is to go to which "
-                      "side, and to part them takes long; start them 0.01 m apart"}));
+              (Doubts{"cloth.a and cloth.b start in the same place, by 50 points: their sides are undetermined, and "
+                      "separation takes long; start them 0.01 m apart"}));
     scene.bodies.of<ClothSpec>()[1].origin.z += 0.001;  // a tenth of what they keep
     EXPECT_EQ(doubtsOf(scene), Doubts());
     scene.bodies.of<ClothSpec>()[1].origin = {0.7, 2, 0};  // in one plane, a part of each in the other

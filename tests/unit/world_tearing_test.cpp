@@ -105,7 +105,7 @@ TEST(Tearing, ByMethodsWithoutALimitIsWarnedOfUnlessTheirStepIsGiven) {
     const auto isWarned = [&] {
         const std::vector<std::string> all = printed(World(scene).warnings());
         return std::any_of(all.begin(), all.end(), [](const std::string& warning) {
-            return warning.find("cloth.sheet: what tears or yields") != std::string::npos;
+            return warning.find("cloth.sheet: tears and yield") != std::string::npos;
         });
     };
     EXPECT_FALSE(isWarned());

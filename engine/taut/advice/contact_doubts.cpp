@@ -210,9 +210,8 @@ void doubtPlaces(const ContactStage& stage, std::vector<core::Finding>& doubts) 
     for (const auto& [surfaces, points] : found) {
         if (++count > mostDoubts) break;
         const Body &a = stage.bodyOf(surfaces.first), &b = stage.bodyOf(surfaces.second);
-        doubts.push_back(warningAt({}) + fmt::format("{} and {} start in the same place, by {} points: nothing says "
-                                                     "which is to go to which side, and to part them takes long; "
-                                                     "start them {} apart",
+        doubts.push_back(warningAt({}) + fmt::format("{} and {} start in the same place, by {} points: their sides are "
+                                                     "undetermined, and separation takes long; start them {} apart",
                                                      a.fullName(), b.fullName(), points.size(),
                                                      inLength(a.spec->thickness + b.spec->thickness)));
     }

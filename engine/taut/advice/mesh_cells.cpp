@@ -139,7 +139,7 @@ void addCrossings(const BlockSpec& block, const std::vector<dvec3>& x, bool isFi
     const std::vector<int>& lines = block.meshData->lines;
     const auto face = crossings.empty() ? lines.size() : static_cast<std::size_t>(crossings.front().triangle);
     doubts.push_back(warningAt({}) +
-                     fmt::format("{}: {}{} {}; what is filled twice counts once", block.fullName(), block.mesh,
+                     fmt::format("{}: {}{} {}; parts that are filled twice count once", block.fullName(), block.mesh,
                                  face < lines.size() ? fmt::format(":{}", lines[face]) : "",
                                  crossings.empty() ? "has parts that lie in each other"
                                                    : fmt::format("crosses itself: {} edges go through faces, the first "

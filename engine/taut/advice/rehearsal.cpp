@@ -140,7 +140,7 @@ void warnOfLeaving(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
         const auto before = inside.find(body->fullName());
         if (before == inside.end() || before->second != body || shareOf(*body) > 0 || ++count > most) continue;
         rehearsal.warnings.push_back(warningAt(body->spec->source) + body->fullName() +
-                                     " leaves the picture in the first second: move the camera, or what holds it");
+                                     " leaves the picture in the first second: move the camera, or hold it in place");
     }
 }
 

@@ -26,47 +26,45 @@ using fields::Section;
 
 Section BlockSpec::section() {
     Section section;
-    section.help = "A deformable block: a box, or what a closed mesh from an OBJ or glTF file fills.";
+    section.help = "A deformable block: a box or a filled closed mesh of an OBJ or glTF file.";
     section.variant = [](const fields::Node& table) -> std::string {
         return table.find("mesh") != nullptr ? "a block from a mesh" : "a block that is a box";
     };
     const std::vector<std::string> box{"a block that is a box"}, mesh{"a block from a mesh"};
     FieldList<BlockSpec> list;
-    list.vector("size", &BlockSpec::size, "m", lengthRange, "Its three edges.")
+    list.vector("size", &BlockSpec::size, "m", lengthRange, "Lengths of its three edges.")
         .only(box)
-        .vector("cells", &BlockSpec::cells, "", countRange, "Number of cells along each.")
+        .vector("cells", &BlockSpec::cells, "", countRange, "Number of cells along each edge.")
         .only(box)
         .text("mesh", &BlockSpec::mesh, Role::mesh,
-              "OBJ or glTF file of a closed surface, which is drawn; groups and objects of an OBJ (g, o) are names of "
-              "the points around what they have.")
+              "OBJ or glTF file of a closed surface, which is drawn; groups and objects of an OBJ (g, o) name the "
+              "points around them.")
         .only(mesh)
         .number("cells_m", &BlockSpec::cell, "m", lengthRange,
-                "Side, nearly, of the cubes that carry the mesh, along the axes of its file; partly filled ones "
-                "weigh and resist by their share.")
+                "Approximate edge of the cubes that carry the mesh, along the axes of its file; partly filled cubes "
+                "have their share of mass and stiffness.")
         .required()
         .only(mesh)
-        .number("scale", &BlockSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+        .number("scale", &BlockSpec::scale, "", lengthRange, "Size of a unit of the file in metres.")
         .only(mesh)
-        .vector("position", &BlockSpec::position, "m", placeRange,
-                "Its centre; of a mesh where the file's origin lies.")
-        .rotation("rotation_deg", &BlockSpec::rotation, "About x, then y, then z.")
-        .number("density_kg_per_m3", &BlockSpec::density, "kg/m³", positive, "Mass of a cubic metre.")
+        .vector("position", &BlockSpec::position, "m", placeRange, "Centre; of a mesh the origin of its file.")
+        .rotation("rotation_deg", &BlockSpec::rotation, "Rotation about x, then y, then z.")
+        .number("density_kg_per_m3", &BlockSpec::density, "kg/m³", positive, "Density.")
         .number("young_Pa", &BlockSpec::young, "Pa", positive,
-                "Young's modulus; with bulk_Pa that of the springs alone.")
+                "Young's modulus; with bulk_Pa that of the springs only.")
         .ramps(Affects::springs)
-        .number("poisson", &BlockSpec::poisson, "", Range{0.25, 0.45},
-                "Poisson's ratio: how much it narrows when it is stretched. 0.4 if neither this nor bulk_Pa is given.")
+        .number("poisson", &BlockSpec::poisson, "", Range{0.25, 0.45}, "Poisson's ratio; default 0.4 without bulk_Pa.")
         .ramps(Affects::springs)
         .number("bulk_Pa", &BlockSpec::bulk, "Pa", notNegative,
-                "In place of poisson: a pressure that resists a change of volume, added to springs of young_Pa, whose "
-                "ratio is 1/4. 0: springs alone.")
+                "Bulk modulus of a pressure in each cell, instead of poisson: springs of young_Pa have the ratio 1/4. "
+                "0: springs only.")
         .inPlaceOf("poisson")
         .ramps(Affects::springs)
         .number("working_stretch", &BlockSpec::workingStretch, "", Range{1.0, 100.0},
-                "Stretch up to which the step must hold.");
+                "Largest stretch for which the step is stable.");
     section.fields = withPlasticity(withLosses(list))
                          .choice("lumping", &BlockSpec::lumping, lumpingNames(),
-                                 "How mass is shared out: by volume, or the same for every point.")
+                                 "Distribution of mass: by volume, or the same for every point.")
                          .take();
     return section;
 }
@@ -75,10 +73,11 @@ void BlockSpec::fillMesh() {
     constexpr double mostCells = 2e6;
     const dvec3 n = mechanics::boxCells(meshData->positions, cell / scale);
     if (n.x * n.y * n.z > mostCells)
-        throw core::Error(core::ErrorKind::badContent,
-                          fmt::format("there are {:.3g} cubes of cells_m = {:g} in the box around {}; {:g} are the "
-                                      "most: give it larger ones",
-                                      n.x * n.y * n.z, cell, mesh, mostCells));
+        throw core::Error(
+            core::ErrorKind::badContent,
+            fmt::format(
+                "there are {:.3g} cubes of cells_m = {:g} in the box around {}, more than {:g}: make them larger",
+                n.x * n.y * n.z, cell, mesh, mostCells));
     std::vector<dvec3> places;
     for (const dvec3& x : meshData->positions) places.push_back(scale * x);
     try {

@@ -77,10 +77,11 @@ std::vector<dvec3> skinPlaces(const Body& body) {
     throw core::Error(
         core::ErrorKind::badContent,
         at(body.spec->source) +
-            fmt::format("cannot use this skin: {}{}: error: a corner of this face is {:.3g} m from {}; {:.3g} m is the "
-                        "most\n  lay it on the body as that starts, in metres of the scene: taut export SCENE --frames "
-                        "0-0 -o start.glb writes that, or make the body's cells larger",
-                        finish.skin, line, distance, body.fullName(), most));
+            fmt::format(
+                "cannot use this skin: {}{}: error: a corner of this face is {:.3g} m from {}, more than {:.3g} m\n"
+                "  place it on the initial body, in metres of the scene: taut export SCENE --frames 0-0 -o start.glb "
+                "writes that, or make the body's cells larger",
+                finish.skin, line, distance, body.fullName(), most));
 }
 
 // A triangle and the weights of its corners at the place that is nearest, or nearly so.

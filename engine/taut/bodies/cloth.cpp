@@ -80,7 +80,7 @@ void checkDirections(const fields::CheckInput& input, ClothSpec& cloth) {
     }
     const bool namesDown = input.table.find("down") != nullptr;
     input.problems.addError(input.at(namesDown ? "down" : "across"), "across and down must be at right angles",
-                            namesDown ? "" : "give down too; it is [0, -1, 0] now");
+                            namesDown ? "" : "set down too; its default is [0, -1, 0]");
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ Section ClothSpec::section() {
         FieldList<ClothSpec>()
             .text("material", &ClothSpec::material, Role::material, "Name of its material.")
             .required()
-            .vector("size", &ClothSpec::size, "m", lengthRange, "Across and down.")
+            .vector("size", &ClothSpec::size, "m", lengthRange, "Lengths across and down.")
             .only(grid)
             .vector("cells", &ClothSpec::cells, "", countRange, "Number of cells across and down.")
             .only(grid)
@@ -110,36 +110,36 @@ Section ClothSpec::section() {
             .only(both)
             .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
             .only(both)
-            .degrees(
-                "grain_deg", &ClothSpec::grain, fields::Range{-360.0, 360.0},
-                "Turns the warp of its material from across towards down. Bending is turned at any angle; stretch "
-                "at multiples of 90° and, in square cells, 45°, in between as nearly as springs along the grid can. "
-                "Hysteresis needs multiples of 90°. The rows of a panel's triangles run along its warp, at any angle.")
+            .degrees("grain_deg", &ClothSpec::grain, fields::Range{-360.0, 360.0},
+                     "Angle of the warp from across towards down. Bending turns to any angle; stretch is exact at "
+                     "multiples of 90° and, in square cells, at 45°, and approximate in between. Hysteresis needs "
+                     "multiples of 90°. The rows of a panel's triangles follow the warp, at any angle.")
             .only(both)
             .flag("round", &ClothSpec::isRound,
-                  "Only the cells of which the middle lies in the ellipse that fits into its size: a round tablecloth.")
+                  "Whether only cells with their middle inside the ellipse that fits into its size exist: a round "
+                  "tablecloth.")
             .only(grid)
             .places("outline", &ClothSpec::corners, "m", placeRange,
-                    "Corners of a panel, one after the other, [x, y] with x along across and y against down. Its sides "
-                    "are points by the names of side0, from corner 0 to corner 1, and so on.")
+                    "Corners of a panel in order, [x, y] with x along across and y against down. Its sides are groups "
+                    "of points: side0, from corner 0 to corner 1, and so on.")
             .required()
             .only(panel)
             .tables("holes", &ClothSpec::holes, panelHoleSection(),
-                    "In a panel; the points around the first are hole0.")
+                    "Holes of a panel; the points around the first are hole0.")
             .only(panel)
             .tables("edges", &ClothSpec::edges, panelEdgeSection(),
                     "Names for runs of its sides: points in the order of the outline.")
             .only(panel)
-            .number("cell_m", &ClothSpec::cell, "m", lengthRange, "Length of the edges of its triangles, nearly.")
+            .number("cell_m", &ClothSpec::cell, "m", lengthRange, "Approximate length of the edges of its triangles.")
             .only(panel)
             .text("mesh", &ClothSpec::mesh, Role::mesh,
                   "OBJ or glTF file; groups and objects of an OBJ (g, o), of faces or of lines, are names of points.")
             .only(mesh)
-            .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
+            .vector("position", &ClothSpec::position, "m", placeRange, "Origin of the file.")
             .only(mesh)
-            .rotation("rotation_deg", &ClothSpec::rotation, "About x, then y, then z.")
+            .rotation("rotation_deg", &ClothSpec::rotation, "Rotation about x, then y, then z.")
             .only(mesh)
-            .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+            .number("scale", &ClothSpec::scale, "", lengthRange, "Size of a unit of the file in metres.")
             .only(mesh)
             .take();
     section.check = [](const fields::CheckInput& input, void* target) {

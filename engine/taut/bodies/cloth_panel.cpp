@@ -58,9 +58,8 @@ void checkEdges(const fields::CheckInput& input, const ClothSpec& cloth) {
                                 (edge.name.starts_with("side") || edge.name.starts_with("hole"));
         const bool isOwn = edge.name == "all" || isNumbered;
         if (!fields::isName(edge.name) || isOwn)
-            report(
-                "name", fmt::format("\"{}\" cannot be the name of an edge", edge.name),
-                isOwn ? "all, side0, side1, hole0 and so on are there already" : "a name has letters, digits, - and _");
+            report("name", fmt::format("\"{}\" cannot be the name of an edge", edge.name),
+                   isOwn ? "all, side0, side1, hole0 and so on are reserved" : "a name has letters, digits, - and _");
         else if (!names.insert(edge.name).second)
             report("name", fmt::format("there is an edge \"{}\" already", edge.name), "");
         const int last = static_cast<int>(cloth.corners.size()) - 1;
@@ -68,7 +67,7 @@ void checkEdges(const fields::CheckInput& input, const ClothSpec& cloth) {
             report("corners", fmt::format("the outline has the corners 0 … {}", last), "");
         else if (edge.corners.x == edge.corners.y)
             report("corners", "an edge leads from one corner to another",
-                   "from the last to the first it goes on round: [3, 0]");
+                   "from the last corner to the first the edge continues around: [3, 0]");
     }
 }
 
@@ -77,7 +76,7 @@ void checkEdges(const fields::CheckInput& input, const ClothSpec& cloth) {
 Section panelHoleSection() {
     Section section;
     section.fields = FieldList<ClothHoleSpec>()
-                         .places("outline", &ClothHoleSpec::corners, "m", placeRange, "Its corners.")
+                         .places("outline", &ClothHoleSpec::corners, "m", placeRange, "Corners.")
                          .required()
                          .take();
     return section;
@@ -86,10 +85,10 @@ Section panelHoleSection() {
 Section panelEdgeSection() {
     Section section;
     section.fields = FieldList<ClothEdgeSpec>()
-                         .text("name", &ClothEdgeSpec::name, fields::Role::none, "By which selectors know it.")
+                         .text("name", &ClothEdgeSpec::name, fields::Role::none, "Name for selectors.")
                          .required()
                          .vector("corners", &ClothEdgeSpec::corners, "", fields::Range{0.0, 1e6},
-                                 "The corners from which and to which it leads, in the direction of the outline.")
+                                 "First and last corner, in the direction of the outline.")
                          .required()
                          .take();
     return section;

@@ -292,7 +292,7 @@ class Planner {
             if (apart > reach)
                 throw Error(ErrorKind::badContent, at(seam.source) + "the seam \"" + seam.a.text() + "\" – \"" +
                                                        seam.b.text() + "\" starts " + std::to_string(apart) +
-                                                       " m apart; say how long it takes to close, e.g. over_s = 1.0");
+                                                       " m apart; give the time to close, e.g. over_s = 1.0");
             if (seam.isWeld()) report.jump = std::max(report.jump, apart);
             report.sewn.apart = std::max(report.sewn.apart, apart);
             if (apart > WeldJoint().furthest && isHeld(a) && isHeld(b)) ++report.sewn.heldApart;

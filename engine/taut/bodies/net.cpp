@@ -28,12 +28,12 @@ namespace {
 Section netPointSection() {
     Section section;
     section.fields = FieldList<NetPointSpec>()
-                         .text("name", &NetPointSpec::name, Role::none, "Its name.")
+                         .text("name", &NetPointSpec::name, Role::none, "Name.")
                          .required()
-                         .vector("position", &NetPointSpec::position, "m", placeRange, "Where it starts.")
+                         .vector("position", &NetPointSpec::position, "m", placeRange, "Initial position.")
                          .required()
                          .number("mass_kg", &NetPointSpec::mass, "kg", positive, "Mass.")
-                         .flag("hold", &NetPointSpec::hold, "Whether it never moves.")
+                         .flag("hold", &NetPointSpec::hold, "Whether it is pinned.")
                          .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         const std::string& name = static_cast<const NetPointSpec*>(target)->name;
@@ -50,17 +50,17 @@ Section netPointSection() {
 
 Section netSpringSection() {
     Section section;
-    section.fields =
-        FieldList<NetSpringSpec>()
-            .text("a", &NetSpringSpec::a, Role::none, "Name of the point at one end.")
-            .required()
-            .text("b", &NetSpringSpec::b, Role::none, "Name of the point at the other end.")
-            .required()
-            .number("stiffness_N_per_m", &NetSpringSpec::stiffness, "N/m", notNegative, "Spring constant.")
-            .number("rest_length_m", &NetSpringSpec::restLength, "m", Range{0.0, 1e6},
-                    "Length without force; the distance at the start if not given.")
-            .number("damping_time_s", &NetSpringSpec::dampingTime, "s", dampingTimeRange, "The net's if not given.")
-            .take();
+    section.fields = FieldList<NetSpringSpec>()
+                         .text("a", &NetSpringSpec::a, Role::none, "Name of the point at one end.")
+                         .required()
+                         .text("b", &NetSpringSpec::b, Role::none, "Name of the point at the other end.")
+                         .required()
+                         .number("stiffness_N_per_m", &NetSpringSpec::stiffness, "N/m", notNegative, "Spring constant.")
+                         .number("rest_length_m", &NetSpringSpec::restLength, "m", Range{0.0, 1e6},
+                                 "Rest length; default the initial distance.")
+                         .number("damping_time_s", &NetSpringSpec::dampingTime, "s", dampingTimeRange,
+                                 "Damping time; default the net's.")
+                         .take();
     return section;
 }
 
@@ -94,13 +94,13 @@ Section NetSpec::section() {
     Section section;
     section.help = "Points and springs listed one by one.";
     FieldList<NetSpec> list;
-    list.tables("points", &NetSpec::points, netPointSection(), "Its point masses.")
+    list.tables("points", &NetSpec::points, netPointSection(), "Point masses.")
         .required()
-        .tables("springs", &NetSpec::springs, netSpringSection(), "Its springs.");
+        .tables("springs", &NetSpec::springs, netSpringSection(), "Springs.");
     section.fields = withPlasticity(withLosses(list))
                          .number("radius", &NetSpec::radius, "m", lengthRange,
-                                 "Radius of a spring as it is drawn; the net's thickness too, if that is not given.")
-                         .number("ball", &NetSpec::ball, "m", lengthRange, "Radius of a point as it is drawn.")
+                                 "Drawn radius of springs, and the default of the net's thickness.")
+                         .number("ball", &NetSpec::ball, "m", lengthRange, "Drawn radius of points.")
                          .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& net = *static_cast<NetSpec*>(target);

@@ -116,7 +116,7 @@ class RopeDrawing final : public BodyDrawing {
 Section ropePlaceSection() {
     Section section;
     section.fields = FieldList<RopePlaceSpec>()
-                         .vector("position", &RopePlaceSpec::position, "m", placeRange, "The place.")
+                         .vector("position", &RopePlaceSpec::position, "m", placeRange, "Place.")
                          .required()
                          .take();
     return section;
@@ -128,34 +128,32 @@ Section RopeSpec::section() {
     Section section;
     section.help = "A rope between two points, or a ring.";
     FieldList<RopeSpec> list;
-    list.segment("ends", &RopeSpec::start, &RopeSpec::end, "Its two ends.")
+    list.segment("ends", &RopeSpec::start, &RopeSpec::end, "The two ends.")
         .required()
         .whole("segments", &RopeSpec::segments, "", countRange, "Number of segments.")
         .number("length_m", &RopeSpec::length, "m", Range{0.0, 1e6},
-                "Natural length; 0 means the distance of the ends. A longer rope starts hanging on its catenary.")
+                "Natural length; 0: the distance of the ends. A longer rope starts on its catenary.")
         .tables("through", &RopeSpec::through, ropePlaceSection(),
-                "Places that it is laid through on its way from one end to the other, in a curve, as long as that is.")
+                "Places on the way between the ends: the rope follows a curve and has its length.")
         .flag("closed", &RopeSpec::isClosed,
-              "Whether its ends are joined. Then `ends` are the ends of a diameter of a level ring, or with `through` "
-              "two places of a loop, which leads from the second back to the first.")
-        .number("mass_kg", &RopeSpec::mass, "kg", positive, "Mass of the whole rope.")
-        .number("stretch_N", &RopeSpec::stretch, "N", positive, "Stiffness EA: force that doubles its length.")
+              "Whether the ends are joined. `ends` are then the ends of a diameter of a level ring, or with `through` "
+              "two places of a loop from the second back to the first.")
+        .number("mass_kg", &RopeSpec::mass, "kg", positive, "Mass of the rope.")
+        .number("stretch_N", &RopeSpec::stretch, "N", positive, "Stiffness EA: the force that doubles its length.")
         .ramps(Affects::springs)
-        .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
+        .number("bend_N", &RopeSpec::bend, "N", notNegative, "Stiffness of springs across two segments.")
         .ramps(Affects::springs);
     list.number("bending_rigidity_N_m2", &RopeSpec::rigidity, "N m²", positive,
-                "Bending rigidity EI, the same for any number of segments.")
+                "Bending rigidity EI, for any number of segments.")
         .ramps(Affects::springs)
-        .flag(
-            "rest_curved", &RopeSpec::isCurvedAtRest,
-            "Whether that resists bending away from the curve in which the rope is laid; else the rope is straight at "
-            "rest.");
-    section.fields = withPlasticity(withLosses(list))
-                         .number("radius", &RopeSpec::radius, "m", lengthRange,
-                                 "As it is drawn; its thickness too, if that is not given.")
-                         .choice("lumping", &RopeSpec::lumping, lumpingNames(),
-                                 "How mass is shared out: by length, or the same for every point.")
-                         .take();
+        .flag("rest_curved", &RopeSpec::isCurvedAtRest,
+              "Whether the initial curve is the rest shape of bending; otherwise the rope is straight at rest.");
+    section.fields =
+        withPlasticity(withLosses(list))
+            .number("radius", &RopeSpec::radius, "m", lengthRange, "Drawn radius, and the default of its thickness.")
+            .choice("lumping", &RopeSpec::lumping, lumpingNames(),
+                    "Distribution of mass: by length, or the same for every point.")
+            .take();
     // Rules that concern several fields.
     section.check = [](const fields::CheckInput& input, void* target) {
         constexpr int leastOfRing = 3;

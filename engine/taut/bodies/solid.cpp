@@ -101,12 +101,12 @@ ShapeKinds solidParts(const ShapeKinds& shapes) {
 // The fields that a solid and a shape of a compound share.
 FieldList<SolidSpec> solidRows(const ShapeKinds& shapes) {
     FieldList<SolidSpec> list =
-        shapeRows<SolidSpec>(shapes, "OBJ or glTF file; its surfaces are closed, but for a hull.");
-    list.number("edge", &SolidSpec::edge, "m", notNegative, "Rounding of its edges as they are drawn.")
+        shapeRows<SolidSpec>(shapes, "OBJ or glTF file; its surfaces are closed, except for a hull.");
+    list.number("edge", &SolidSpec::edge, "m", notNegative, "Radius of the drawn edges.")
         .only(namesOf(solidParts(shapes), "edge"))
         .number("density_kg_per_m3", &SolidSpec::density, "kg/m³", positive,
-                "Mass of a cubic metre; of a part, that of the compound if not given.")
-        .number("mass_kg", &SolidSpec::mass, "kg", positive, "Its mass, in place of the density.")
+                "Density; of a part by default that of the compound.")
+        .number("mass_kg", &SolidSpec::mass, "kg", positive, "Mass, instead of the density.")
         .inPlaceOf("density_kg_per_m3");
     return list;
 }
@@ -132,7 +132,7 @@ Section partSection(const ShapeKinds& shapes) {
     section.variantKey = "shape";
     section.fields =
         solidRows(solidParts(shapes))
-            .table("finish", &SolidSpec::finish, finishSection(), "How it looks; as the compound if not given.")
+            .table("finish", &SolidSpec::finish, finishSection(), "Appearance; default that of the compound.")
             .take();
     return section;
 }

@@ -102,20 +102,18 @@ std::vector<Function> bodyFunctions() {
                          false,
                          false,
                          "m²",
-                         "Area of the bodies' shadow in light along an axis, places under several layers counted once. "
-                         "Ropes and nets have none.",
+                         "Area of the bodies' projection along an axis, layers counted once. Ropes and nets have none.",
                          shadow,
                          {}});
-    functions.push_back(
-        {"enclosed",
-         {Takes::bodies},
-         false,
-         false,
-         "m³",
-         "Volume that the bodies' surfaces enclose, also several that are sewn together; what is open is closed by "
-         "a cone to its middle.",
-         enclosed,
-         {}});
+    functions.push_back({"enclosed",
+                         {Takes::bodies},
+                         false,
+                         false,
+                         "m³",
+                         "Volume enclosed by the bodies' surfaces, also by several sewn together; open surfaces are "
+                         "closed by a cone to their middle.",
+                         enclosed,
+                         {}});
     return functions;
 }
 

@@ -50,7 +50,7 @@ std::string functionsManual() {
     for (const Function& function : functionTable()) {
         const std::string unit = function.unit.empty() ? "" : fmt::format(" [{}]", function.unit);
         const char* kind = function.isVector ? "a vector" : "a number";
-        const char* bare = function.mayBeBare ? "; of everything without (…)" : "";
+        const char* bare = function.mayBeBare ? "; without (…) of all bodies" : "";
         out += fmt::format("  {:<24} {}{}{}\n{:<27}{}\n", function.signature(), kind, unit, bare, "", function.help);
     }
     return out;

@@ -22,7 +22,7 @@ std::vector<Function> jointFunctions() {
          true,
          false,
          "",
-         "Number of points that joints of a name still tie, or all joints.",
+         "Number of points still tied by the joints of a name, or by all joints.",
          jointsLeft,
          {}},
     };

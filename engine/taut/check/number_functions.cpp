@@ -26,8 +26,8 @@ Quantity length(const Now& now, Arguments a) {
 
 std::vector<Function> numberFunctions() {
     return {
-        {"time", {}, true, false, "s", "Since the start.", time, {}},
-        {"abs", {Takes::number}, false, false, "", "A number without its sign.", absolute, {}},
+        {"time", {}, true, false, "s", "Time since the start.", time, {}},
+        {"abs", {Takes::number}, false, false, "", "Absolute value of a number.", absolute, {}},
         {"length", {Takes::vector}, false, false, "", "Length of a vector.", length, {}},
     };
 }

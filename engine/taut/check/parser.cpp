@@ -60,7 +60,7 @@ class Parser {
         }
         if (claim.relations.empty()) fail(at_, "a claim compares two things", "add e.g. < 0.1");
         if (std::none_of(claim.terms.begin(), claim.terms.end(), [](const Expression& e) { return e.isMeasured(); }))
-            fail(claim.terms.front().begin, "this claim says nothing about the scene");
+            fail(claim.terms.front().begin, "this claim does not depend on the scene");
         return claim;
     }
 

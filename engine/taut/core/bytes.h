@@ -1,5 +1,5 @@
-// Numbers and texts as bytes and back: little-endian, in the order of writing, the same on every machine. It knows
-// neither files nor what the numbers mean.
+// Numbers and texts as bytes and back: little-endian, in the order of writing, the same on every machine. Independent
+// of files and of the meaning of the numbers.
 #pragma once
 
 #include <bit>
@@ -45,7 +45,7 @@ class ByteWriter {
     std::vector<std::byte> bytes_;
 };
 
-// Reads what a ByteWriter wrote. Every call throws Error(badContent) when the bytes end too early.
+// Reads the bytes of a ByteWriter. Every call throws Error(badContent) if the bytes end too early.
 class ByteReader {
   public:
     explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -73,9 +73,7 @@ class ByteReader {
         return items;
     }
     bool isAtEnd() const { return bytes_.empty(); }
-    [[noreturn]] static void fail() {
-        throw Error(ErrorKind::badContent, "the bytes end too early, or are not what they say");
-    }
+    [[noreturn]] static void fail() { throw Error(ErrorKind::badContent, "the bytes are truncated or damaged"); }
 
   private:
     // The length of a list whose items take so many bytes each: never more than there is.

@@ -85,18 +85,19 @@ class AnchorForce final : public ForceOf<AnchorForce> {
 
 Section AnchorSpec::section() {
     Section section;
-    section.help = "Springs of no length from points to a place.";
-    section.fields = FieldList<AnchorSpec>()
-                         .text("target", &AnchorSpec::target, Role::points, "The points: KIND.NAME@SELECTOR.")
-                         .required()
-                         .vector("at", &AnchorSpec::at, "m", placeRange, "The place.")
-                         .ramps(Affects::forces)
-                         .required()
-                         .number("stiffness_N_per_m", &AnchorSpec::stiffness, "N/m", notNegative, "Of each point.")
-                         .ramps(Affects::forces)
-                         .number("damping_kg_per_s", &AnchorSpec::damping, "kg/s", notNegative, "Of each point.")
-                         .ramps(Affects::forces)
-                         .take();
+    section.help = "Springs of rest length 0 from points to a place.";
+    section.fields =
+        FieldList<AnchorSpec>()
+            .text("target", &AnchorSpec::target, Role::points, "Points: KIND.NAME@SELECTOR.")
+            .required()
+            .vector("at", &AnchorSpec::at, "m", placeRange, "Place.")
+            .ramps(Affects::forces)
+            .required()
+            .number("stiffness_N_per_m", &AnchorSpec::stiffness, "N/m", notNegative, "Spring constant of each point.")
+            .ramps(Affects::forces)
+            .number("damping_kg_per_s", &AnchorSpec::damping, "kg/s", notNegative, "Damping constant of each point.")
+            .ramps(Affects::forces)
+            .take();
     return section;
 }
 

@@ -116,14 +116,12 @@ class FillingForce final : public ForceOf<FillingForce> {
                 "is open along {} edges, so that it encloses nothing; close the mesh, or weld or sew the edges of "
                 "its parts",
                 chamber.openEdges));
-        if (chamber.isTwisted) fail("has one side only, as a Möbius strip has, and encloses nothing");
+        if (chamber.isTwisted) fail("has only one side, like a Möbius strip, and encloses nothing");
         if (law_.keeps == FillingKeeps::amount && law_.sealedIn + pressure_.to < 0)
-            fail(fmt::format(
-                "would hold less than nothing: {:.6g} Pa are less than the air has, world.air_pressure_Pa = "
-                "{:.6g}",
-                pressure_.to, law_.sealedIn));
+            fail(fmt::format("would have a negative pressure: pressure_Pa = {:.6g}, and world.air_pressure_Pa = {:.6g}",
+                             pressure_.to, law_.sealedIn));
         if (law_.keeps != FillingKeeps::pressure && !(chamber.firstVolume > 0))
-            fail("is flat when the scene starts, and has no volume to keep; keeps = \"pressure\" blows it up");
+            fail("is flat when the scene starts, and has no volume to keep; keeps = \"pressure\" inflates it");
     }
 
     FillingSpec spec_;
@@ -135,27 +133,27 @@ class FillingForce final : public ForceOf<FillingForce> {
 
 Section FillingSpec::section() {
     Section section;
-    section.help = "A gas or a liquid that a closed surface holds; what is cut or torn open holds nothing any more.";
+    section.help = "A gas or liquid in a closed surface; cut or torn surfaces hold none.";
     section.variantKey = "keeps";
     section.variant = [](const fields::Node& table) {
         const std::string own = table.textAt("keeps");
         return own.empty() ? "pressure" : own;
     };
-    section.fields =
-        FieldList<FillingSpec>()
-            .texts("in", &FillingSpec::in, Role::bodies,
-                   "Bodies whose surfaces enclose it, alone, welded or sewn together; each closed part has its own.")
-            .required()
-            .number("pressure_Pa", &FillingSpec::pressure, "Pa", Range{-1e5, 1e7},
-                    "How much more than the air outside it presses, at the volume of the start.")
-            .ramps(Affects::forces)
-            .choice("keeps", &FillingSpec::keeps, {"pressure", "amount", "volume"},
-                    "What stays as it is: the pressure, as of a pump; the amount of a sealed gas, whose pressure times "
-                    "volume stays; or the volume, as of a liquid.")
-            .number("bulk_modulus_Pa", &FillingSpec::bulkModulus, "Pa", Range{1.0, 1e10},
-                    "What resists a change of the kept volume, times its share.")
-            .only({"volume"})
-            .take();
+    section.fields = FieldList<FillingSpec>()
+                         .texts("in", &FillingSpec::in, Role::bodies,
+                                "Bodies whose surfaces enclose it, alone, welded or sewn together; each closed part "
+                                "has its own filling.")
+                         .required()
+                         .number("pressure_Pa", &FillingSpec::pressure, "Pa", Range{-1e5, 1e7},
+                                 "Pressure above that of the air outside, at the initial volume.")
+                         .ramps(Affects::forces)
+                         .choice("keeps", &FillingSpec::keeps, {"pressure", "amount", "volume"},
+                                 "Conserved quantity: the pressure, as of a pump; the amount of a sealed gas, pressure "
+                                 "times volume; or the volume, as of a liquid.")
+                         .number("bulk_modulus_Pa", &FillingSpec::bulkModulus, "Pa", Range{1.0, 1e10},
+                                 "Pressure per relative change of a kept volume.")
+                         .only({"volume"})
+                         .take();
     return section;
 }
 

@@ -115,23 +115,23 @@ Section WindSpec::section() {
     gust.fields = FieldList<WindSpec>()
                       .number("amplitude", &WindSpec::gustAmplitude, "m/s", Range{0.0, 1e3}, "Strength.")
                       .ramps(Affects::forces)
-                      .number("period_s", &WindSpec::gustPeriod, "s", Range{1e-3, 1e6}, "Time of a change.")
+                      .number("period_s", &WindSpec::gustPeriod, "s", Range{1e-3, 1e6}, "Period of a gust.")
                       .number("length_m", &WindSpec::gustLength, "m", Range{1e-3, 1e6}, "Size of an eddy.")
-                      .whole("seed", &WindSpec::gustSeed, "", Range{0.0, 1e12}, "Seed: the same gusts each time.")
+                      .whole("seed", &WindSpec::gustSeed, "", Range{0.0, 1e12}, "Seed of the gusts.")
                       .take();
     Section section;
     section.help = "Moving air.";
-    section.fields = FieldList<WindSpec>()
-                         .vector("velocity", &WindSpec::velocity, "m/s", Range{-1e3, 1e3}, "Mean velocity.")
-                         .ramps(Affects::forces)
-                         .tableOfSelf("gust", gust, "How it changes in space and time.")
-                         .number("drag", &WindSpec::drag, "", Range{0.0, 100.0}, "Drag coefficient across the flow.")
-                         .ramps(Affects::forces)
-                         .number("lift", &WindSpec::lift, "", Range{0.0, 100.0}, "Lift coefficient.")
-                         .ramps(Affects::forces)
-                         .texts("on", &WindSpec::on, Role::anyBodies,
-                                "Bodies it acts on, e.g. \"cloth.*\"; every cloth if not given.")
-                         .take();
+    section.fields =
+        FieldList<WindSpec>()
+            .vector("velocity", &WindSpec::velocity, "m/s", Range{-1e3, 1e3}, "Mean velocity.")
+            .ramps(Affects::forces)
+            .tableOfSelf("gust", gust, "Variation in space and time.")
+            .number("drag", &WindSpec::drag, "", Range{0.0, 100.0}, "Drag coefficient across the flow.")
+            .ramps(Affects::forces)
+            .number("lift", &WindSpec::lift, "", Range{0.0, 100.0}, "Lift coefficient.")
+            .ramps(Affects::forces)
+            .texts("on", &WindSpec::on, Role::anyBodies, "Bodies it acts on, e.g. \"cloth.*\"; default every cloth.")
+            .take();
     return section;
 }
 

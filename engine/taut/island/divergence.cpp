@@ -41,7 +41,7 @@ std::string explainDivergence(const Divergence& d, const Fault& fault, const Ste
     if (d.safeStep > 0 && choice.step > d.safeStep)
         text += "  remedy: dt = " + inSeconds(d.safeStep) + " or less holds in any shape; dt = \"auto\" finds it\n";
     else if (fault.byContact)
-        text += "  remedy: look at what presses it there: what starts in another, or is led into it\n";
+        text += "  remedy: look for pressure there: bodies that start in another, or are led into it\n";
     else if (d.limit > 0)
         text +=
             "  the step is within the limit, so something else feeds energy in: look at colliders that move fast, "
@@ -76,7 +76,7 @@ std::string unconvergedWarning(const ode::Work& work, const IslandPlan& plan) {
 std::string explainFreeze(const FrozenIsland& frozen, const StepChoice& choice, std::string_view methodTitle) {
     const std::string others =
         frozen.bodies.size() > 1 ? format(" (with %zu more)", frozen.bodies.size() - 1) : std::string();
-    return format("%s%s diverged at t = %.4f s under %s with h = %s and is frozen there; the rest goes on",
+    return format("%s%s diverged at t = %.4f s under %s with h = %s and is frozen there; the rest continues",
                   frozen.name.c_str(), others.c_str(), frozen.divergence.time, std::string(methodTitle).c_str(),
                   inSeconds(choice.step).c_str());
 }

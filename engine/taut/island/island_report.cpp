@@ -74,8 +74,8 @@ std::string contactWarning(const Island& island) {
     if (!budget.isOverdrawn()) return {};
     char text[300];
     std::snprintf(text, sizeof text,
-                  ": contact has added %.2g J, %.0f %% of the most energy at a touch: what a step of %s leads into a "
-                  "collider is brought out of it against its springs; ",
+                  ": contact has added %.2g J, %.0f %% of the most energy at a touch: the motion of a step of %s into "
+                  "a collider is undone against its springs; ",
                   budget.most, 100.0 * budget.most / budget.sum.atTouch, inSeconds(island.step()).c_str());
     return island.plan().bodies.front()->fullName() + text +
            (island.plan().solver.dt ? "give dt = \"auto\", or a shorter one"

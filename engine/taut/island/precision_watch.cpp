@@ -19,11 +19,10 @@ std::string warningOf(const IslandPlan& plan, const Dynamics& dynamics, int poin
     const auto [body, number] = authored(plan, point);
     const double speed = dynamics.freezingSpeed(x[plane]);
     char text[400];
-    std::snprintf(
-        text, sizeof text,
-        ": in single precision point %d at [%.4g, %.4g, %.4g] does not move along %c below %.2g m/s: rounding "
-        "takes what a step of %s adds to the coordinate; give precision = \"double\", or longer steps",
-        number, x.x, x.y, x.z, "xyz"[plane], speed, inSeconds(step).c_str());
+    std::snprintf(text, sizeof text,
+                  ": in single precision point %d at [%.4g, %.4g, %.4g] does not move along %c below %.2g m/s: "
+                  "rounding removes the motion of a step of %s; give precision = \"double\", or longer steps",
+                  number, x.x, x.y, x.z, "xyz"[plane], speed, inSeconds(step).c_str());
     const bool isSet = !plan.solver.dt && !limitingSpring.empty();
     return (body != nullptr ? body : plan.bodies.front())->fullName() + text +
            (isSet ? "; set by the " + limitingSpring : "");

@@ -229,8 +229,7 @@ void warnOfTears(const IslandPlan& plan, const ode::MethodInfo& method, StepChoi
     for (const Body* body : plan.bodies)
         if (body->plasticity.breakStrain || body->plasticity.yieldStrain) {
             choice.warnings.push_back(
-                body->fullName() + ": what tears or yields is looked for at every step, and " +
-                std::string(method.title) +
+                body->fullName() + ": tears and yield are evaluated at every step, and " + std::string(method.title) +
                 " takes one a tick: give a dt, such as 0.001, so that the picture rate has no say");
             return;
         }

@@ -86,7 +86,9 @@ std::vector<Entry> entriesOf(const Recording& recording) {
 }
 
 std::string claimsText(const Recording& recording) {
-    std::string text = "\n# Proposed checks, from what was measured; take those that should hold.\n";
+    std::string text =
+        "\n"
+        "# Proposed checks, from measured values; keep the ones that should hold.\n";
     if (recording.hasClaims) text += "golden = []\n";
     text += "check = [\n";
     for (const auto& [body, strain] : recording.strains) {
@@ -146,8 +148,8 @@ std::string scenarioText(const Recording& recording) {
     for (const std::string& change : recording.overrides) {
         const std::string line = overrideLine(change);
         if (line.empty()) {
-            beside +=
-                fmt::format("# It was played with --set '{}', which this file cannot say: render it so too.\n", change);
+            beside += fmt::format(
+                "# It was played with --set '{}', which is not part of this file: render it with that too.\n", change);
             continue;
         }
         const std::string key = line.substr(0, line.find(" = "));

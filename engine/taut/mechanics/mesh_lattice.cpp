@@ -352,7 +352,7 @@ Grid gridOf(const Box& box, double side) {
                             static_cast<int>(t));
     }
     throw MeshFault(fmt::format("the mesh crosses itself, so that a part of it near [{:.3g}, {:.3g}, {:.3g}] is inside "
-                                "out; pull apart what goes through itself",
+                                "out; separate the crossing parts",
                                 x.x, x.y, x.z),
                     -1);
 }

@@ -141,7 +141,7 @@ MethodInfo sdirk2() {
             .storedArrays = 13,
             .symplectic = false,
             .reversible = false,
-            .limit = "none on linear problems; two solves a step, and what is too fast for it dies out",
+            .limit = "none on linear problems; two solves a step; fast modes are damped",
             .caution = "",
             .largestStep = unlimitedStep,
             .automaticStep = unlimitedStep,

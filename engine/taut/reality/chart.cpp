@@ -130,7 +130,7 @@ report::Chart drapeChart(const std::vector<DrapeBand>& bands, const std::vector<
     report::Chart chart;
     chart.title = "Cloth of 15 cm over a disc of 9 cm";
     chart.subtitle =
-        "Bending and its friction are measured, the weight is not: each curve is what weights would give, no "
+        "Bending and its friction are measured, the weight is not: each curve shows the influence of the weight, not a "
         "prediction";
     chart.panels = {panel};
     chart.panelWidth = 760;

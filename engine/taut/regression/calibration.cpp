@@ -87,7 +87,7 @@ class Calibration {
                 thresholds(), noiseMargin, 100.0 * row.share, 100.0 * row.tileShare, row.offset,
                 row.pictureDiffers ? "fails" : "might fail elsewhere");
         if (row.hasState && row.stateDiffers)
-            row.refusal = "the state itself is not the same again: nothing can be said of its goldens";
+            row.refusal = "the state differs between runs: its goldens cannot be calibrated";
         rows_.push_back(std::move(row));
     }
 

@@ -75,7 +75,7 @@ TestState judgedState(const Scenario& scenario, const Played& played, const Gold
                                            golden.ticks());
         } else if (hexadecimal(golden.chain.back()) != goldens.state->lastHash) {
             state.verdict = Verdict::failed;
-            state.reason = fmt::format("{} ends with another hash than the manifest says", file.string());
+            state.reason = fmt::format("{} ends with another hash than that of the manifest", file.string());
         }
     } catch (const core::Error& error) {
         state.verdict = Verdict::failed;

@@ -132,10 +132,10 @@ std::shared_ptr<const Layer> depthLayer(double unit) {
 
 LayerKind depthKind() {
     LayerKind kind{"depth",
-                   "Beside each frame a 16-bit grey NAME.depth.png: 0-65534 is 0 to --depth-range ahead of the camera "
-                   "along its axis, 1 mm a step if not given; 65535 is the background"};
+                   "Write a 16-bit grey NAME.depth.png beside each frame: 0-65534 is 0 to --depth-range ahead of the "
+                   "camera along its axis, by default 1 mm a step; 65535 is the background"};
     kind.number = {.name = "depth-range",
-                   .help = "What 65534 stands for in --depth [m]; farther counts as that",
+                   .help = "Depth of the value 65534 in --depth [m]; larger depths are clamped",
                    .unit = "METRES",
                    .standard = 65.534,  // a millimetre a step
                    .least = 1e-3,

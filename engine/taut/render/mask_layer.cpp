@@ -68,8 +68,9 @@ std::shared_ptr<const Layer> maskLayer(std::map<std::string, std::uint32_t> colo
 }
 
 LayerKind maskKind() {
-    LayerKind kind{
-        "mask", "Beside each frame a NAME.mask.png: one flat colour a body, black where none is; run.json says which"};
+    LayerKind kind{"mask",
+                   "Write a NAME.mask.png beside each frame: one flat colour per body, black elsewhere; run.json lists "
+                   "the colours"};
     kind.ask = [](double, const view::FrameView& first) -> std::shared_ptr<const Layer> {
         MaskColours colours;
         for (const view::Surface& surface : first.surfaces)

@@ -169,7 +169,7 @@ std::string calibrationPart(const std::vector<CalibrationRow>& rows) {
     std::string text =
         "<details class=\"scenario\" id=\"calibration\" open>\n<summary><span></span><h2>Calibration<span "
         "class=\"title\">"
-        "what the thresholds let through and what they find</span></h2><span></span></summary><div class=\"inside\">\n"
+        "errors missed and found by the thresholds</span></h2><span></span></summary><div class=\"inside\">\n"
         "<table class=\"cal\"><tr><th>scenario</th><th>picture</th><th>against</th><th class=\"number\">pixels</th>"
         "<th class=\"number\">worst tile</th><th class=\"number\">mean</th><th "
         "class=\"number\">largest</th><th>picture</th><th>state</th>"

@@ -171,7 +171,7 @@ void useState(const Asset& asset, Place place, world::RunSpec& run, Problems& pr
         problems.addError(place,
                           fmt::format("this state was kept at {:.6g} s, when the run is over: seconds is {:.6g}",
                                       seconds, run.seconds),
-                          "the run goes on from the time of the state: make seconds larger");
+                          "the run continues from the time of the state: make seconds larger");
 }
 
 // Replaces names by what was found.

@@ -101,7 +101,7 @@ std::optional<TargetFault> BodyIndex::pointsFault(const std::string& target) con
     if (auto fault = bodiesFault(target)) return fault;
     const std::size_t at = target.find('@');
     if (at == std::string::npos) {
-        return TargetFault{fmt::format("\"{}\" does not say which points", target),
+        return TargetFault{fmt::format("\"{}\" selects no points", target),
                            fmt::format("write {}@all or another selector", target)};
     }
     const std::string selector = target.substr(at + 1);

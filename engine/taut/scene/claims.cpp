@@ -125,7 +125,7 @@ class Claims {
             problems_.addWarning(
                 problems_.placeInside(that.place, that.text, at),
                 fmt::format("{}: {}", what,
-                            call.function->isBetween() ? "however near they are, they go through each other"
+                            call.function->isBetween() ? "it passes through other bodies"
                                                        : call.function->name + " is always 0"),
                 isOfFaces ? "give it collide = \"faces\", or touch" : "give it touch = \"others\" or \"all\"");
         };

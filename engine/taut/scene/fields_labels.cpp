@@ -44,20 +44,19 @@ SceneSection labelSection() {
     };
     section.fields =
         FieldList<LabelSpec>()
-            .text("text", &LabelSpec::text, Role::none,
-                  "What it says; of bodies the name of their method if not given.")
-            .vector("at", &LabelSpec::at, "m", Range{-1e6, 1e6}, "The place that it stands on.")
+            .text("text", &LabelSpec::text, Role::none, "Text; of bodies by default the name of their method.")
+            .vector("at", &LabelSpec::at, "m", Range{-1e6, 1e6}, "Place in the world.")
             .only({inWorld})
             .vector("screen", &LabelSpec::screen, "", Range{-1.0, 2.0},
-                    "Where its base line is, from the top left, as shares of the picture's width and height.")
+                    "Place of the base line from the top left, as shares of the picture's width and height.")
             .only({onScreen})
             .text("of", &LabelSpec::of, Role::anyBodies,
-                  "The bodies that it hangs above, e.g. \"cloth.*\"; a second line says when one has diverged.")
+                  "Bodies below the label, e.g. \"cloth.*\"; a second line marks divergence.")
             .only({ofBodies})
             .number("size", &LabelSpec::size, "", Range{0.005, 0.5},
-                    "Size of the type as a share of the picture's height.")
-            .colour("colour", &LabelSpec::colour, "Of the letters; they have a dark rim.")
-            .choice("align", &LabelSpec::align, {"left", "centre", "right"}, "What of the text is at its place.")
+                    "Height of the type as a share of the picture's height.")
+            .colour("colour", &LabelSpec::colour, "Colour of the letters; they have a dark rim.")
+            .choice("align", &LabelSpec::align, {"left", "centre", "right"}, "Alignment of the text at its place.")
             .number("plate", &LabelSpec::plate, "", share, "Darkness of a plate behind the text.")
             .take();
     section.check = [](const CheckInput& input, void* target) {

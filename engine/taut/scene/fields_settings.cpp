@@ -38,11 +38,9 @@ void checkCamera(const CheckInput& input, const CameraSpec& camera) {
 
 SceneSection fileSection() {
     SceneSection section;
-    section.help = "At the top of the file, before the first table.";
+    section.help = "Keys at the top of the file, before the first table.";
     section.enter = [](SceneSpec& scene, const std::string&, const Source&) -> void* { return &scene; };
-    section.fields = FieldList<SceneSpec>()
-                         .text("title", &SceneSpec::title, Role::none, "What the scene shows, in a few words.")
-                         .take();
+    section.fields = FieldList<SceneSpec>().text("title", &SceneSpec::title, Role::none, "Title of the scene.").take();
     Field schema;
     schema.key = "schema";
     schema.kind = FieldKind::whole;
@@ -58,8 +56,8 @@ SceneSection fileSection() {
     base.range = anyNumber;
     base.required = false;
     base.help =
-        "A scene that this file builds on, beside it or a shipped one, with \"shipped:NAME\" always the latter: tables "
-        "are merged, all else is replaced.";
+        "Base scene, a file beside this one or a shipped scene, with \"shipped:NAME\" always the latter: tables are "
+        "merged, all else is replaced.";
     section.fields.push_back(base);
     return section;
 }
@@ -67,17 +65,17 @@ SceneSection fileSection() {
 SceneSection needSection() {
     SceneSection section;
     section.name = "need";
-    section.help = "What \"accurate enough\" means for this scene.";
+    section.help = "Required accuracy of the scene.";
     section.enter = enterPart(&SceneSpec::need);
     section.fields =
         FieldList<NeedSpec>()
             .number("rms_position_m", &NeedSpec::rmsPosition, "m", positive,
                     "Largest RMS error of positions, over points and time.")
             .number("rms_percent", &NeedSpec::rmsPercent, "%", Range{1e-9, 100.0},
-                    "The same as a share of the bounding box.")
-            .number("rms_pixels", &NeedSpec::rmsPixels, "px", positive, "The same in pixels of the picture.")
-            .number("horizon_s", &NeedSpec::horizon, "s", seconds, "Until when the error counts.")
-            .number("budget_ms", &NeedSpec::budget, "ms", positive, "Time that a frame may cost.")
+                    "Largest RMS error as a share of the bounding box.")
+            .number("rms_pixels", &NeedSpec::rmsPixels, "px", positive, "Largest RMS error in pixels of the picture.")
+            .number("horizon_s", &NeedSpec::horizon, "s", seconds, "Time until which the error counts.")
+            .number("budget_ms", &NeedSpec::budget, "ms", positive, "Largest processor time of a frame.")
             .take();
     return section;
 }
@@ -85,29 +83,30 @@ SceneSection needSection() {
 SceneSection solverSection() {
     SceneSection section;
     section.name = "solver";
-    section.help = "How the motion is computed.";
+    section.help = "Integration.";
     section.enter = enterPart(&SceneSpec::solver);
     section.fields =
         FieldList<SolverSpec>()
             .choice("integrator", &SolverSpec::integrator, methodNames(), "Method of integration.")
             .role(Role::method)
-            .stepLength("dt", &SolverSpec::dt, "Largest step; \"auto\" finds it from the stability limit.")
+            .stepLength("dt", &SolverSpec::dt, "Largest step; \"auto\" uses the stability limit.")
             .number("safety", &SolverSpec::safety, "", Range{0.01, 1.0},
                     "Share of the stability limit that \"auto\" uses.")
-            .choice("precision", &SolverSpec::precision, {"single", "double"}, "Precision of the computed numbers.")
-            .whole("newton_steps", &SolverSpec::newtonSteps, "", Range{1, 100},
-                   "Of implicit Euler: Newton steps a step, at most; 1 solves the linearised equations only.")
-            .number(
-                "cg_tolerance", &SolverSpec::cgTolerance, "", Range{1e-12, 0.1},
-                "Of implicit methods: residual over right-hand side at which a solve ends; 1e-6 at least in single.")
+            .choice("precision", &SolverSpec::precision, {"single", "double"}, "Precision of the state.")
+            .whole(
+                "newton_steps", &SolverSpec::newtonSteps, "", Range{1, 100},
+                "Largest number of Newton steps of a step of implicit Euler; 1 solves the linearised equations only.")
+            .number("cg_tolerance", &SolverSpec::cgTolerance, "", Range{1e-12, 0.1},
+                    "Residual over right-hand side at which a solve of implicit methods ends; at least 1e-6 in single "
+                    "precision.")
             .whole("cg_iterations", &SolverSpec::cgIterations, "", Range{1, 1e6},
-                   "Of implicit methods: conjugate-gradient iterations of a solve, at most.")
+                   "Largest number of conjugate-gradient iterations of a solve of implicit methods.")
             .choice("on_divergence", &SolverSpec::onDivergence, {"stop", "freeze"},
-                    "Whether a body that diverges stops the run, or is kept as it last was and marked in the picture.")
+                    "Whether a diverging body stops the run, or is frozen and marked in the picture.")
             .number("freeze_strain", &SolverSpec::freezeStrain, "", Range{0.01, 1e6},
                     "Strain of a spring that counts as diverged, with on_divergence = \"freeze\".")
             .number("sleep_error_m", &SolverSpec::sleepError, "m", Range{0.0, 1.0},
-                    "What rests sleeps if no point could move further than this; 0: nothing sleeps.")
+                    "Largest position error of sleeping bodies; 0: nothing sleeps.")
             .take();
     return section;
 }
@@ -115,7 +114,7 @@ SceneSection solverSection() {
 SceneSection worldSection() {
     SceneSection section;
     section.name = "world";
-    section.help = "The surroundings.";
+    section.help = "Surroundings.";
     section.enter = enterPart(&SceneSpec::world);
     section.existing = findPart(&SceneSpec::world);
     section.fields = FieldList<WorldSpec>()
@@ -125,7 +124,7 @@ SceneSection worldSection() {
                                  "Density of the air, for wind.")
                          .ramps(Affects::forces)
                          .number("air_pressure_Pa", &WorldSpec::airPressure, "Pa", Range{0.0, 1e9},
-                                 "Pressure of the air, against which a sealed filling stands; 0: none.")
+                                 "Pressure of the air outside sealed fillings; 0: none.")
                          .ramps(Affects::forces)
                          .take();
     return section;
@@ -134,17 +133,15 @@ SceneSection worldSection() {
 SceneSection contactSection() {
     SceneSection section;
     section.name = "contact";
-    section.help = "Between bodies that touch.";
+    section.help = "Contact between bodies with `touch`.";
     section.enter = enterPart(&SceneSpec::contact);
     section.fields = FieldList<ContactSpec>()
                          .number("friction", &ContactSpec::friction, "", Range{0.0, 100.0},
-                                 "Coulomb's friction between two bodies, times the factors of both.")
+                                 "Coulomb's coefficient between two bodies, times the factors of the two bodies.")
                          .number("restitution", &ContactSpec::restitution, "", Range{0.0, 1.0},
-                                 "Speed of two bodies after they bounce off each other over speed before, times the "
-                                 "factors of both.")
+                                 "Speed after a bounce over speed before, times the factors of the two bodies.")
                          .whole("detections", &ContactSpec::detections, "", Range{1, 1024},
-                                "Times in a tick that it is found what may meet, at least; as many as speeds ask for "
-                                "if not given.")
+                                "Smallest number of detections of contact pairs in a tick; default as speeds need.")
                          .take();
     return section;
 }
@@ -152,15 +149,15 @@ SceneSection contactSection() {
 SceneSection runSection() {
     SceneSection section;
     section.name = "run";
-    section.help = "How long the scene runs.";
+    section.help = "Length of the scene.";
     section.enter = enterPart(&SceneSpec::run);
     section.fields = FieldList<RunSpec>()
-                         .number("fps", &RunSpec::fps, "1/s", Range{0.1, 1000.0}, "Pictures a second of scene time.")
+                         .number("fps", &RunSpec::fps, "1/s", Range{0.1, 1000.0}, "Pictures per second of scene time.")
                          .number("seconds", &RunSpec::seconds, "s", seconds, "Length of the run.")
                          .role(Role::time)
                          .text("start", &RunSpec::start, Role::state,
-                               "File of a state that an earlier run of the same bodies kept (taut render "
-                               "--keep-state): the run goes on from it, at its time.")
+                               "File of a state of an earlier run of the same bodies (taut render --keep-state): the "
+                               "run continues from it, at its time.")
                          .take();
     return section;
 }
@@ -168,19 +165,19 @@ SceneSection runSection() {
 SceneSection pictureSection() {
     SceneSection section;
     section.name = "picture";
-    section.help = "The picture.";
+    section.help = "Picture.";
     section.enter = enterPart(&SceneSpec::picture);
     section.fields =
         FieldList<PictureSpec>()
             .vector("size", &PictureSpec::size, "px", Range{16, 16384}, "Width and height.")
-            .text("camera", &PictureSpec::camera, Role::camera, "Name of the camera; the first by name if not given.")
+            .text("camera", &PictureSpec::camera, Role::camera, "Name of the camera; default the first by name.")
             .whole("samples", &PictureSpec::samples, "", Range{1, 16},
-                   "Samples a pixel, against jagged edges; 8 and 16 draw a picture two and four times.")
+                   "Anti-aliasing: samples per pixel; 8 and 16 draw a picture two and four times.")
             .oneOf({1, 4, 8, 16})
             .whole("shadow_size", &PictureSpec::shadowSize, "px", Range{128, 16384}, "Edge of the shadow map.")
             .multipleOf(128)
             .whole("smooth", &PictureSpec::smooth, "", Range{0.0, 3.0},
-                   "In place of finish.smooth of every cloth and rope.")
+                   "Replaces finish.smooth of every cloth and rope.")
             .take();
     return section;
 }
@@ -193,15 +190,15 @@ SceneSection lightSection() {
     section.existing = findPart(&SceneSpec::light);
     section.fields =
         FieldList<LightSpec>()
-            .direction("direction", &LightSpec::direction, "The way the light travels; any length.")
+            .direction("direction", &LightSpec::direction, "Direction in which the light travels; any length.")
             .ramps(inPicture)
             .colour("colour", &LightSpec::colour, "Colour of the direct light.")
             .ramps(inPicture)
             .number("intensity", &LightSpec::intensity, "", Range{0.0, 1000.0}, "Strength of the direct light.")
             .ramps(inPicture)
             .degrees("softness_deg", &LightSpec::softness, lightSize,
-                     "Apparent size of the light: a penumbra is 2 tan(size / 2) as wide as what throws the shadow is "
-                     "far; 0: hard.")
+                     "Apparent size of the sun: the width of a penumbra is 2 tan(size / 2) times the distance of the "
+                     "object that casts it; 0: hard.")
             .ramps(inPicture)
             .colour("sky", &LightSpec::sky, "Ambient light from above.")
             .ramps(inPicture)
@@ -216,7 +213,7 @@ SceneSection lightSection() {
 SceneSection environmentSection() {
     SceneSection section;
     section.name = "environment";
-    section.help = "A picture of all that is around, far away, which lights in place of the light's sky and ground.";
+    section.help = "A distant picture around the scene that replaces the light of sky and ground.";
     section.enter = enterPart(&SceneSpec::environment);
     section.existing = findPart(&SceneSpec::environment);
     section.fields =
@@ -227,9 +224,9 @@ SceneSection environmentSection() {
             .required()
             .number("strength", &EnvironmentSpec::strength, "", Range{0.0, 1000.0}, "Factor on its light.")
             .ramps(inPicture)
-            .degrees("turn_deg", &EnvironmentSpec::turn, Range{-3600.0, 3600.0}, "Turns it about the vertical.")
+            .degrees("turn_deg", &EnvironmentSpec::turn, Range{-3600.0, 3600.0}, "Rotation about the vertical.")
             .ramps(inPicture)
-            .flag("visible", &EnvironmentSpec::visible, "Whether it is seen in place of the background.")
+            .flag("visible", &EnvironmentSpec::visible, "Whether it is visible in place of the background.")
             .take();
     return section;
 }
@@ -238,20 +235,20 @@ SceneSection lampSection() {
     SceneSection section;
     section.name = "lamp";
     section.layout = Layout::named;
-    section.help = "A light beside the sun and as far away, e.g. to fill shadows or to draw an outline; at most two.";
+    section.help = "A further distant light, e.g. to fill shadows or to draw an outline; at most two.";
     section.enter = enterNamed(&SceneSpec::lamps);
     section.existing = findNamed(&SceneSpec::lamps);
     section.fields =
         FieldList<LampSpec>()
-            .direction("direction", &LampSpec::direction, "The way the light travels; any length.")
+            .direction("direction", &LampSpec::direction, "Direction in which the light travels; any length.")
             .ramps(inPicture)
-            .colour("colour", &LampSpec::colour, "Its colour.")
+            .colour("colour", &LampSpec::colour, "Colour.")
             .ramps(inPicture)
-            .number("intensity", &LampSpec::intensity, "", Range{0.0, 1000.0}, "Its strength.")
+            .number("intensity", &LampSpec::intensity, "", Range{0.0, 1000.0}, "Strength.")
             .ramps(inPicture)
-            .degrees("softness_deg", &LampSpec::softness, lightSize, "Its apparent size, as that of the sun.")
+            .degrees("softness_deg", &LampSpec::softness, lightSize, "Apparent size, as that of the sun.")
             .ramps(inPicture)
-            .flag("shadow", &LampSpec::shadow, "Whether things throw shadows in it, which cost as much as the sun's.")
+            .flag("shadow", &LampSpec::shadow, "Whether it casts shadows, which cost as much as those of the sun.")
             .take();
     return section;
 }
@@ -259,7 +256,7 @@ SceneSection lampSection() {
 SceneSection backgroundSection() {
     SceneSection section;
     section.name = "background";
-    section.help = "What lies behind everything.";
+    section.help = "Background.";
     section.enter = enterPart(&SceneSpec::background);
     section.existing = findPart(&SceneSpec::background);
     section.fields =
@@ -268,12 +265,11 @@ SceneSection backgroundSection() {
             .ramps(inPicture)
             .colour("horizon", &BackgroundSpec::horizon, "Colour at the horizon.")
             .ramps(inPicture)
-            .number(
-                "fade_start", &BackgroundSpec::fadeStart, "m", notNegative,
-                "Distance from the camera's target where the ground begins to fade; further if the camera is far and "
-                "neither this nor fade_end is given.")
+            .number("fade_start", &BackgroundSpec::fadeStart, "m", notNegative,
+                    "Distance from the camera's target at which the ground begins to fade; by default larger for "
+                    "distant cameras.")
             .ramps(inPicture)
-            .number("fade_end", &BackgroundSpec::fadeEnd, "m", positive, "Distance where the ground has gone.")
+            .number("fade_end", &BackgroundSpec::fadeEnd, "m", positive, "Distance at which the ground has faded.")
             .ramps(inPicture)
             .take();
     section.check = [](const CheckInput& input, void* target) {
@@ -290,22 +286,22 @@ SceneSection backgroundSection() {
 SceneSection cameraSection() {
     // A keyframe.
     Section key;
-    key.fields = FieldList<CameraKey>()
-                     .number("t", &CameraKey::t, "s", Range{0.0, 1e6}, "Moment.")
-                     .required()
-                     .role(Role::time)
-                     .vector("eye", &CameraKey::eye, "m", Range{-1e6, 1e6}, "Where the camera stands.")
-                     .required()
-                     .vector("target", &CameraKey::target, "m", Range{-1e6, 1e6}, "What it looks at.")
-                     .required()
-                     .degrees("fov_deg", &CameraKey::fieldOfView, fieldOfView,
-                              "Field of view, as that of the camera, which counts if not given.")
-                     .choice("ease", &CameraKey::ease, easeNames(), "Way from the key before to this one.")
-                     .take();
+    key.fields =
+        FieldList<CameraKey>()
+            .number("t", &CameraKey::t, "s", Range{0.0, 1e6}, "Moment.")
+            .required()
+            .role(Role::time)
+            .vector("eye", &CameraKey::eye, "m", Range{-1e6, 1e6}, "Position of the camera.")
+            .required()
+            .vector("target", &CameraKey::target, "m", Range{-1e6, 1e6}, "Point in the middle of the picture.")
+            .required()
+            .degrees("fov_deg", &CameraKey::fieldOfView, fieldOfView, "Field of view; default that of the camera.")
+            .choice("ease", &CameraKey::ease, easeNames(), "Easing from the key before to this one.")
+            .take();
     SceneSection section;
     section.name = "camera";
     section.layout = Layout::named;
-    section.help = "A place to look from.";
+    section.help = "A camera.";
     section.enter = enterNamed(&SceneSpec::cameras);
     section.existing = findNamed(&SceneSpec::cameras);
     section.variant = [](const Node& table) -> std::string {
@@ -314,22 +310,23 @@ SceneSection cameraSection() {
                                                          : "a still camera";
     };
     // The camera; with keys it has no place of its own.
-    section.fields = FieldList<CameraSpec>()
-                         .vector("eye", &CameraSpec::eye, "m", Range{-1e6, 1e6}, "Where the camera stands.")
-                         .ramps(inPicture)
-                         .only({"a still camera", "an orbiting camera"})
-                         .vector("target", &CameraSpec::target, "m", Range{-1e6, 1e6}, "What it looks at.")
-                         .ramps(inPicture)
-                         .only({"a still camera", "an orbiting camera"})
-                         .degrees("fov_deg", &CameraSpec::fieldOfView, fieldOfView,
-                                  "Vertical field of view; pictures narrower than 16:9 show the width that 16:9 does.")
-                         .ramps(inPicture)
-                         .number("orbit_period_s", &CameraSpec::orbitPeriod, "s", Range{-1e6, 1e6},
-                                 "Time of one turn about the vertical through the target.")
-                         .only({"an orbiting camera"})
-                         .tables("keys", &CameraSpec::keys, key, "Keyframes, in the order of time.")
-                         .only({"a camera with keys"})
-                         .take();
+    section.fields =
+        FieldList<CameraSpec>()
+            .vector("eye", &CameraSpec::eye, "m", Range{-1e6, 1e6}, "Position of the camera.")
+            .ramps(inPicture)
+            .only({"a still camera", "an orbiting camera"})
+            .vector("target", &CameraSpec::target, "m", Range{-1e6, 1e6}, "Point in the middle of the picture.")
+            .ramps(inPicture)
+            .only({"a still camera", "an orbiting camera"})
+            .degrees("fov_deg", &CameraSpec::fieldOfView, fieldOfView,
+                     "Vertical field of view; pictures narrower than 16:9 keep the width of 16:9.")
+            .ramps(inPicture)
+            .number("orbit_period_s", &CameraSpec::orbitPeriod, "s", Range{-1e6, 1e6},
+                    "Time of one turn about the vertical through the target.")
+            .only({"an orbiting camera"})
+            .tables("keys", &CameraSpec::keys, key, "Keyframes, in the order of time.")
+            .only({"a camera with keys"})
+            .take();
     section.check = [](const CheckInput& input, void* target) {
         checkAscending(input);
         if (input.isClean) checkCamera(input, *static_cast<const CameraSpec*>(target));

@@ -25,9 +25,9 @@ Section poseKeySection() {
                          .number("t", &PoseKey::t, "s", Range{0.0, 1e6}, "Moment.")
                          .required()
                          .role(Role::time)
-                         .vector("position", &PoseKey::position, "m", placeRange, "Where its centre is then.")
-                         .rotation("rotation_deg", &PoseKey::rotation, "About x, then y, then z.")
-                         .choice("ease", &PoseKey::ease, easeNames(), "Way from the key before to this one.")
+                         .vector("position", &PoseKey::position, "m", placeRange, "Position of its centre.")
+                         .rotation("rotation_deg", &PoseKey::rotation, "Rotation about x, then y, then z.")
+                         .choice("ease", &PoseKey::ease, easeNames(), "Easing from the key before to this one.")
                          .take();
     return section;
 }
@@ -45,7 +45,7 @@ Section partSection(const collision::ShapeKinds& shapes) {
     section.variantKey = "shape";
     section.fields =
         shapeRows<ColliderSpec>(partsOf(shapes), colliderMesh)
-            .table("finish", &ColliderSpec::ownFinish, finishSection(), "How it looks; as the compound if not given.")
+            .table("finish", &ColliderSpec::ownFinish, finishSection(), "Appearance; default that of the compound.")
             .take();
     return section;
 }
@@ -158,14 +158,15 @@ SceneSection massSection() {
     SceneSection section;
     section.name = "mass";
     section.layout = Layout::list;
-    section.help = "Adds mass to points.";
+    section.help = "Mass added to points.";
     section.enter = enterNamed(&SceneSpec::masses);
-    section.fields = FieldList<MassSpec>()
-                         .text("target", &MassSpec::target, Role::points, "The points: KIND.NAME@SELECTOR.")
-                         .required()
-                         .number("mass_kg", &MassSpec::mass, "kg", positive, "Shared evenly among the points.")
-                         .required()
-                         .take();
+    section.fields =
+        FieldList<MassSpec>()
+            .text("target", &MassSpec::target, Role::points, "Points: KIND.NAME@SELECTOR.")
+            .required()
+            .number("mass_kg", &MassSpec::mass, "kg", positive, "Added mass, shared evenly among the points.")
+            .required()
+            .take();
     return section;
 }
 
@@ -173,14 +174,14 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
     SceneSection section;
     section.name = "collider";
     section.layout = Layout::named;
-    section.help = "A rigid thing that stops bodies, still or moved by keys.";
+    section.help = "A rigid obstacle, at rest or moved by keys.";
     section.enter = enterNamed(&SceneSpec::colliders);
     section.existing = findNamed(&SceneSpec::colliders);
     section.variant = shapeNameIn;
     section.variantKey = "shape";
     section.fields =
         shapeRows<ColliderSpec>(shapes, colliderMesh)
-            .direction("normal", &ColliderSpec::normal, "Away from the solid; any length.")
+            .direction("normal", &ColliderSpec::normal, "Direction away from the solid; any length.")
             .only(namesOf(shapes, "normal"))
             .tables("parts", &ColliderSpec::parts, partSection(shapes), "Shapes joined into one.")
             .required()
@@ -189,21 +190,21 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
             .ramps(Affects::colliders)
             .number("restitution", &ColliderSpec::restitution, "", share, "Speed after a bounce over speed before.")
             .ramps(Affects::colliders)
-            .text("animation", &ColliderSpec::animation, Role::none, "The animation of its file that moves it.")
+            .text("animation", &ColliderSpec::animation, Role::none, "Animation of the file.")
             .only(namesOf(shapes, "animation"))
             .number("start_s", &ColliderSpec::start, "s", placeRange,
-                    "Where the animation begins; below 0 it waits until then.")
+                    "Time of the animation at the start; below 0 the figure waits.")
             .only(namesOf(shapes, "animation"))
-            .number("speed", &ColliderSpec::speed, "", placeRange, "How fast the animation goes.")
+            .number("speed", &ColliderSpec::speed, "", placeRange, "Speed of the animation.")
             .only(namesOf(shapes, "animation"))
-            .flag("loop", &ColliderSpec::loops, "Whether the animation begins again at its end.")
+            .flag("loop", &ColliderSpec::loops, "Whether the animation repeats.")
             .only(namesOf(shapes, "animation"))
             .tables("keys", &ColliderSpec::keys, poseKeySection(), "Keyframes, in the order of time.")
             .flag("visible", &ColliderSpec::visible, "Whether it is drawn.")
             .number("edge", &ColliderSpec::edge, "m", Range{0.0, 1e3},
-                    "Rounding of a drawn box's edges, but for its foot on the ground.")
+                    "Radius of a drawn box's edges, except at its foot on the ground.")
             .only(namesOf(shapes, "edge"))
-            .table("finish", &ColliderSpec::finish, finishSection(), "How it looks.")
+            .table("finish", &ColliderSpec::finish, finishSection(), "Appearance.")
             .take();
     section.check = [](const CheckInput& input, void* target) {
         checkCollider(input, *static_cast<ColliderSpec*>(target));

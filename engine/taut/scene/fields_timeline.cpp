@@ -11,13 +11,13 @@ using namespace world;
 SceneSection handSection() {
     SceneSection section;
     section.name = "hand";
-    section.help = "What a hand may do while the scene is played live; every step allows for it.";
+    section.help = "Limits of a hand in live play; every step allows for it.";
     section.enter = enterPart(&SceneSpec::hand);
     section.fields = FieldList<HandSpec>()
                          .flag("anywhere", &HandSpec::anywhere, "Whether any point of any body may be grabbed.")
-                         .number("strength_N_per_m", &HandSpec::strength, "N/m", positive, "Of a hand, at most.")
+                         .number("strength_N_per_m", &HandSpec::strength, "N/m", positive, "Largest speed of a hand.")
                          .number("damping_ratio", &HandSpec::dampingRatio, "", Range{0.0, 10.0},
-                                 "Of the grabbed mass on the hand's spring, at most.")
+                                 "Largest acceleration of the grabbed mass by the spring of a hand.")
                          .take();
     return section;
 }
@@ -26,8 +26,7 @@ SceneSection atSection(const KindTable<ActionSpec>& kinds) {
     SceneSection section;
     section.name = "at";
     section.layout = Layout::list;
-    section.help =
-        "What happens at a moment: at = [{ t = 2.0, do = \"grab\", … }, …], those of one tick in this order.";
+    section.help = "Actions: at = [{ t = 2.0, do = \"grab\", … }, …]; actions of one tick are performed in this order.";
     section.enter = [kinds](SceneSpec& scene, const std::string& name, const Source& source) -> void* {
         const Kind<ActionSpec>* kind = kinds.find(name);
         ActionSpec& action = scene.actions.add((kind != nullptr ? *kind : kinds.all().front()).make());
@@ -43,7 +42,7 @@ SceneSection atSection(const KindTable<ActionSpec>& kinds) {
     what.key = section.variantKey;
     what.kind = FieldKind::choice;
     what.required = true;
-    what.help = "What happens.";
+    what.help = "Action.";
     what.write = [](void*, const Value&) {};
     what.read = [](const void*) { return Value(); };
     for (const Kind<ActionSpec>& kind : kinds.all()) {
@@ -59,23 +58,23 @@ SceneSection checkSection() {
     SceneSection section;
     section.name = "check";
     section.layout = Layout::list;
-    section.help = "A claim about the state, which taut test holds the run against.";
+    section.help = "A claim about the state, for taut test.";
     section.enter = enterNamed(&SceneSpec::checks);
     section.variant = [](const Node& table) -> std::string {
         return table.find("at") != nullptr ? "a check at a moment" : "a check of a span";
     };
     section.fields = FieldList<CheckSpec>()
                          .text("that", &CheckSpec::that, Role::none,
-                               "The claim, e.g. \"max_strain(cloth.*) < 0.1\"; it must hold all the time unless a "
-                               "moment or a span is given.")
+                               "Claim, e.g. \"max_strain(cloth.*) < 0.1\"; it must hold at every tick unless a time or "
+                               "a span is given.")
                          .required()
-                         .number("at", &CheckSpec::at, "s", momentRange, "Only at this moment.")
+                         .number("at", &CheckSpec::at, "s", momentRange, "Only time.")
                          .role(Role::time)
                          .only({"a check at a moment"})
-                         .number("from", &CheckSpec::from, "s", momentRange, "From this moment on.")
+                         .number("from", &CheckSpec::from, "s", momentRange, "First time.")
                          .role(Role::time)
                          .only({"a check of a span"})
-                         .number("to", &CheckSpec::upTo, "s", momentRange, "Up to this moment.")
+                         .number("to", &CheckSpec::upTo, "s", momentRange, "Last time.")
                          .role(Role::time)
                          .only({"a check of a span"})
                          .take();
@@ -93,23 +92,23 @@ Section fitTargetSection() {
     Section section;
     const char *value = "a target at a moment", *curve = "a measured curve";
     section.variant = [=](const Node& table) { return table.find("curve") != nullptr ? curve : value; };
-    section.fields = FieldList<FitTarget>()
-                         .text("that", &FitTarget::that, Role::none,
-                               "The quantity, in the language of checks, e.g. \"lowest(cloth.strip)\".")
-                         .required()
-                         .number("at", &FitTarget::at, "s", momentRange, "When it was measured.")
-                         .required()
-                         .only({value})
-                         .number("value", &FitTarget::value, "", anyNumber, "What was measured, in the unit of it.")
-                         .required()
-                         .only({value})
-                         .text("curve", &FitTarget::curve, Role::none,
-                               "CSV file of what was measured: time [s], value, and sigma or not.")
-                         .only({curve})
-                         .number("sigma", &FitTarget::sigma, "", Range{1e-12, 1e12},
-                                 "Standard deviation of what was measured, in the unit of it; of a curve, where its "
-                                 "file has none.")
-                         .take();
+    section.fields =
+        FieldList<FitTarget>()
+            .text("that", &FitTarget::that, Role::none,
+                  "Measured quantity, in the language of checks, e.g. \"lowest(cloth.strip)\".")
+            .required()
+            .number("at", &FitTarget::at, "s", momentRange, "Time of the measurement.")
+            .required()
+            .only({value})
+            .number("value", &FitTarget::value, "", anyNumber, "Measured value, in the unit of the quantity.")
+            .required()
+            .only({value})
+            .text("curve", &FitTarget::curve, Role::none,
+                  "CSV file of measurements: time [s], value, and optionally sigma.")
+            .only({curve})
+            .number("sigma", &FitTarget::sigma, "", Range{1e-12, 1e12},
+                    "Standard deviation of the measurement, in its unit; of a curve the default for its file.")
+            .take();
     section.check = [](const CheckInput& input, void* target) {
         auto& fit = *static_cast<FitTarget*>(target);
         if (!input.isClean || !fit.curve.empty()) return;
@@ -126,19 +125,18 @@ Section fitTargetSection() {
 SceneSection fitSection() {
     SceneSection section;
     section.name = "fit";
-    section.help = "Which numbers of the scene taut fit seeks, from what was measured.";
+    section.help = "Numbers of the scene that taut fit fits, and measurements.";
     section.enter = enterPart(&SceneSpec::fit);
     section.fields =
         FieldList<FitSpec>()
             .texts("keys", &FitSpec::keys, Role::none,
-                   "The numbers, six at most, as --set names them, e.g. \"material.m.bending_rigidity_N_m\".")
+                   "At most six numbers, as --set names them, e.g. \"material.m.bending_rigidity_N_m\".")
             .required()
-            .numbers("low", &FitSpec::low, "The least that each may be; above 0 it is sought by its logarithm.")
+            .numbers("low", &FitSpec::low, "Lower bound of each number; above 0 the number is fitted by its logarithm.")
             .required()
-            .numbers("high", &FitSpec::high, "The most that each may be.")
+            .numbers("high", &FitSpec::high, "Upper bound of each number.")
             .required()
-            .tables("target", &FitSpec::targets, fitTargetSection(),
-                    "What was measured, one [[fit.target]] a quantity.")
+            .tables("target", &FitSpec::targets, fitTargetSection(), "Measurements, one [[fit.target]] for each.")
             .take();
     return section;
 }
@@ -154,9 +152,9 @@ SceneSection goldenSection() {
             .wholes("frames", &GoldenSpec::frames, Range{0.0, 1e9}, "Numbers of the frames, from 0.")
             .required()
             .flag("restart", &GoldenSpec::restart,
-                  "Whether they are drawn from the state recorded with them, not from the one just computed.")
-            .flag("debug", &GoldenSpec::debug, "With springs, points and contacts.")
-            .text("camera", &GoldenSpec::camera, Role::camera, "Name of the camera; that of [picture] if not given.")
+                  "Whether they are drawn from the recorded state instead of the computed one.")
+            .flag("debug", &GoldenSpec::debug, "Whether springs, points and contacts are drawn.")
+            .text("camera", &GoldenSpec::camera, Role::camera, "Name of the camera; default that of [picture].")
             .vector("size", &GoldenSpec::size, "px", Range{16, 16384}, "Width and height.")
             .take();
     section.check = [](const CheckInput& input, void* target) {

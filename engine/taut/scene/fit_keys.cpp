@@ -74,7 +74,7 @@ void checkFitKeys(const Node& root, const std::vector<SceneSection>& sections, R
     const Node& keys = *table.at("keys");
     if (fit.keys.empty() || fit.keys.size() > mostKeys)
         return problems.addError(keys.place,
-                                 fmt::format("a fit seeks 1 to {} numbers, not {}", mostKeys, fit.keys.size()));
+                                 fmt::format("a fit has 1 to {} numbers, not {}", mostKeys, fit.keys.size()));
     if (fit.targets.empty())
         problems.addError(member->place, "[fit] has no targets", "add [[fit.target]] with that, at, value and sigma");
     for (const auto& [bound, values] : {std::pair("low", &fit.low), std::pair("high", &fit.high)})
@@ -98,7 +98,7 @@ void checkFitKeys(const Node& root, const std::vector<SceneSection>& sections, R
         }
         const Field* row = rowOf(fields::keyPath(key), sections);
         if (row != nullptr && (row->kind == FieldKind::whole || row->kind == FieldKind::wholeVector)) {
-            problems.addError(place, fmt::format("{} is a whole number, which nothing can be fitted with", key));
+            problems.addError(place, fmt::format("{} is a whole number, which cannot be fitted", key));
             continue;
         }
         fit.start.push_back(number->number);

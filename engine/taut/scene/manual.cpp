@@ -54,8 +54,8 @@ void writeFields(const Section& section, const std::string& title, void* target,
 
 std::string manual(const world::Kinds& kinds) {
     std::string out =
-        "A scene is a TOML file. Numbers are in SI units unless the key's name or the text below says otherwise;\n"
-        "y points up. What is left out has its default.\n";
+        "A scene is a TOML file. Numbers are in SI units unless the key's name or its text states another unit;\n"
+        "y points up. Missing keys have their defaults.\n";
     world::SceneSpec scene;
     TitlesOfTables titles;
     // Every section with its fields.
@@ -71,31 +71,30 @@ std::string manual(const world::Kinds& kinds) {
     }
     // What several sections share.
     out +=
-        "\nTargets\n"
-        "  KIND.NAME@SELECTOR, e.g. cloth.flag@left. NAME may hold *, which stands for any letters. A copy of an\n"
-        "  array is NAME.0, NAME.1, …\n\n"
+        "\n"
+        "Targets\n"
+        "  KIND.NAME@SELECTOR, e.g. cloth.flag@left. * in NAME matches any letters. A copy of an array is NAME.0,\n"
+        "  NAME.1, …\n\n"
         "  every body   all, #0 #1 … (points by number)\n"
         "  cloth grid   left right top bottom, top-left top-right bottom-left bottom-right, corners, edges,\n"
         "               (u,v) with u and v from 0 to 1, across and down; (u,v,r) all within r metres of there;\n"
         "               of a round one no corners\n"
         "  cloth mesh   boundary top bottom left right\n"
         "  rope         start end ends, 50%\n"
-        "  block        left right bottom top back front corners\n"
+        "  block        left right top bottom back front corners\n"
         "  net          the names of its points\n\n"
-        "Points that are carried\n"
-        "  hold_on = \"collider.NAME\" of a body lets that collider carry the points of hold; a [[joint]] with\n"
-        "  collider.NAME on one side does the same with points of any body, or draws them by springs, or keeps their\n"
-        "  distance by rods; do = \"hold\" with hold_on ties points while the scene runs, and \"free\" lets them go.\n"
-        "  What is held is where the collider is at every moment, turned with it, and no collider stops it.\n\n"
-        "Bodies that touch\n"
-        "  touch = \"others\" of two bodies keeps their surfaces apart, touch = \"all\" a body's own parts as well: "
-        "by\n"
-        "  the sum of their thicknesses, so thickness should be no more than half of the shortest cell. [contact] has\n"
-        "  their friction, and how often in a tick it is found what may meet. Bodies that cross as they start\n"
-        "  are drawn apart, and said: taut check names them. metrics.csv has body_contacts, the places that press on\n"
-        "  each other as a frame ends, and crossings, edges that go through triangles; `contacts` are of points with\n"
-        "  colliders alone. --debug shows the former in blue, with a line from surface to surface, crossings in "
-        "red.\n\n"
+        "Points on colliders\n"
+        "  hold_on = \"collider.NAME\" of a body attaches the points of hold to that collider; a [[joint]] with\n"
+        "  collider.NAME on one side does so with points of any body, or ties them by springs or rods;\n"
+        "  do = \"hold\" with hold_on attaches points while the scene runs, and \"free\" releases them.\n"
+        "  Attached points follow the motion of the collider, and no collider stops them.\n\n"
+        "Contact between bodies\n"
+        "  touch = \"others\" of two bodies keeps their surfaces apart, touch = \"all\" also the parts of a body: by\n"
+        "  the sum of their thicknesses, so thickness should be at most half of the shortest cell. [contact] has\n"
+        "  their friction, and the number of detections in a tick. Bodies that cross at the start are separated;\n"
+        "  taut check names them. metrics.csv has body_contacts, the number of contact points at the end of a\n"
+        "  frame, and crossings, edges that go through triangles; `contacts` counts points on colliders only.\n"
+        "  --debug shows the former in blue, with a line from surface to surface, crossings in red.\n\n"
         "Ramps\n"
         "  do = \"ramp\" changes a number or a list of numbers from its value at that moment:\n\n";
     for (const std::string& line : rampableLines(sceneSections(kinds))) out += "  " + line + "\n";

@@ -43,7 +43,7 @@ std::vector<Point> pointsOf(const std::string& text, const std::string& file, st
         if (!numbers && std::exchange(mayBeHeadings, false)) continue;
         mayBeHeadings = false;
         if (!numbers || numbers->size() < 2 || numbers->size() > 3)
-            fail(fmt::format("\"{}\" is not time, value, and sigma or not", line));
+            fail(fmt::format("\"{}\" is not time, value, and optionally sigma", line));
         if (numbers->size() == 2 && !sigma) fail("there is no sigma, here or at the target");
         const Point point{(*numbers)[0], (*numbers)[1], numbers->size() == 3 ? (*numbers)[2] : *sigma};
         if (!(point.sigma > 0)) fail("sigma must be above 0");

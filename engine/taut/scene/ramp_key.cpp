@@ -80,9 +80,9 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
         for (const SceneSection& s : sections)
             if (!rampablePaths(s).empty()) names.push_back(s.name);
         std::string remedy = section == sections.end() ? suggestion(parts[0], names) : "";
-        if (remedy.empty()) remedy = "what may: " + joined(names);
+        if (remedy.empty()) remedy = "keys of ramps: " + joined(names);
         if (section == sections.end()) return fail(fmt::format("there is no \"{}\" to change", parts[0]), remedy);
-        return fail(fmt::format("nothing of {} can change while the scene runs", parts[0]), remedy);
+        return fail(fmt::format("no key of {} can change while the scene runs", parts[0]), remedy);
     }
     const bool isNamed = section->layout == Layout::named;
     const std::size_t first = isNamed ? 2 : 1;
@@ -101,13 +101,13 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     const std::vector<std::string> paths = rampablePaths(*section);
     if (row == rows.end()) {
         std::string remedy = suggestion(path, paths);
-        if (remedy.empty()) remedy = "what may change: " + joined(paths);
+        if (remedy.empty()) remedy = "keys of ramps: " + joined(paths);
         return fail(path.empty() ? fmt::format("\"{}\" names no field", key)
                                  : fmt::format("[{}] has no key \"{}\"", owner, path),
                     remedy);
     }
     if (!row->field->ramp)
-        return fail(fmt::format("{} cannot change while the scene runs", key), "what may of it: " + joined(paths));
+        return fail(fmt::format("{} cannot change while the scene runs", key), "keys of ramps: " + joined(paths));
     const Node* table = root.along(fields::keyPath(owner));
     const std::string variant = section->variant && table != nullptr ? section->variant(*table) : "";
     const std::vector<std::string>& only = row->field->only;

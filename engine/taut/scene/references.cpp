@@ -68,8 +68,8 @@ void checkCollider(const NameReference& reference, const std::vector<std::string
 void checkHoldOn(const NameReference& reference, const world::SceneSpec& scene, Problems& problems) {
     for (const world::BodySpec& body : scene.bodies)
         if (body.fullName() == reference.owner && body.hold.empty() && body.clamp.empty())
-            problems.addError(reference.place, "hold_on carries the points of hold, and there is no hold",
-                              "say which points, e.g. hold = [\"top\"]");
+            problems.addError(reference.place, "hold_on attaches the points of hold, and there is no hold",
+                              "name the points, e.g. hold = [\"top\"]");
 }
 
 // The first difference between two overrides, or nothing.
@@ -92,7 +92,8 @@ void checkJoint(const world::JointSpec& joint, Place place, const BodyIndex& bod
                           "one of them has to be points of a body: KIND.NAME@SELECTOR");
     for (const world::JointSide& side : {joint.a, joint.b})
         if (world::isCollider(side) && side.targets.size() > 1)
-            problems.addError(place, "a collider is a side of a joint by itself", "write a [[joint]] for each");
+            problems.addError(place, "a collider is the only element of its side of a joint",
+                              "write a [[joint]] for each");
     if (world::isTie(joint)) return;  // with a collider each body stays an island of its own
     for (const BodyEntry* body : tied) {
         const char* what = difference(tied.front()->solver, body->solver);

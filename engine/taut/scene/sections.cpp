@@ -34,7 +34,7 @@ Field likeRow(const std::string& section) {
     Field row;
     row.key = "like";
     row.kind = FieldKind::text;
-    row.help = fmt::format("Another {} of this scene, whose keys it has but for those that it says itself.", section);
+    row.help = fmt::format("Another {} of this scene, with default keys for this one.", section);
     row.write = [](void*, const Value&) {};
     row.read = [](const void*) { return Value(); };
     return row;
@@ -58,9 +58,8 @@ SceneSection defaultsSection(const std::vector<SceneSection>& sections) {
     SceneSection all;
     all.name = "defaults";
     all.help =
-        "What the tables of a section have in common: [defaults.SECTION] has the keys of [SECTION.NAME], and each of "
-        "them has what it says there unless it says otherwise itself, or is like another that does. Tables such as "
-        "finish are laid over each other key by key.";
+        "Default keys of the tables of a section: [defaults.SECTION] has the keys of [SECTION.NAME]. Keys of an "
+        "element, and of its `like`, take precedence. Tables such as finish are merged key by key.";
     all.enter = [scratch = std::make_shared<world::SceneSpec>()](
                     world::SceneSpec&, const std::string&, const core::Source&) -> void* { return scratch.get(); };
     for (const SceneSection& section : sections) {
@@ -68,7 +67,7 @@ SceneSection defaultsSection(const std::vector<SceneSection>& sections) {
         Field row;
         row.key = section.name;
         row.kind = FieldKind::table;
-        row.help = fmt::format("Of every [{}.NAME].", section.name);
+        row.help = fmt::format("Defaults of every [{}.NAME].", section.name);
         row.inside = {partly(section)};
         row.enter = [enter = section.enter](void* scratch, const core::Source& source) {
             return enter(*static_cast<world::SceneSpec*>(scratch), "defaults", source);
@@ -84,9 +83,7 @@ Field thingsOfMaterial(const SceneSection& section) {
     Field row;
     row.key = section.name;
     row.kind = FieldKind::table;
-    row.help = fmt::format(
-        "Keys that each {} made of it has, unless it says otherwise: thickness, friction, finish and so on.",
-        section.name);
+    row.help = fmt::format("Default keys of each {} made of it: thickness, friction, finish and so on.", section.name);
     row.inside = {partly(section)};
     row.enter = [enter = section.enter, scratch = std::make_shared<world::SceneSpec>()](
                     void*, const core::Source& source) { return enter(*scratch, "material", source); };

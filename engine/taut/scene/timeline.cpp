@@ -144,10 +144,9 @@ class Timeline {
         if (id.empty()) return error(event, "id", "a hand needs a name");
         if (isJoint(id))
             return error(event, "id", fmt::format("\"{}\" is the name of a joint", id),
-                         "give the hand another id, for both are released by it");
+                         "give the hand another id, because release takes the name of either");
         if (const auto held = grabbed_.find(id); held != grabbed_.end())
-            return error(event, "id",
-                         fmt::format("\"{}\" is holding something since {} s", id, held->second->action->t),
+            return error(event, "id", fmt::format("\"{}\" holds something since {} s", id, held->second->action->t),
                          "release it first, or give this hand another id");
         known_.push_back(id);
         grabbed_.emplace(id, &event);
@@ -182,7 +181,7 @@ class Timeline {
         if (grabbed_.contains(id)) return true;
         const double t = event.action->t;
         if (std::find(known_.begin(), known_.end(), id) != known_.end()) {
-            error(event, "id", fmt::format("\"{}\" has let go before {} s", id, t));
+            error(event, "id", fmt::format("\"{}\" was released before {} s", id, t));
             return false;
         }
         std::string message = fmt::format("\"{}\" has grabbed nothing before {} s", id, t);
@@ -204,15 +203,15 @@ class Timeline {
             names.push_back("collider." + collider.name);
             if (names.back() != target) continue;
             if (!collider.keys.empty())
-                return error(event, "target", fmt::format("{} is led by its keys", target),
-                             "move it by one of the two");
+                return error(event, "target", fmt::format("{} follows its keys", target),
+                             "move it by keys or by actions");
             return checkSpan(event, move.over, target, target, "moved");
         }
         std::string remedy = suggestion(target, names);
         if (target.starts_with("collider."))
             return error(event, "target", fmt::format("there is no {}", target), remedy);
         error(event, "target", fmt::format("\"{}\" is no collider", target),
-              remedy.empty() ? "a move takes a collider, or a hand by its id" : remedy);
+              remedy.empty() ? "a move takes a collider, or the id of a hand" : remedy);
     }
 
     void checkRamp(const Event& event, RampAction& ramp) {

@@ -28,9 +28,10 @@ void checkJoint(const fields::CheckInput& input, const JointSpec& joint) {
         input.problems.addError(input.at("name"), fmt::format("\"{}\" cannot be the name of a joint", joint.name),
                                 "a name has letters, digits, - and _");
     else if (joint.name.starts_with(liveHand))
-        input.problems.addError(input.at("name"),
-                                fmt::format("names that begin with \"{}\" are those of a player's hands", liveHand),
-                                "give the joint another name");
+        input.problems.addError(
+            input.at("name"),
+            fmt::format("names that begin with \"{}\" are reserved for the hands of a player", liveHand),
+            "give the joint another name");
     const auto isWhole = [](const std::string& text) {
         const Target target = parseTarget(text);
         return target.kind == "collider" || target.selector.empty() || target.selector == "all";
@@ -43,7 +44,7 @@ void checkJoint(const fields::CheckInput& input, const JointSpec& joint) {
     if (joint.isDrawn()) return;
     for (const char* key : {"radius", "turns", "coil_radius"})
         if (input.table.find(key) != nullptr)
-            input.problems.addError(input.at(key), fmt::format("{} is of a joint that is drawn", key),
+            input.problems.addError(input.at(key), fmt::format("{} needs a joint that is drawn", key),
                                     "give it a finish, e.g. finish = { colour = \"#b08040\" }");
 }
 
@@ -51,11 +52,11 @@ Section arraySection() {
     Section section;
     section.fields =
         FieldList<ArraySpec>()
-            .vector("count", &ArraySpec::count, "", copies, "Copies along the three directions.")
+            .vector("count", &ArraySpec::count, "", copies, "Number of copies along the three directions.")
             .required()
-            .vector("step_x", &ArraySpec::stepX, "m", placeRange, "From one copy to the next, first direction.")
-            .vector("step_y", &ArraySpec::stepY, "m", placeRange, "The same, second direction.")
-            .vector("step_z", &ArraySpec::stepZ, "m", placeRange, "The same, third direction.")
+            .vector("step_x", &ArraySpec::stepX, "m", placeRange, "Step from one copy to the next, first direction.")
+            .vector("step_y", &ArraySpec::stepY, "m", placeRange, "Step in the second direction.")
+            .vector("step_z", &ArraySpec::stepZ, "m", placeRange, "Step in the third direction.")
             .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& array = *static_cast<ArraySpec*>(target);
@@ -100,32 +101,31 @@ Section finishSection() {
     section.fields =
         FieldList<FinishSpec>()
             .colour("colour", &FinishSpec::colour, "Colour of the front.")
-            .colour("back_colour", &FinishSpec::backColour, "Colour of the back; paler than the front if not given.")
+            .colour("back_colour", &FinishSpec::backColour, "Colour of the back; default a paler front.")
             .goesWith("colour")
             .colour("accent", &FinishSpec::accent, "Second colour of a pattern.")
             .choice("pattern", &FinishSpec::pattern, {"plain", "checker", "stripes", "tartan", "image"}, "Pattern.")
             .number("repeat_m", &FinishSpec::repeat, "m", lengthRange,
-                    "Length after which the pattern repeats; along texture coordinates of a mesh, that much of them.")
+                    "Period of the pattern; on a mesh in texture coordinates.")
             .number("weave", &FinishSpec::weave, "", fields::share,
-                    "Depth of the weave: 0 smooth, 1 coarse linen. A mesh without texture coordinates has none.")
+                    "Depth of the weave: 0 smooth, 1 coarse linen. A mesh without texture coordinates has no weave.")
             .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")
-            .number("roughness", &FinishSpec::roughness, "", fields::share, "0 a mirror, 1 chalk.")
-            .number("sheen", &FinishSpec::sheen, "", fields::share, "Bright rim of fabric.")
+            .number("roughness", &FinishSpec::roughness, "", fields::share, "Roughness: 0 a mirror, 1 chalk.")
+            .number("sheen", &FinishSpec::sheen, "", fields::share, "Strength of the bright rim of fabric.")
             .number("translucency", &FinishSpec::translucency, "", fields::share,
-                    "Of a cloth: the share of the light on its other side that comes through, in its colour: 0.4 thin "
-                    "silk, 0.2 cotton, 0.03 velvet.")
+                    "Share of light from the other side of a cloth that passes through, in its colour: 0.4 thin silk, "
+                    "0.2 cotton, 0.03 velvet.")
             .number("anisotropy", &FinishSpec::anisotropy, "", fields::share,
-                    "How far the gloss is spread across the warp, which takes the threads' colour: 0 of a smooth skin, "
-                    "0.8 of satin.")
-            .number("hem_m", &FinishSpec::hem, "m", Range{0.0, 1.0},
-                    "Thickness of a cloth as its free edges show it where that is more than a pixel; nothing else "
-                    "knows of it.")
+                    "Spread of the gloss across the warp, in the colour of the threads: 0 a smooth skin, 0.8 satin.")
+            .number(
+                "hem_m", &FinishSpec::hem, "m", Range{0.0, 1.0},
+                "Drawn thickness of the free edges of a cloth, if it is more than a pixel; it affects pictures only.")
             .whole("smooth", &FinishSpec::smooth, "", Range{0.0, 3.0},
-                   "Of a cloth or a rope: times that each length of it is halved for the picture and put on a smooth "
-                   "surface or curve; nothing else knows of it.")
+                   "Number of times that a cloth or rope is refined to twice as fine for pictures, on a smooth surface "
+                   "or curve; it affects pictures only.")
             .text("skin", &FinishSpec::skin, Role::mesh,
-                  "Of a cloth or a block: OBJ or glTF file of a mesh that is drawn in its place and goes with it. It "
-                  "lies on the body as that starts, in metres of the scene, or as the cloth's own mesh is placed.")
+                  "OBJ or glTF file of a mesh that is drawn in place of a cloth or block and moves with it. It lies on "
+                  "the body at the start, in metres of the scene, or placed as the cloth's own mesh.")
             .text("texture", &FinishSpec::texture, Role::texture, "Picture file, PNG or JPEG.")
             .required()
             .only({"the pattern image"})
@@ -139,8 +139,8 @@ void keepRadius(const fields::CheckInput& input, double radius, BodySpec& body) 
         body.thickness = radius;
     else if (body.thickness < far * radius && (body.collide || body.touch != Touch::nothing))
         input.problems.addWarning(input.at("thickness"),
-                                  fmt::format("drawn with a radius of {} m, it sinks {:.3g} m into what it touches",
-                                              radius, radius - body.thickness),
+                                  fmt::format("with a drawn radius of {} m it sinks in by {:.3g} m at contact", radius,
+                                              radius - body.thickness),
                                   "leave thickness out");
 }
 

@@ -38,18 +38,16 @@ void keepRadius(const fields::CheckInput& input, double radius, BodySpec& body);
 template <class Spec>
 fields::FieldList<Spec> withPlasticity(fields::FieldList<Spec> list) {
     list.number("yield_strain", &Spec::plasticity, &PlasticitySpec::yieldStrain, "", strainRange,
-                "Strain beyond which springs keep part of it for good; never if not given.");
-    list.number(
-            "break_strain", &Spec::plasticity, &PlasticitySpec::breakStrain, "", strainRange,
-            "Strain of a stretched spring at which it tears; never if not given. At the tip of a tear it is meant for "
-            "cells of break_cell_m.")
+                "Strain beyond which springs keep a permanent deformation; default never.");
+    list.number("break_strain", &Spec::plasticity, &PlasticitySpec::breakStrain, "", strainRange,
+                "Strain at which a stretched spring tears; default never. At the tip of a tear it holds for cells of "
+                "break_cell_m.")
         .number("break_cell_m", &Spec::plasticity, &PlasticitySpec::breakCell, "m", lengthRange,
-                "Side of the cells for which break_strain holds at the tip of a tear. With smaller ones it is larger "
-                "there, as their square root, so that a tear takes the same load to run.")
-        .number(
-            "strain_limit", &Spec::plasticity, &PlasticitySpec::strainLimit, "", strainRange,
-            "Strain that no stretched spring but those of bending exceeds: it is stopped there, and the energy with "
-            "which it went on is lost. Any if not given.");
+                "Side of the cells for which break_strain holds at the tip of a tear. The limit grows with the square "
+                "root of smaller cells, so that a tear needs the same load.")
+        .number("strain_limit", &Spec::plasticity, &PlasticitySpec::strainLimit, "", strainRange,
+                "Largest strain of stretched springs, except bending springs: they are stopped there, and the energy "
+                "of the stopped motion is dissipated. Default unlimited.");
     return list;
 }
 
@@ -57,7 +55,7 @@ fields::FieldList<Spec> withPlasticity(fields::FieldList<Spec> list) {
 template <class Spec>
 fields::FieldList<Spec> withLosses(fields::FieldList<Spec> list) {
     list.number("damping_time_s", &Spec::dampingTime, "s", dampingTimeRange,
-                "Damping of a spring over its stiffness: inner friction.")
+                "Damping constant of a spring over its stiffness.")
         .ramps(fields::Affects::springs);
     list.number("drag_per_s", &Spec::drag, "1/s", dragRange, "Rate at which still air slows a point.")
         .ramps(fields::Affects::springs);
@@ -70,41 +68,38 @@ std::vector<fields::Field> bodyRows() {
     using fields::Range;
     fields::FieldList<Spec> list;
     list.texts("hold", &Spec::hold, fields::Role::selector,
-               "Points that never move: a group, \"#12\", \"(u,v)\", \"(u,v,r)\", \"50%\".")
+               "Pinned points: a group, \"#12\", \"(u,v)\", \"(u,v,r)\", \"50%\".")
         .texts("clamp", &Spec::clamp, fields::Role::selector,
-               "Points that are held and whose direction is held too, as by a jaw: there what has a bending rigidity "
-               "goes on straight. `hold` alone is a hinge.")
-        .text(
-            "hold_on", &Spec::holdOn, fields::Role::collider,
-            "The collider that carries the points of `hold` and `clamp`, e.g. \"collider.pole\": they go and turn with "
-            "it. Without it they stay where they are.")
+               "Points that are held in position and direction, as in a jaw. `hold` alone is a hinge.")
+        .text("hold_on", &Spec::holdOn, fields::Role::collider,
+              "Collider that carries the points of `hold` and `clamp`, e.g. \"collider.pole\": they follow its motion. "
+              "Without it they do not move.")
         .vector("velocity", &Spec::velocity, "m/s", speedRange,
-                "At the start. Whatever moves faster than 3000 m/s counts as diverged.")
-        .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange, "At the start, about the centre of mass.")
+                "Initial velocity. Points faster than 3000 m/s count as diverged.")
+        .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange,
+                "Initial angular velocity about the centre of mass.")
         .number("jitter_m", &Spec::jitter, "m", Range{0.0, 1.0},
-                "Random offset of the free points at the start, to break symmetry.")
+                "Random initial offset of free points, to break symmetry.")
         .whole("seed", &Spec::seed, "", Range{0.0, 1e12}, "Seed of the offsets.")
-        .number("friction", &Spec::friction, "", Range{0.0, 100.0}, "Factor on the collider's friction.")
+        .number("friction", &Spec::friction, "", Range{0.0, 100.0},
+                "Factor on the friction of colliders and other bodies.")
         .number("restitution", &Spec::restitution, "", Range{0.0, 1.0},
-                "Factor on the collider's restitution, and on that of bodies that touch.")
-        .number(
-            "thickness", &Spec::thickness, "m", Range{0.0, 10.0},
-            "Distance kept from colliders; bodies that touch keep the sum of theirs. Of a rope or net its radius if "
-            "not given.")
-        .flagOr(
-            "collide", &Spec::collide, "faces", &Spec::meetsFaces,
-            "Whether colliders stop it: its points, and with \"faces\" its triangles and edges, which their corners "
-            "and sharp edges do not go through; so too where `touch` is not \"nothing\". Points that start inside "
-            "one come out at 1 m/s.")
+                "Factor on the restitution of colliders and other bodies.")
+        .number("thickness", &Spec::thickness, "m", Range{0.0, 10.0},
+                "Distance from colliders; bodies with `touch` keep the sum of theirs. Default of a rope or net: its "
+                "radius.")
+        .flagOr("collide", &Spec::collide, "faces", &Spec::meetsFaces,
+                "Whether it collides with colliders: with its points, or with \"faces\" with its triangles and edges "
+                "too, as always if `touch` is not \"nothing\". Points that start inside a collider leave at 1 m/s.")
         .choice("touch", &Spec::touch, {"nothing", "others", "all"},
-                "What of other bodies stops it: nothing, those that touch others too, or all, its own parts as well.")
-        .table("finish", &Spec::finish, finishSection(), "How it looks.")
-        .table("solver", &Spec::solver, overrideSection(), "Its own way to be computed.")
-        .table("array", &Spec::array, arraySection(), "Copies, called NAME.0, NAME.1 and so on.");
+                "Bodies it collides with: nothing, others with `touch`, or all, itself included.")
+        .table("finish", &Spec::finish, finishSection(), "Appearance.")
+        .table("solver", &Spec::solver, overrideSection(), "Solver settings of this body.")
+        .table("array", &Spec::array, arraySection(), "Copies, named NAME.0, NAME.1 and so on.");
     return list.take();
 }
 
-// A kind of body: its own rows, then those that every body has.
+// A kind of body: its own rows, then the common rows of bodies.
 template <class Own>
 Kind<BodySpec> bodyKind() {
     Kind<BodySpec> kind = kindOf<Own, BodySpec>();
@@ -122,40 +117,39 @@ template <class Own>
 std::vector<fields::Field> everyJointsRows() {
     return fields::FieldList<Own>()
         .vector("place", &JointSpec::place, "m", placeRange,
-                "Where its ties end on a collider or a rigid body that is a side as a whole, solid.NAME: in the own "
-                "axes of "
-                "the first such side.")
+                "End of its ties on the first side that is a whole solid or collider, in the own axes of that side.")
         .text("name", &JointSpec::name, fields::Role::none,
-              "By which an action releases it, and others of that name with it.")
+              "Name for the action release; it releases all joints of the name.")
         .number("break_N", &JointSpec::breakForce, "N", fields::positive,
-                "Force through a tie, as the mean of a tick, above which that tie lets go; never if not given.")
-        .number("radius", &JointSpec::look, &JointLook::radius, "m", lengthRange, "Of the cord or wire that is drawn.")
+                "Mean force of a tie over a tick above which the tie breaks; default never.")
+        .number("radius", &JointSpec::look, &JointLook::radius, "m", lengthRange, "Radius of the drawn cord or wire.")
         .whole("turns", &JointSpec::look, &JointLook::turns, "", fields::Range{0.0, 1000.0},
-               "Of the coil that is drawn; 0: a straight cord.")
-        .number("coil_radius", &JointSpec::look, &JointLook::coil, "m", lengthRange, "Of the coil that is drawn.")
+               "Number of turns of the drawn coil; 0: a straight cord.")
+        .number("coil_radius", &JointSpec::look, &JointLook::coil, "m", lengthRange, "Radius of the drawn coil.")
         .tableOr("finish", &JointSpec::look, &JointLook::finish, finishSection(),
-                 "How it looks; not drawn if not given.")
+                 "Appearance; without it the joint is not drawn.")
         .take();
 }
 
 // Reports faults in the fields that every joint has.
 void checkJoint(const fields::CheckInput& input, const JointSpec& joint);
 
-// A kind of joint, from the rows of its own fields. The rows of both sides come before them. A field may be `only` for
-// joints between bodies, by the title ("a weld"), for joints with colliders ("a weld to a collider"), or for both. A
-// key that another kind also has should mean the same. Expects no tables inside.
+// A kind of joint, from the rows of its own fields. The rows of the two sides come before them. A field may be `only`
+// for joints between bodies, by the title ("a weld"), for joints with colliders ("a weld to a collider"), or for both.
+// A key that another kind also has should mean the same. Expects no tables inside.
 template <class Own>
 Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
     Kind<JointSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};
     kind.section.help = std::move(help);
-    kind.section.fields = fields::FieldList<Own>()
-                              .targets("a", &JointSpec::a, &JointSide::targets, fields::Role::tieable,
-                                       "Points: KIND.NAME@SELECTOR, or a list of such.")
-                              .required()
-                              .targets("b", &JointSpec::b, &JointSide::targets, fields::Role::tieable,
-                                       "The others, of the same body or of others; or collider.NAME, on either side.")
-                              .required()
-                              .take();
+    kind.section.fields =
+        fields::FieldList<Own>()
+            .targets("a", &JointSpec::a, &JointSide::targets, fields::Role::tieable,
+                     "Points: KIND.NAME@SELECTOR, or a list of these.")
+            .required()
+            .targets("b", &JointSpec::b, &JointSide::targets, fields::Role::tieable,
+                     "The other points, of the same or other bodies; or collider.NAME, on either side.")
+            .required()
+            .take();
     for (fields::Field& row : own.take()) {
         TAUT_EXPECTS(row.inside.empty());
         kind.section.fields.push_back(std::move(row));
@@ -177,7 +171,7 @@ template <class Own>
 Kind<ActionSpec> actionKind(fields::FieldList<Own> own, ActionCheck<Own> check = {}) {
     Kind<ActionSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};
     kind.section.fields = fields::FieldList<Own>()
-                              .number("t", &ActionSpec::t, "s", momentRange, "Moment; the nearest tick is taken.")
+                              .number("t", &ActionSpec::t, "s", momentRange, "Time, rounded to the nearest tick.")
                               .required()
                               .role(fields::Role::time)
                               .take();

@@ -270,13 +270,17 @@ bool Fit::isMet() const {
 
 Fit makeFit(const world::SceneSpec& spec, const FitSettings& settings) {
     if (spec.fit.keys.empty())
-        throw core::Error(
-            core::ErrorKind::badContent,
-            core::at({spec.file}) +
-                "the scene does not say what to fit: it has no [fit]\n  add for example\n\n    [fit]\n"
-                "    keys = [\"material.m.bending_rigidity_N_m\"]\n    low = [1e-7]\n    high = [1e-3]\n\n"
-                "    [[fit.target]]\n    that = \"lowest(cloth.strip)\"\n    at = 3.0\n    value = 0.031\n"
-                "    sigma = 0.001\n");
+        throw core::Error(core::ErrorKind::badContent, core::at({spec.file}) +
+                                                           "the scene has nothing to fit: add [fit], for example\n\n"
+                                                           "    [fit]\n"
+                                                           "    keys = [\"material.m.bending_rigidity_N_m\"]\n"
+                                                           "    low = [1e-7]\n"
+                                                           "    high = [1e-3]\n\n"
+                                                           "    [[fit.target]]\n"
+                                                           "    that = \"lowest(cloth.strip)\"\n"
+                                                           "    at = 3.0\n"
+                                                           "    value = 0.031\n"
+                                                           "    sigma = 0.001\n");
     return Fitting(spec, settings).run();
 }
 

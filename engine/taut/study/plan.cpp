@@ -209,28 +209,29 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     const auto add = [&](std::string remark) { plan.remarks.push_back(std::move(remark)); };
     add(fmt::format("The promise holds for the first {:.3g} s, the horizon asked for.", plan.seconds));
     if (plan.unseen() > 0)
-        add(fmt::format("Warning: what happens between {:.3g} s and the end of the run at {:.3g} s was not looked at.",
+        add(fmt::format("Warning: the time between {:.3g} s and the end of the run at {:.3g} s was not simulated.",
                         plan.seconds, plan.runSeconds));
     bool hasJitter = false;
     for (const world::BodySpec& body : context.spec.bodies) hasJitter = hasJitter || body.jitter > 0;
     if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
-    add(fmt::format("The reference is {}; its own error, cells included, is about {}, {:.2g} times what is allowed.",
+    add(fmt::format("The reference is {}; its own error, cells included, is about {}, {:.2g} times the allowed error.",
                     plan.referenceMethod, lengthText(reference.error), reference.error / plan.need.target));
     if (context.resolution.count > 0)
-        add("A candidate counts as far off as it is from the reference or from what finer cells tend to, whichever is "
-            "more.");
+        add("The error of a candidate is its distance from the reference or from the limit of finer cells, whichever "
+            "is larger.");
     if (context.resolution.most < std::numeric_limits<int>::max())
         add(fmt::format(
             "No more than {} cells are tried: with smaller ones bodies that touch would keep further apart than "
             "those are wide; a smaller thickness would allow more.",
             context.resolution.most));
     if (world::bodiesTouch(context.spec))
-        add("Contact between bodies is never left out; the cost has it, by its detections and the pairs they looked at.");
-    if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
+        add("Contact between bodies is never left out; the cost has it, by its detections and the pairs they looked "
+            "at.");
+    if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step for any method.");
     if (plan.isCutShort) add("The effort was used up before all was tried: a larger --effort may find a cheaper way.");
     if (reference.error > plan.need.target / leastShareOfReference)
-        add("That is more than the fifth it should be: a larger --effort would tell more.");
+        add("That is more than the intended fifth: a larger --effort would reduce it.");
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ Resolution resolutionOf(const SceneSpec& spec) {
     }
     for (const world::RopeSpec& rope : spec.bodies.of<world::RopeSpec>()) add(rope, rope.segments);
     for (const world::BlockSpec& block : spec.bodies.of<world::BlockSpec>()) {
-        if (block.meshData) resolution.fixed.emplace(block.fullName(), "its cells are those that a mesh fills");
+        if (block.meshData) resolution.fixed.emplace(block.fullName(), "its cells fill a mesh");
         add(block, std::max({block.cells.x, block.cells.y, block.cells.z}));
     }
     for (const world::NetSpec& net : spec.bodies.of<world::NetSpec>())

@@ -33,9 +33,9 @@ void checkNeed(const world::SceneSpec& spec) {
         "\n  add for example\n\n    [need]\n    rms_position_m = 2e-3   # or rms_percent of the bounding box, or "
         "rms_pixels\n    horizon_s = 0.5\n    budget_ms = 4.0         # a frame; may be left out\n";
     const bool isEmpty = !need.rmsPosition && !need.rmsPercent && !need.rmsPixels && !need.horizon && !need.budget;
-    if (isEmpty) fail(spec, "the scene does not say what it needs: it has no [need]" + example);
+    if (isEmpty) fail(spec, "the scene has no need: add [need]" + example);
     if (!need.rmsPosition && !need.rmsPercent && !need.rmsPixels)
-        fail(spec, "[need] does not say how accurate the positions must be" + example);
+        fail(spec, "[need] has no accuracy of the positions" + example);
     if (need.horizon && *need.horizon > spec.run.seconds * (1 + 1e-9))
         fail(spec,
              fmt::format("[need] contradicts [run]: horizon_s = {:.4g} is later than the end of the run at {:.4g} s",
@@ -59,7 +59,7 @@ Need resolvedNeed(const world::SceneSpec& spec, const Scales& scales) {
         consider(*given.rmsPercent / 100 * scales.extent,
                  fmt::format("{:.4g} % of {}", *given.rmsPercent, lengthText(scales.extent)));
     if (given.rmsPixels && scales.metresPerPixel <= 0 && !given.rmsPosition && !given.rmsPercent)
-        fail(spec, "rms_pixels says nothing here: the camera sees no point of the scene within the horizon");
+        fail(spec, "rms_pixels does not apply: the camera sees no point of the scene within the horizon");
     if (given.rmsPixels && scales.metresPerPixel > 0)
         consider(*given.rmsPixels * scales.metresPerPixel,
                  fmt::format("{:.4g} px at {} x {}, {} each", *given.rmsPixels, spec.picture.size.x,

@@ -138,13 +138,13 @@ std::string planVerdict(const Plan& plan) {
     const std::string target = lengthText(plan.need.target);
     if (plan.isChaotic)
         return fmt::format(
-            "The motion is chaotic: a start shaken by {} goes {} astray in the first {:.3g} s, where {} is allowed. "
-            "No step and no resolution tells where a point is by then. {}, allow more, or check what does not hang on "
-            "it, such as energy, strain, or the lowest point.",
+            "The motion is chaotic: a start perturbed by {} deviates by {} in the first {:.3g} s, and {} is allowed. "
+            "No "
+            "step and no resolution predicts positions for that long. {}, allow more, or check quantities that do not "
+            "depend on them, such as energy, strain, or the lowest point.",
             lengthText(plan.jitter), lengthText(plan.jitterMoves), plan.need.horizon, target,
-            plan.seconds > 0
-                ? fmt::format("It can be predicted for {0:.3g} s: ask for horizon_s = {0:.3g}", plan.seconds)
-                : "Ask for a shorter horizon_s");
+            plan.seconds > 0 ? fmt::format("It can be predicted for {0:.3g} s: set horizon_s = {0:.3g}", plan.seconds)
+                             : "Set a shorter horizon_s");
     if (!plan.chosen) {
         const PlanTrial* near = nearest(plan);
         const std::string how = plan.isCutShort ? "is not met within the effort" : "cannot be met";
@@ -157,13 +157,12 @@ std::string planVerdict(const Plan& plan) {
     const PlanTrial& chosen = plan.trials[*plan.chosen];
     if (plan.verification.isCutShort && !plan.verification.isPassed)
         return fmt::format(
-            "The need is not met for certain: what was found errs by {} where {} is allowed, but the effort did not "
-            "suffice to verify it.",
+            "The need is not certainly met: the error is {}, {} is allowed, and the effort did not suffice for a "
+            "verification.",
             lengthText(chosen.error), target);
     if (!plan.verification.isPassed)
         return fmt::format(
-            "The need is not met: what was found errs by {}, but the verification finds {} where {} is "
-            "allowed.",
+            "The need is not met: the error found is {}, but the verification finds {}, and {} is allowed.",
             lengthText(chosen.error),
             lengthText(std::max(plan.verification.step,
                                 std::isfinite(plan.verification.finer) ? plan.verification.finer : 0.0)),

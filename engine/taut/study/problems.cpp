@@ -20,9 +20,9 @@ constexpr std::array table = {
     ProblemInfo{"pendulum", "a mass on an elastic string, swinging in space", makePendulum},
     ProblemInfo{"chain", "sixteen masses between two walls, three modes at once", makeChain},
     ProblemInfo{"net", "a square net of 8 x 8 masses under tension, three modes at once", makeNet},
-    ProblemInfo{"cloth-top", "a 16 x 16 cloth held at its top row, let go out of the vertical", makeClothTop},
-    ProblemInfo{"cloth-corners", "a 16 x 16 cloth held at two corners, let go", makeClothCorners},
-    ProblemInfo{"cloth-edge", "a 16 x 16 cloth held at one edge, let go from the horizontal", makeClothEdge},
+    ProblemInfo{"cloth-top", "a 16 x 16 cloth held at its top row, released out of the vertical", makeClothTop},
+    ProblemInfo{"cloth-corners", "a 16 x 16 cloth held at two corners, released", makeClothCorners},
+    ProblemInfo{"cloth-edge", "a 16 x 16 cloth held at one edge, released from the horizontal", makeClothEdge},
 };
 
 }  // namespace

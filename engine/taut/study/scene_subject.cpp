@@ -116,7 +116,7 @@ class SceneSubject final : public Subject {
     std::string caution() const override {
         return spec_.colliders.empty() && !world::bodiesTouch(spec_)
                    ? ""
-                   : "Contacts are of order 1 in the step, whatever the method.";
+                   : "Contacts are of order 1 in the step for any method.";
     }
 
   private:

@@ -199,7 +199,7 @@ class ThresholdSearch {
             add(because,
                 fmt::format("theory allows {:.4g} ms as the scene starts; beyond, growth is slow or comes late",
                             1e3 * predicted));
-        if (!because.empty()) add(because, fmt::format("what is measured holds for {:.3g} s", result_.seconds));
+        if (!because.empty()) add(because, fmt::format("the measurement holds for {:.3g} s", result_.seconds));
         if (!because.empty()) add(note, because);
         return note;
     }

@@ -239,8 +239,8 @@ void addRemarks(const Subject& subject, WorkPrecision& study) {
     const double duration = study.grid.duration();
     if (!study.reference.isExact)
         study.remarks.push_back("Errors are taken against " + methodOf(study.reference, study.unit) +
-                                ": its own error, as the two runs tell, is about " + number(study.reference.error) +
-                                (study.unit.empty() ? "." : " " + study.unit + "."));
+                                ": its own error, by the difference of the two runs, is about " +
+                                number(study.reference.error) + (study.unit.empty() ? "." : " " + study.unit + "."));
     if (study.horizon.isReached)
         study.remarks.push_back("Chaotic: a shift of 1e-9 m grows a thousandfold within " +
                                 number(study.horizon.seconds) + " s. Errors of positions are taken over the first " +

@@ -72,8 +72,8 @@ std::optional<core::Finding> idleWarning(const JointReport& report) {
     const JointSpec& joint = *report.spec;
     return warningAt(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" has " +
            std::to_string(report.idle) +
-           " ties between points of one solid, which are left out: the solid is rigid already, with what is welded to "
-           "it; name points of another body";
+           " ties between points of one solid, which are left out: the solid and all that is welded to it are rigid "
+           "already; name points of another body";
 }
 
 // [m] The diagonal of the box of its points.
@@ -104,7 +104,7 @@ std::vector<core::Finding> seamWarnings(const JointReport& report) {
     if (const double gap = report.sewn.gap; gap > 0)
         warn("leaves a gap of " + metres(gap) +
              " between edges of its list: they do not follow each other, and no seam brings their ends together; name "
-             "them as they do, or sew what is between them");
+             "them in order, or sew the edges between them");
     if (const int held = report.sewn.heldApart; held > 0)
         warn("does not close: " + std::to_string(held) +
              " of its points are held on both edges; hold one of them, or none");

@@ -48,7 +48,7 @@ Kind<JointSpec> seamKind() {
         checkJoint(input, seam);
         if (seam.start > 0 && !(seam.over > 0))
             input.problems.addError(input.at("start_s"), "a seam that starts later takes a time to close",
-                                    "say how long, e.g. over_s = 0.5");
+                                    "give a time, e.g. over_s = 0.5");
     };
     return kind;
 }

@@ -1,4 +1,4 @@
-// The rows of fields of what has a shape: colliders, solids, and the parts of their compounds.
+// The rows of fields of elements with a shape: colliders, solids, and the parts of their compounds.
 #pragma once
 
 #include <algorithm>
@@ -26,21 +26,21 @@ collision::ShapeKinds shapesThat(const collision::ShapeKinds& shapes, const Want
 template <class Spec>
 fields::FieldList<Spec> shapeRows(const collision::ShapeKinds& shapes, const char* meshHelp) {
     fields::FieldList<Spec> list;
-    list.choice("shape", &ShapeSpec::shape, namesOf(shapes), "Its shape.")
+    list.choice("shape", &ShapeSpec::shape, namesOf(shapes), "Shape.")
         .required()
-        .vector("position", &ShapeSpec::position, "m", placeRange, "Its centre; of a mesh the origin of its file.")
-        .rotation("rotation_deg", &ShapeSpec::rotation, "About x, then y, then z.")
-        .vector("size", &ShapeSpec::size, "m", lengthRange, "Its three edges.")
+        .vector("position", &ShapeSpec::position, "m", placeRange, "Centre; of a mesh the origin of its file.")
+        .rotation("rotation_deg", &ShapeSpec::rotation, "Rotation about x, then y, then z.")
+        .vector("size", &ShapeSpec::size, "m", lengthRange, "Lengths of the three edges.")
         .only(namesOf(shapes, "size"))
-        .number("radius", &ShapeSpec::radius, "m", lengthRange, "Its radius.")
+        .number("radius", &ShapeSpec::radius, "m", lengthRange, "Radius.")
         .only(namesOf(shapes, "radius"))
         .number("height", &ShapeSpec::height, "m", lengthRange,
-                "Whole height along y; of a capsule between the centres of its half spheres.")
+                "Height along y; of a capsule between the centres of its half spheres.")
         .only(namesOf(shapes, "height"))
         .text("mesh", &ShapeSpec::mesh, fields::Role::mesh, meshHelp)
         .required()
         .only(namesOf(shapes, "mesh"))
-        .number("scale", &ShapeSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+        .number("scale", &ShapeSpec::scale, "", lengthRange, "Size of a unit of the file in metres.")
         .only(namesOf(shapes, "scale"));
     for (const collision::ShapeKind& kind : shapes.all())
         for (const collision::OwnSize& own : kind.own)

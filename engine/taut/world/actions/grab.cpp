@@ -27,7 +27,7 @@ Kind<ActionSpec> grabKind() {
             needsTarget(input, grab);
             needsId(input, grab);
             if (grab.rigid && grab.maxForce)
-                input.problems.addError(input.at("max_force_N"), "a rigid hand leads its points whatever it takes",
+                input.problems.addError(input.at("max_force_N"), "a rigid hand leads its points with unlimited force",
                                         "leave max_force_N or rigid out");
         });
 }

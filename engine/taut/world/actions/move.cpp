@@ -55,7 +55,7 @@ void checkPace(const MoveAction& action, const Hand& hand, double ticksPerSecond
 void moveHand(const MoveAction& action, WorldImpl& w) {
     Hand& hand = handOf(w, action, action.id);
     if (!action.to && !action.rotation)
-        failAction(action, "it is not said where the hand goes: `to` or `rotation_deg` is missing");
+        failAction(action, "the hand has no destination: `to` or `rotation_deg` is missing");
     hand.from = hand.placeAt(w.tick);
     hand.to = action.to.value_or(hand.from);
     hand.turnedFrom = hand.anglesAt(w.tick);

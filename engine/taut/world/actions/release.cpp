@@ -10,7 +10,7 @@ namespace taut::world {
 Kind<ActionSpec> releaseKind() {
     return actionKind<ReleaseAction>(
         fields::FieldList<ReleaseAction>().text("id", &ReleaseAction::id, fields::Role::none,
-                                                "Name of the hand; or of joints, all of which let go."),
+                                                "Name of the hand, or of joints to release."),
         needsId);
 }
 

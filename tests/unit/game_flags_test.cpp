@@ -47,7 +47,7 @@ TEST(Flags, SmoothSaysHowFineAllIsDrawnOrNothing) {
     addSmoothOverride(-1, overrides);
     EXPECT_TRUE(overrides.empty());
     addSmoothOverride(0, overrides);
-    EXPECT_EQ(overrides, std::vector<std::string>{"picture.smooth=0"});
+    EXPECT_EQ(overrides, std::vector<std::string>{"picture.smooth=0 # --smooth"});
 }
 
 TEST(Suggestion, DistanceCountsInsertionsRemovalsReplacementsAndSwaps) {

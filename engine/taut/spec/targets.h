@@ -52,8 +52,8 @@ std::vector<std::string> commonGroups(std::string_view selector,
 
 // The points of a selector, ascending, or of a group in its own order: a group of the model ("left", "corners", "all"
 // …), "#12" (by index), "(u,v)" (the grid point nearest to that fraction of width and height, from the top left),
-// "(u,v,r)" (besides all within r [m] of that place of the flat cloth), "50%" (along a rope), or what several groups
-// have in common, "front-top-left". Empty if it names none.
+// "(u,v,r)" (besides all within r [m] of that place of the flat cloth), "50%" (along a rope), or the points that
+// several groups have in common, "front-top-left". Empty if it names none.
 std::vector<int> selectPoints(const mechanics::Model& model, std::string_view selector);
 
 }  // namespace taut::world

@@ -43,12 +43,13 @@ class TieEnds {
     // The difference of two spots, a - b: each point once.
     static std::vector<Spot::Share> difference(const Spot& a, const Spot& b) {
         std::vector<Spot::Share> all(a.shares().begin(), a.shares().end());
-        for (const auto& [point, weight] : b.shares()) {
-            const auto same = std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.point == point; });
+        for (const Spot::Share& other : b.shares()) {
+            const auto same =
+                std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.point == other.point; });
             if (same != all.end())
-                same->weight -= weight;
+                same->weight -= other.weight;
             else
-                all.push_back({point, -weight});
+                all.push_back({other.point, -other.weight});
         }
         return all;
     }

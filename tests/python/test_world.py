@@ -415,7 +415,7 @@ class Refusals(Case):
     def test_objects_that_hold_nothing(self):
         with self.refused("this World holds no scene", "taut.load()"):
             taut.World.__new__(taut.World).positions("cloth.scarf")
-        with self.refused("this Surface holds nothing"):
+        with self.refused("this Surface is empty"):
             taut.Surface.__new__(taut.Surface).name
 
 

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "taut/core/aabb.h"
+#include "taut/mechanics/rigid.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {

@@ -152,7 +152,7 @@ def main():
     usda_agrees(x)
     blender_agrees(x)
     lost = export("small.toml", "-o", "fewer.glb", "--every", "3", "--only", "cloth.flag")
-    expect(re.search(r"19 frames left out, off by .* mm rms, .* mm at worst \(cloth.flag", lost), "lost motion: " + lost)
+    expect(re.search(r"19 frames left out, error .* mm rms, .* mm at worst \(cloth.flag", lost), "lost motion: " + lost)
 
     refused(2, [".usda", ".glb"], "small.toml", "-o", "small.obj")
     refused(2, [".npz", ".csv"], "small.toml", "--points", "small.txt")

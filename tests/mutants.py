@@ -185,12 +185,6 @@ MUTANTS = {
         "points that have jumped are where they were", STAGE,
         "colliders_.place(0.0, x1_);\n    if (hasJumped_) group_->drop();\n    hasJumped_ = false;\n}\n\nstd::optional",
         "colliders_.place(0.0, x1_);\n    hasJumped_ = false;\n}\n\nstd::optional"),
-    "trial-stands": (
-        "a tick in which nothing should meet stands if something does", STAGE,
-        "(isTrial && result_.impulses > 0)", "(isTrial && result_.impulses < 0)"),
-    "deep-stands": (
-        "an instant that went deep stands", STAGE,
-        "(result_.deepest > mostClosing || result_.slides > 0)", "result_.deepest > 1e300"),
     "placed-keeps-speed": (
         "what contact places keeps its velocity", ISLAND,
         "            planar_.set(state_.v, points[own], v[own]);\n", ""),

@@ -22,7 +22,7 @@
 // - Two leaves whose boxes are apart, or which a separating axis holds apart for this block, need no list. Neither do
 //   leaves of a flat surface that is still nearly flat (bvh_flatness.cpp).
 //
-// So a list may name too much, never too little. What it names too much the narrow phase drops, by a test that knows
+// So a list may have too many pairs, never too few. The narrow phase drops the extra pairs, by a test that depends on
 // this block alone. Pairs come in the order of their leaves and elements. That is why the result of a block does
 // not depend on when lists were made: after a restored state, or drop(), the same bits come out.
 #pragma once
@@ -56,10 +56,10 @@ class BroadPhase {
 
     // Finds the lists that are due on the way from x0 to x1 (points) [m].
     void find(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // x1 of these points is no longer what find() was told. Finds the lists that are due with the new x1, where points
+    // x1 of these points has changed since find(). Finds the lists that are due with the new x1, where points
     // were moved so far that it matters. Returns false if that is not enough: then all have to be found again.
     bool findAgain(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // Ends the block. x1 of these points is no longer what the last call was told.
+    // Ends the block. x1 of these points has changed since the last call.
     void finish(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
     // Points moved from x0 to x1, and pairs on the way are not wanted.
     void advance(std::span<const dvec3> x0, std::span<const dvec3> x1);

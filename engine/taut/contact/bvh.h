@@ -101,7 +101,7 @@ class Bvh {
                    std::span<double> shifts) const;
     bool isFollowed(int leaf) const { return isFollowed_[static_cast<std::size_t>(leaf)] != 0; }
     const LeafMotion& motion(int leaf) const { return motions_[static_cast<std::size_t>(leaf)]; }  // if it is followed
-    // x1 of these points has changed in this block. What is known of the leaves that have them is found anew.
+    // x1 of these points has changed in this block. Recomputes the motion of the leaves that contain them.
     void correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1);
 
     // Pairs a <= b of leaves that may touch, and whose boxes (leaves) are closer than near plus `more` [m]; ascending.

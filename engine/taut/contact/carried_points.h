@@ -1,5 +1,5 @@
 // Points of a group that go with others, as the surface of a block with the corners of its cells: place and velocity
-// are the same sum of theirs, and what presses such a point presses them by the same weights.
+// are the same sum of theirs, and an impulse on such a point acts on them by the same weights.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ class CarriedPoints {
     int first() const { return first_; }
     int end() const { return first_ + static_cast<int>(points_.size()); }
 
-    // Calls each(point, weight) for what moves a point of the group: itself, if it is not carried.
+    // Calls each(point, weight) for the movers of a point of the group: itself, if it is not carried.
     template <class Each>
     void forEachMover(int point, Each&& each) const {
         if (!has(point)) return each(point, 1.0);
@@ -38,7 +38,7 @@ class CarriedPoints {
         for (std::size_t k = 0; k < own.by.size(); ++k)
             if (own.weights[k] != 0) each(own.by[k], own.weights[k]);
     }
-    // Of a field (points), what a carried point has by its movers.
+    // The value of a field (points) at a carried point, from its movers.
     dvec3 valueAt(int point, std::span<const dvec3> field) const {
         const CarriedPoint& own = points_[static_cast<std::size_t>(point - first_)];
         dvec3 sum(0.0);
@@ -46,7 +46,7 @@ class CarriedPoints {
             sum += own.weights[k] * field[static_cast<std::size_t>(own.by[k])];
         return sum;
     }
-    // Gives all of them what they have by their movers.
+    // Updates all of them from their movers.
     void follow(std::span<dvec3> x, std::span<dvec3> v) const {
         constexpr int atOnce = 512;
         core::parallelFor(static_cast<int>(points_.size()), atOnce, [&](int k) {

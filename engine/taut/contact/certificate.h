@@ -1,5 +1,5 @@
 // Continuous collision detection by certificate: a proof for each pair that its two sides did not pass through each
-// other on straight ways from x0 to x1, and what is done to pairs without one.
+// other on straight ways from x0 to x1, and the treatment of pairs without one.
 //
 //      axis ^        o first side, at x0 and x1        The proof is one axis. At x0 all points of the first side are
 //           |    o->-' o                               above all of the second along it, and at x1 too. A point on a

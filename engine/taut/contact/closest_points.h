@@ -21,7 +21,7 @@ enum class Feature : unsigned char { face, edge0, edge1, edge2, corner0, corner1
 // The points of a pair: a point and the corners of a triangle, or the ends of two segments. Segments may be points.
 using Corners = std::array<dvec3, 4>;
 
-// The closest places of both sides.
+// The closest places of the two sides.
 struct Closest {
     std::array<double, 4> weights;  // as of a ContactConstraint
     dvec3 separation;               // [m] from the second side to the first: the sum of weights times corners

@@ -14,17 +14,17 @@
 //
 // No stiffness. A penalty spring k would limit the step of the islands by sqrt(m / k). Here the impulses solve a
 // complementarity problem for the step alone, so contact limits no step. Gaps are speculative: two sides may approach
-// by what is left of theirs in one step, and no root of a cubic is sought (compare Bridson, Fedkiw and Anderson 2002,
+// by the rest of their gap in one step, and no root of a cubic is sought (compare Bridson, Fedkiw and Anderson 2002,
 // which finds the time of impact).
 //
 // No memory beyond a tick. The solver starts from the impulses of the last block of the same tick, and a tick's first
-// block from 0: begin() forgets them. The broad phase keeps lists from block to block, but a list only says what to
-// measure, and never leaves out what matters (broad_phase.h). So the result of a tick depends on its start alone. A
-// restored world that has no lists yet goes on with the same bits.
+// block from 0: begin() forgets them. The broad phase keeps lists from block to block, but a list only
+// selects pairs to measure, and never leaves out a pair in reach (broad_phase.h). So the result of a tick depends on
+// its start alone. A restored world that has no lists yet goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
 // in the block (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as
-// impact zones (Provot 1997). Islands may change what they are handed, so the pairs are tested again after every round.
+// impact zones (Provot 1997). Islands may change these places, so the pairs are tested again after every round.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ struct ContactOptions {
     double friction = 0.3;     // Coulomb's μ between two surfaces, times the factors of both [-]
     double restitution = 0.0;  // likewise
     SolverOptions solver{};
-    // Tests switch these off to show what each is for.
+    // Tests switch these off to show their effect.
     bool certifies = true, slides = true, untangles = true;
 };
 
@@ -57,7 +57,7 @@ struct Block {
     std::span<const double> inverseMass;          // [1/kg]; 0: pinned or kinematic, contact does not move it
     std::span<const KinematicContact> kinematic;  // contacts of points with colliders, ascending by point
     std::span<const ContactConstraint> rigid{};   // pairs of convex solids, each with a point of both and a place
-    double restSpeed = 0;                         // [m/s] what closes more slowly does not bounce
+    double restSpeed = 0;                         // [m/s] slower pairs do not bounce
     double mostWay = 1e300;  // of the sides of a pair from one another, over its thickness: else the block is shorter
     // The group calls it with the points (ascending) whose x and v it has changed. Their island places them, and may
     // change both again: by rounding, or at a collider. May be empty.
@@ -95,7 +95,7 @@ class ContactGroup {
     // Points that keep their distances, in the coming blocks.
     void setSolids(std::vector<Solid> solids);
     // Points that go with others. Their places and velocities have to do so; the group sees to that for those of which
-    // it moved others. What moves none of them has no inverse mass.
+    // it moved others. Points that move none of them have no inverse mass.
     void setCarried(CarriedPoints carried);
     const CarriedPoints& carried() const { return carried_; }
 
@@ -111,7 +111,7 @@ class ContactGroup {
     // are where it left them.
     void begin(std::span<const dvec3> x);
     // A block, see above. A block without rows needs no step().
-    // Returns how many steps the block has, from one to those that were asked for.
+    // Returns the number of steps of the block, from one to the requested number.
     int open(const Block& block);
     bool hasRows() const;
     void step(const Step& step);
@@ -143,7 +143,8 @@ class ContactGroup {
         for (std::size_t p = active_.size(); p < solver_.impulses().size(); ++p)
             if (solver_.impulses()[p] > 0) each(p - active_.size(), solver_.impulses()[p], solver_.frictions()[p]);
     }
-    // Points that parts of driven surfaces closed upon in the last block, ascending; with them what still presses.
+    // Points that parts of driven surfaces closed upon in the last block, ascending; with them the rank that still
+    // presses.
     const std::map<int, int>& squeezed() const { return squeezed_; }
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
     std::size_t activeCount() const { return active_.size(); }  // pairs that went to the solver
@@ -151,7 +152,7 @@ class ContactGroup {
     std::uint64_t bytes() const;
 
   private:
-    // What each part gives to the next is a member that it names.
+    // Each part passes its result to the next in the member that it names.
     void detect(std::span<const dvec3> x0, std::span<const dvec3> x1);  // broad and narrow phase -> tested_
     void selectActive();                                                // tested_ -> active_
     int measureWays();

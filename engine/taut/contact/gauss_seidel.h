@@ -11,9 +11,9 @@
 // sweep.
 //
 // Softness. Two things that nothing moves may close on a third, and no impulses keep both. Where rows are soft, their
-// impulses end at what closes divided by the softness, instead of growing for ever.
+// impulses end at the closing speed divided by the softness, instead of growing for ever.
 //
-// Solids. What a row does with points of a rigid body it does with the velocity of the body's centre, which is in the
+// Solids. In place of the points of a rigid body, a row has the velocity of the body's centre, which is in the
 // points' slots, and with its spin, which is in a slot of its own (Turn). Where more than four velocities move the
 // points of a row, the others are its shares.
 //
@@ -52,7 +52,7 @@ struct Range {
         return all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first));
     }
 };
-// What rows may have besides their four velocities.
+// Further velocities of rows besides their four.
 struct Levers {
     std::span<const Turn> turns;
     std::span<const Share> shares;
@@ -75,7 +75,7 @@ struct Row {
     int source = 0;          // for its owner
 };
 
-// What impulses that rows have already are at the start: a guess, in the velocities, or those of the step before.
+// Meaning of the initial impulses of rows: a guess, applied to the velocities, or those of the step before.
 enum class Start { guessed, applied, kept };
 inline constexpr double keptShare = 0.95;  // of the impulses of the step before
 
@@ -84,7 +84,7 @@ inline constexpr double keptShare = 0.95;  // of the impulses of the step before
 int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std::span<Four> velocities,
                          const Levers& levers = {}, Start start = Start::guessed);
 
-// What the kernel gets: rows lane by lane. A lane without a row is all 0, and has the first lane's slots.
+// Input of the kernel: rows lane by lane. A lane without a row is all 0, and has the first lane's slots.
 struct Pack {
     Four normal[3]{};
     Four impulse[4]{}, change[4]{}, direction[4]{};  // [N s]
@@ -107,7 +107,7 @@ struct Sweeps {
     int most;
     double tolerance;  // [m/s]
     Start start;
-    // (slots) [m] What the velocities have come to since gaps were measured, and 1 over the length of the step [1/s];
+    // (slots) [m] Integral of the velocities since gaps were measured, and 1 over the length of the step [1/s];
     // null: gaps do not count.
     const Four* gone = nullptr;
     double perSecond = 0;

@@ -40,7 +40,7 @@ void findPointBoxes(std::span<const dvec3> x, std::vector<FloatBox>& boxes);
 // Boxes of some elements of a leaf, in rows: all lower x, all lower y, …
 class ElementBoxes {
   public:
-    // boxOf(item): what it gets. Keeps a reference to the items.
+    // boxOf(item): its box. Keeps a reference to the items.
     template <class BoxOf>
     void fill(const std::vector<int>& items, const BoxOf& boxOf) {
         items_ = items;
@@ -85,7 +85,7 @@ class BoxQuery {
     void forEach(const ElementBoxes& first, const core::Aabb& boxOfFirst, const ElementBoxes& second,
                  const core::Aabb& boxOfSecond, const Each& each) {
         const bool isOne = &first == &second;
-        // What may meet anything of the other leaf at all.
+        // Elements that may meet any element of the other leaf.
         if (!second.findHits(floatBox(boxOfFirst, reach_), kernels_, seconds_)) return;
         if (isOne)
             firsts_ = seconds_;

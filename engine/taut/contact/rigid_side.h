@@ -12,11 +12,11 @@ namespace taut::contact {
 // count as behind it.
 inline constexpr double valley = 0.2;
 
-// Whether the corner is closest to what lies outward of it: none of its edges rises that way.
+// Whether the corner is closest to places outward of it: none of its edges rises that way.
 bool isCornerNearest(const Elements& elements, int point, const dvec3& outward, std::span<const dvec3> x);
 // How convex the edge is at a place on it, towards `outward`: 1 where no face beside it rises that way by half of
 // `valley`, 0 where one rises by all of it, below 0 beyond, where the face is closer than the edge. Continuous, so that
-// a crumpled cloth does not tremble between an edge that pushes and one that does not.
+// a crumpled cloth does not jitter between an edge that pushes and one that does not.
 double convexityOf(const Elements& elements, const Edge& edge, const dvec3& on, const dvec3& outward,
                    std::span<const dvec3> x);
 // Whether the faces beside an edge are behind it, seen from outward.

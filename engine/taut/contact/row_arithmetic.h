@@ -1,4 +1,4 @@
-// What a row sees of the velocities and does to them, for one row at a time; gauss_seidel_kernel.cpp does so for four.
+// Relative velocity and impulse of a row, for one row at a time; gauss_seidel_kernel.cpp does so for four.
 #pragma once
 
 #include <cmath>

@@ -27,7 +27,7 @@
 // (gauss_seidel.h).
 //
 // Solids. Points of a rigid body have its two velocities, of the centre and the spin. An impulse acts where the sides
-// meet, a thickness off the points, so that balls roll. Its points get what the body got. Gaps through which one would
+// meet, a thickness off the points, so that balls roll. Its points move with the body. Gaps through which one would
 // fall from rest in a block count as closed, so that a pile rests on the same places in every block.
 //
 // Carried points have no velocity of their own: rows know those of their movers, of which one may be in several places.
@@ -39,7 +39,7 @@
 // they yield by a hundredth of the velocity that they take, which the position correction makes up for.
 //
 // The impulses of the last block are where the next one starts, as most contacts last longer than a block. They are
-// forgotten as a tick begins, so that what outlives a tick is the state of the islands alone.
+// forgotten as a tick begins, so only the state of the islands outlives a tick.
 #pragma once
 
 #include <algorithm>
@@ -61,11 +61,11 @@
 namespace taut::contact {
 
 struct SolverOptions {
-    int sweeps = 20;         // of the first step of a block, at most; of what has no solids
+    int sweeps = 20;         // of the first step of a block, at most; without solids
     int moreSweeps = 4;      // of each of the other steps
     double settled = 1e-5;   // sweeps end when they change less than this share of the thickness per step [-]
     double recovery = 0.2;   // share of an overlap that is corrected in a block [-]
-    double restSpeed = 0.0;  // [m/s] what closes slower does not bounce
+    double restSpeed = 0.0;  // [m/s] slower rows do not bounce
 };
 
 // Points that keep their distances.
@@ -99,7 +99,7 @@ struct KinematicContact {
     }
 };
 
-// What a block of steps is, as it begins. Its spans have to last until it ends.
+// A block of steps as it begins. Its spans have to last until it ends.
 struct SolverBlock {
     std::span<const ContactConstraint> pairs;
     std::span<const KinematicContact> kinematic;  // ascending by point
@@ -227,7 +227,7 @@ class ContactSolver {
     const CarriedPoints* carried_ = &none_;
     std::vector<Turn> turns_;    // of rows
     std::vector<Share> shares_;  // likewise
-    // Of the row that is being made: what moves its points, and its solids.
+    // Movers and solids of the row that is being made.
     struct Term {
         int slot;
         double weight, inverseMass;  // [-], [1/kg]

@@ -1,4 +1,4 @@
-// What an entity of the world can have.
+// Components of entities of the world.
 #pragma once
 
 #include <memory>

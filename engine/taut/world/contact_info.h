@@ -1,4 +1,4 @@
-// What a world reports of contact between bodies. It knows no body.
+// Report of a world about contact between bodies. It knows no body.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a world reports of its bodies, points and joints. It does not know the world.
+// Report of a world about its bodies, points and joints. It does not know the world.
 #pragma once
 
 #include <cstdint>

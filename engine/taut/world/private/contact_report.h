@@ -1,4 +1,4 @@
-// What a world reports of contact: which bodies press on each other now, and which have crossed since when. Unlike the
+// Reports of contact: which bodies press on each other now, and which have crossed since when. Unlike the
 // contact stage it survives changes of bodies, and is saved with the state.
 #pragma once
 

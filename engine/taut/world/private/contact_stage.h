@@ -10,9 +10,10 @@
 // force of its step: all islands take substeps that are a multiple of these. And so many that nothing goes by more than
 // three thicknesses in one.
 //
-// How many blocks. As few as possible, because detection is expensive: eight in a sixtieth of a second, or one a step if
-// these are fewer, and half as many where little moves and nothing may roll. A block in which two sides would go further
-// than three thicknesses from one another or past is shorter, and it ends with a step in which something bounced.
+// How many blocks. As few as possible, because detection is expensive: eight in a sixtieth of a second, or one a step
+// if these are fewer, and half as many where little moves and nothing may roll. A block in which two sides would go
+// further than three thicknesses from one another or past is shorter, and it ends with a step in which something
+// bounced.
 //
 // A tick is never tried and undone for contact. It is repeated if an island asks for it (its step was too long), if one
 // diverged and is frozen, and where something that sleeps was reached. The other islands then go on, and the frozen one
@@ -54,7 +55,7 @@ bool touches(const IslandPlan& plan);
 // One of surfacesOf(body). Its points have their island numbers plus `offset`.
 contact::ContactSurface surfaceOf(const Body& body, const mechanics::RigidPart& part, int offset, int bond);
 
-// Puts what a body carries in place of its surface, if it carries any: its points follow those that are there in
+// Puts the carried surface of a body in place of its own, if it has one: its points follow those that are there in
 // `rest`. numberOf(point of the model): in `rest`.
 void carry(const CarriedSurface& own, const std::function<int(int)>& numberOf, contact::ContactSurface& surface,
            std::vector<dvec3>& rest, std::vector<contact::CarriedPoint>& carried);
@@ -82,7 +83,7 @@ class ContactStage {
     // Sleep. All islands are still, and some sleep: a tick does nothing.
     bool isAtRest() const { return anySleeps() && !movesAny() && !colliders_.hasFigures(); }
     // (points of the island) by other bodies, and by edges of colliders. Friction may hold a point if it used at most
-    // 0.9 of what Coulomb allows.
+    // 0.9 of Coulomb's limit.
     std::vector<Island::Support> supports(const Island& island) const;
     // Where a solid was pressed, by island.
     using Footholds = std::map<const Island*, std::vector<Island::Foothold>>;

@@ -24,7 +24,7 @@ struct ElementTouch {
     double gap;           // [m] beyond the thickness of the surface
     double speed;         // [m/s] of the element past the shape
     double slack;         // [m] to a collider, by which it is wider at the end, as the element turns past it
-    double thickness;     // [m] of both
+    double thickness;     // [m] of element and shape
     dvec3 velocity;       // [m/s] of the shape there
 };
 

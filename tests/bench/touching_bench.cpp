@@ -1,4 +1,4 @@
-// What it costs that bodies touch, a point and detection of contact, the steps in between left in: a sheet that
+// The cost of contact between bodies per point and detection, including the steps in between: a sheet that
 // falls on its edge while it piles up and when it lies, one that hangs and meets nothing, and two that lie on a ball;
 // and boxes that fall into a heap, and that stand in a wall.
 #include <benchmark/benchmark.h>

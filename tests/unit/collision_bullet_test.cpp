@@ -47,8 +47,8 @@ dvec3 placeAround(const core::Aabb& box, bool isRound, Numbers& numbers) {
     return box.centre() + place * box.halfSize();
 }
 
-// What a kernel may differ by from Bullet's answer, of the size. Rounding is below 4e-16 for shapes of flat faces,
-// whose simplex ends exactly, and for balls, which Bullet has as points and lines with a margin.
+// Largest difference of a kernel from Bullet's answer, relative to the size. Rounding is below 4e-16 for shapes of flat
+// faces, whose simplex ends exactly, and for balls, which Bullet has as points and lines with a margin.
 struct Kernel {
     SizedShape shape;
     double outside;

@@ -86,7 +86,7 @@ TEST(Hinge, APendulumHasThePeriodOfTheEllipticIntegral) {
     EXPECT_NEAR(world.metrics().energy(), energy, 1e-4 * 0.2 * g * 0.5);
 }
 
-// Two links in free space, one spinning: what holds them together adds no momentum, and no energy to speak of.
+// Two links in free space, one spinning: their joint adds no momentum, and hardly any energy.
 TEST(Hinge, KeepsMomentumAndEnergyOfFreeBodies) {
     for (const char* kind : {"hinge", "ball"}) {
         World world(sceneOf(head("[0, 0, 0]") + link("a", 0, "spin_rad_per_s = [0, 0, 2]\n") +

@@ -168,7 +168,7 @@ SceneSpec sewnCurtain(int cells) {
     return scene;
 }
 
-// Points of a seam move as one, or as the places between them: their mass and what holds them is that of both.
+// Points of a seam move as one, or as the places between them: masses and holds of the two edges add up.
 TEST(Sleep, APanelSewnToAnotherStaysWithinTheErrorAndFallsWhenTheSeamIsReleased) {
     for (const int cells : {4, 7}) expectWithinError(sewnCurtain(cells), {"cloth.curtain", "cloth.lower"}, 7.0);
 

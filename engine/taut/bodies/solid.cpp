@@ -302,7 +302,7 @@ std::unique_ptr<BodyDrawing> SolidSpec::drawing(const Body& body) const {
     return std::make_unique<SolidDrawing>(body);
 }
 
-// The thickness of what is round is its radius.
+// The thickness of a round shape is its radius.
 Kind<BodySpec> solidKind() {
     Kind<BodySpec> kind = bodyKind<SolidSpec>();
     kind.sectionWith = [rest = bodyRows<SolidSpec>()](const ShapeKinds& known) {

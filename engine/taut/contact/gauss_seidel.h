@@ -14,7 +14,7 @@
 // impulses end at the closing speed divided by the softness, instead of growing for ever.
 //
 // Solids. In place of the points of a rigid body, a row has the velocity of the body's centre, which is in the
-// points' slots, and with its spin, which is in a slot of its own (Turn). Where more than four velocities move the
+// points' slots, and its spin, which is in a slot of its own (Turn). Where more than four velocities move the
 // points of a row, the others are its shares.
 //
 // Four rows at a time. A row waits for the rows before it that share a velocity with it, and for no others. So rows are

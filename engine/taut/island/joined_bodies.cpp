@@ -82,7 +82,7 @@ void JoinedBodies::respond(std::span<const dvec3> at, std::span<const double> in
     for (std::size_t k = 0; k < pairs_.size(); ++k) moved_[k] = held(k, moved(pairs_[k].a) - moved(pairs_[k].b));
 }
 
-// Leashes only pull: those that a solution would have push go slack, and it is found again.
+// Leashes only pull: those whose impulse would push go slack, and the solution is repeated.
 bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inverseMass, std::span<const dvec3> values,
                          bool arePlaces, double settled) {
     isSlack_.assign(pairs_.size(), false);

@@ -29,7 +29,7 @@ std::vector<int> gridPoints(const mechanics::Model& model, const GridPlace& plac
     return points;
 }
 
-// What the groups have in common.
+// The points that all groups of a selector have.
 std::vector<int> commonPoints(const mechanics::Model& model, std::string_view selector) {
     std::optional<std::vector<int>> common;
     for (const std::string& name :

@@ -28,7 +28,7 @@ constexpr int partsOfRope = 24, partsOfCloth = 12, partsOfBlock = 5;
 // What a call of the forces takes besides, in springs (measured on nets of a few springs: 100 ns against 1 to 2).
 constexpr double costOfCall = 60;
 
-// What a detection of contact between bodies takes of each point, and of each pair that it looks at, in springs
+// The cost of a detection of contact between bodies per point, and per pair that it looks at, in springs
 // (measured on a hanging cloth, one that folds and a pile of four: 120 ns, and 0.6 to 1.3 us, against 2 ns).
 constexpr double costOfDetection = 60, costOfPair = 400;
 

@@ -494,7 +494,7 @@ void ContactStage::addWholeContacts(double h, double ahead) {
             contact.thickness = thickness;
             contact.restitution = surface.material.restitution * spec.restitution;
             contact.arm = -thickness * surface.away;
-            // Where it came from, so that what it goes in this block is no overlap.
+            // At the start of the step, so that its way in this block is no overlap.
             contact.gap = surface.distance - thickness + glm::dot(surface.away, x0_[k] - x1_[k]) + h * contact.speed;
         });
 }
@@ -753,7 +753,7 @@ bool ContactStage::findReached() {
     return !reached_.empty();
 }
 
-// Adds up what pairs press points with in this step, and colliders those of whole bodies.
+// Adds up the impulses of pairs on points in this step, and of colliders on those of whole bodies.
 void ContactStage::addPresses() {
     const auto add = [&](int point, double share, double limit, const dvec3& push, const dvec3& friction) {
         group_->carried().forEachMover(

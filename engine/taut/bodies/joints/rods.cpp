@@ -191,7 +191,7 @@ void Rods::findTaut(const Moment& moment, bool ofPlaces) {
     }
 }
 
-// Leashes only pull: those that the impulses would have push go slack. Returns whether any did.
+// Leashes only pull: one whose impulse would push goes slack. Returns whether any did.
 bool Rods::slacken() {
     bool isAny = false;
     for (std::size_t i = 0; i < order_.size(); ++i) {

@@ -1,6 +1,6 @@
 // Deformable bodies against convex shapes whose distance is a formula: points, edges and faces of theirs near solids,
 // and near colliders the edges and faces, as what comes between the points that islands, or whole bodies, bring out.
-// Found at the start of a block, as what rigid shapes touch is (rigid_contacts.h).
+// Found at the start of a block, like the contacts of rigid shapes (rigid_contacts.h).
 #pragma once
 
 #include <array>

@@ -81,7 +81,7 @@ class LookAhead {
     void addPosts(const ContactStage& stage) {
         if (posts_.empty()) return;
         for (const ElementTouch& touch : stage.elementTouches()) {
-            if (touch.collider < 0 || touch.gap > touch.way) continue;
+            if (touch.collider < 0 || touch.gap > touch.closing) continue;
             const auto post = posts_.find({stage.nameOf(touch.surface), stage.colliderName(touch.collider)});
             if (post != posts_.end()) found_.posts.insert(*post);
         }

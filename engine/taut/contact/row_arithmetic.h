@@ -6,9 +6,11 @@
 #include <span>
 
 #include "taut/contact/gauss_seidel.h"
+#include "taut/core/across.h"
 
 namespace taut::contact {
 
+using core::acrossOf;
 using glm::dvec3;
 
 inline Four four(const dvec3& v) {
@@ -28,10 +30,6 @@ inline glm::dmat3 gainOf(const Turn& turn) {
     return gain;
 }
 
-// Of the directions across a normal, one; unit.
-inline dvec3 acrossOf(const dvec3& normal) {
-    return glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
-}
 // Friction, no more of it than Coulomb allows.
 inline dvec3 withinCone(const dvec3& friction, double limit) {
     const double size = std::sqrt(glm::dot(friction, friction));

@@ -160,6 +160,7 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                        .normal = shape.from.directionToWorld(near.normal),
                        .place = dvec3(0.0),
                        .gap = near.distance - query.thickness,
+                       .closing = 0,
                        .speed = 0,
                        .slack = 0,
                        .thickness = query.thickness + shape.thickness,
@@ -172,12 +173,12 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
     const dvec3 on = touch.place - near.distance * touch.normal,
                 wayOfShape = shape.to.toWorld(shape.from.toLocal(on)) - on;
     const dvec3 way = end - touch.place - wayOfShape;
-    const double closing = -glm::dot(touch.normal, way);
+    touch.closing = -glm::dot(touch.normal, way);
     touch.speed = glm::length(way) / query.seconds;
     touch.velocity = wayOfShape / query.seconds;
-    if (!(touch.gap < closeShare * touch.thickness || closing > touch.gap)) return;
-    if (touch.collider >= 0 && glm::length(way + closing * touch.normal) > flatShare * touch.thickness)
-        touch.slack = slackOf(query, points, near.distance - closing);
+    if (!(touch.gap < closeShare * touch.thickness || touch.closing > touch.gap)) return;
+    if (touch.collider >= 0 && glm::length(way + touch.closing * touch.normal) > flatShare * touch.thickness)
+        touch.slack = slackOf(query, points, near.distance - touch.closing);
     touches_.push_back(touch);
 }
 

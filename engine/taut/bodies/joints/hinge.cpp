@@ -15,6 +15,7 @@
 #include "taut/bodies/private/joints/only_constraint.h"
 #include "taut/bodies/private/joints/pins.h"
 #include "taut/bodies/private/joints/rods.h"
+#include "taut/core/across.h"
 #include "taut/core/error.h"
 #include "taut/core/trig.h"
 #include "taut/fields/private/problems.h"
@@ -37,15 +38,6 @@ void leash(IslandPlan& plan, const Mounting& at, const dvec3& first, const dvec3
         [&](Rods& rods) {
             std::visit([&](const auto& end) { rods.tie(at.a(first), end, length, source, true); }, at.b(second));
         });
-}
-
-// A unit vector across a unit vector.
-dvec3 acrossOf(const dvec3& axis) {
-    const dvec3 size = glm::abs(axis);
-    const dvec3 other = size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0)
-                        : size.y <= size.z                   ? dvec3(0, 1, 0)
-                                                             : dvec3(0, 0, 1);
-    return glm::normalize(glm::cross(axis, other));
 }
 
 [[noreturn]] void failMount(const JointSpec& joint) {
@@ -77,7 +69,7 @@ void BallJoint::carry(IslandPlan&, const Spot&, Grip) const {
 
 void HingeJoint::mount(IslandPlan& plan, const Mounting& at) const {
     const dvec3& middle = at.at.position;
-    const dvec3 along = glm::normalize(at.at.rotation * axis), across = acrossOf(along);
+    const dvec3 along = glm::normalize(at.at.rotation * axis), across = core::acrossOf(along);
     const dvec3 half = (0.5 * at.size) * along, arm = at.size * across;
     pin(plan, at, middle - half, source);
     pin(plan, at, middle + half, source);

@@ -21,7 +21,7 @@ struct ElementTouch {
     std::array<int, 3> points;  // of the group; of an edge the third is -1, of a point the second too
     std::array<double, 3> weights;
     dvec3 normal, place;  // unit, out of the shape; [m] of the element
-    double gap;           // [m] beyond the thickness of the surface
+    double gap, closing;  // [m] beyond the thickness of the surface; by which it shrinks in the block
     double speed;         // [m/s] of the element past the shape
     double slack;         // [m] to a collider, by which it is wider at the end, as the element turns past it
     double thickness;     // [m] of element and shape

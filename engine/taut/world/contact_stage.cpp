@@ -291,7 +291,7 @@ ContactStage::Penetration ContactStage::penetration(const std::function<bool(con
         if (touch.other < 0 && isWanted(touch.surface)) all.ofPoints = std::max(all.ofPoints, -touch.gap);
     for (const ElementTouch& touch : elementTouches_)
         if (touch.collider >= 0 && isWanted(touch.surface))
-            all.deepest = std::max(all.deepest, -touch.gap - elements().surface(touch.surface).thickness);
+            all.deepest = std::max(all.deepest, -touch.gap - touch.thickness);
     if (colliders_.isEmpty()) return all;
     all.deepest = std::max(all.deepest, contact::penetrationOf(elements(), now, x1_, isWanted));
     for (const contact::Crossing& crossing : now) {
@@ -612,7 +612,7 @@ void ContactStage::addTouches() {
         }
         contact::KinematicContact& contact =
             add(touch.collider, touch.points[0], touch.normal, touch.place - surface.thickness * touch.normal,
-                touch.velocity, touch.gap + touch.slack);
+                touch.velocity, touch.gap);
         contact.points = touch.points;
         contact.weights = touch.weights;
         if (!contact::mayYield(contact.used(), std::span(contact.weights).first(contact.used().size()), inverseMass_))

@@ -7,9 +7,9 @@ namespace taut::world {
 namespace {
 
 // Of the thickness:
-constexpr double closeShare = 0.05;     // what is nearer counts though nothing closes
-constexpr double flatShare = 0.2;       // an element that slides less keeps its normal
-constexpr double standsOutShare = 0.2;  // an edge or a face counts where it comes nearer than its points by so much
+constexpr double closeShare = 0.05;   // what is nearer counts though nothing closes
+constexpr double expectedWay = 1.0;   // after which an element is expected where its touch is
+constexpr double betweenShare = 0.8;  // that is kept from colliders between points
 
 double longestEdge(const contact::Elements& elements, int surface, std::span<const dvec3> x) {
     double square = 0;
@@ -36,10 +36,9 @@ struct ElementContacts::Query {
 
     // [m] A place that is further from the shape, and goes no further than `way`, does not meet it.
     double reach(double way) const { return way + shape.travel + (1 + closeShare) * thickness; }
-    // Whether an element comes nearer to a collider, by so much, than its nearest point, which others keep off.
-    bool standsOut(const collision::ElementNear& near, double ofPoints) const {
-        return shape.surface >= 0 || near.distance < ofPoints - standsOutShare * thickness;
-    }
+    // [m] What an element keeps from the shape. Points keep the whole thickness from colliders by themselves: elements
+    // that lie flat on one, or bent about one, need no touch.
+    double kept() const { return shape.surface >= 0 ? thickness : betweenShare * thickness; }
 };
 
 std::span<const ElementTouch> ElementContacts::find(const contact::Elements& elements, std::span<const dvec3> x0,
@@ -119,8 +118,7 @@ void ElementContacts::addEdges(const Query& query) {
         const double reach = query.reach(std::max(ways_[a], ways_[b]));
         if (near_[a].distance + near_[b].distance - glm::length(local_[b] - local_[a]) > 2 * reach) continue;
         const auto near = collision::nearestInEdge(query.closed, local_[a], local_[b], near_[a], near_[b]);
-        if (near && near->distance < reach && query.standsOut(*near, std::min(near_[a].distance, near_[b].distance)))
-            add(query, 3 * e + 1, {edge.a, edge.b, -1}, *near);
+        if (near && near->distance < reach) add(query, 3 * e + 1, {edge.a, edge.b, -1}, *near);
     }
 }
 
@@ -142,7 +140,7 @@ void ElementContacts::addFaces(const Query& query) {
         const auto at = [&](std::size_t k) { return local_[static_cast<std::size_t>(triangle.points[k])]; };
         const auto near = collision::nearestInFace(*query.shape.convex, at(0), at(1), at(2));
         // A face is pierced between its corners; where one of them is in the shape, that one tells the way out.
-        if (near && near->distance < reach && query.standsOut(*near, least) && (near->distance > 0 || least >= 0))
+        if (near && near->distance < reach && (near->distance > 0 || least >= 0))
             add(query, 3 * t + 2, triangle.points, *near);
     }
 }
@@ -150,54 +148,65 @@ void ElementContacts::addFaces(const Query& query) {
 void ElementContacts::add(const Query& query, int element, const std::array<int, 3>& points,
                           const collision::ElementNear& near) {
     const ShapeInMotion& shape = query.shape;
+    const double thickness = query.kept() + shape.thickness;
+    std::array<dvec3, 3> x{}, ways{};  // in the axes of the shape
+    for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k) {
+        const auto i = static_cast<std::size_t>(points[k]);
+        x[k] = local_[i];
+        ways[k] = shape.to.toLocal(query.x1[i]) - x[k];
+    }
+    const auto wayOf = [&](const collision::ElementNear& at) {
+        return at.weights[0] * ways[0] + at.weights[1] * ways[1] + at.weights[2] * ways[2];
+    };
+    const dvec3 way = wayOf(near);
+    const double closing = -glm::dot(near.normal, way), gap = near.distance - query.kept();
+    if (!(gap < closeShare * thickness || closing > gap)) return;
+
+    collision::ElementNear at = near;
+    double share = 0;
+    if (shape.collider >= 0) {
+        const double size = glm::length(way);
+        share = size > expectedWay * thickness ? expectedWay * thickness / size : 1.0;
+        for (std::size_t k = 0; k < 3; ++k) x[k] += share * ways[k];
+        at = nearestOf(query, points, x);
+    }
     ElementTouch touch{.surface = query.surface,
                        .solid = shape.surface,
                        .collider = shape.collider,
                        .shape = query.number,
                        .element = element,
                        .points = points,
-                       .weights = {near.weights[0], near.weights[1], near.weights[2]},
-                       .normal = shape.from.directionToWorld(near.normal),
+                       .weights = {at.weights[0], at.weights[1], at.weights[2]},
+                       .normal = shape.from.directionToWorld(at.normal),
                        .place = dvec3(0.0),
-                       .gap = near.distance - query.thickness,
-                       .closing = 0,
-                       .speed = 0,
-                       .slack = 0,
-                       .thickness = query.thickness + shape.thickness,
+                       .gap = at.distance - query.kept() - share * glm::dot(at.normal, wayOf(at)),
+                       .closing = closing,
+                       .speed = glm::length(way) / query.seconds,
+                       .thickness = thickness,
                        .velocity = dvec3(0.0)};
-    dvec3 end(0.0);
-    for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k) {
+    for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k)
         touch.place += touch.weights[k] * query.x0[static_cast<std::size_t>(points[k])];
-        end += touch.weights[k] * query.x1[static_cast<std::size_t>(points[k])];
-    }
-    const dvec3 on = touch.place - near.distance * touch.normal,
-                wayOfShape = shape.to.toWorld(shape.from.toLocal(on)) - on;
-    const dvec3 way = end - touch.place - wayOfShape;
-    touch.closing = -glm::dot(touch.normal, way);
-    touch.speed = glm::length(way) / query.seconds;
-    touch.velocity = wayOfShape / query.seconds;
-    if (!(touch.gap < closeShare * touch.thickness || touch.closing > touch.gap)) return;
-    if (touch.collider >= 0 && glm::length(way + touch.closing * touch.normal) > flatShare * touch.thickness)
-        touch.slack = slackOf(query, points, near.distance - touch.closing);
+    const dvec3 on = touch.place - near.distance * touch.normal;
+    touch.velocity = (shape.to.toWorld(shape.from.toLocal(on)) - on) / query.seconds;
     touches_.push_back(touch);
 }
 
-// [m] By how much an element is further from the shape at the end of the block than `distance`, the one along its
-// normal at the start: it slides past an edge, or along what is round.
-double ElementContacts::slackOf(const Query& query, const std::array<int, 3>& points, double distance) {
-    const auto at = [&](std::size_t k) {
-        return query.shape.to.toLocal(query.x1[static_cast<std::size_t>(points[k])]);
-    };
-    const auto from = [&](const dvec3& place) { return collision::distanceTo(query.closed, place); };
-    double then = from(at(0)).distance;
-    if (points[2] >= 0) {
-        const auto near = collision::nearestInFace(*query.shape.convex, at(0), at(1), at(2));
-        then = near ? near->distance : std::min({then, from(at(1)).distance, from(at(2)).distance});
-    } else if (points[1] >= 0) {
-        const auto near = collision::nearestInEdge(query.closed, at(0), at(1), from(at(0)), from(at(1)));
-        then = near ? near->distance : std::min(then, from(at(1)).distance);
+// Where an element whose points are at x is nearest to the shape, at a corner too.
+collision::ElementNear ElementContacts::nearestOf(const Query& query, const std::array<int, 3>& points,
+                                                  const std::array<dvec3, 3>& x) {
+    std::array<collision::Nearest, 3> corners;
+    std::size_t count = 0, least = 0;
+    for (; count < 3 && points[count] >= 0; ++count) {
+        corners[count] = collision::distanceTo(query.closed, x[count]);
+        if (corners[count].distance < corners[least].distance) least = count;
     }
-    return std::max(0.0, then - std::max(distance, 0.0));
+    std::optional<collision::ElementNear> near;
+    if (count == 2) near = collision::nearestInEdge(query.closed, x[0], x[1], corners[0], corners[1]);
+    if (count == 3) near = collision::nearestInFace(*query.shape.convex, x[0], x[1], x[2]);
+    if (near && (near->distance > 0 || corners[least].distance >= 0)) return *near;
+    collision::ElementNear corner{corners[least].distance, corners[least].normal, {}};
+    corner.weights[least] = 1.0;
+    return corner;
 }
 
 }  // namespace taut::world

@@ -21,10 +21,9 @@ struct ElementTouch {
     std::array<int, 3> points;  // of the group; of an edge the third is -1, of a point the second too
     std::array<double, 3> weights;
     dvec3 normal, place;  // unit, out of the shape; [m] of the element
-    double gap, closing;  // [m] beyond the thickness of the surface; by which it shrinks in the block
+    double gap, closing;  // [m] beyond the thickness; by which it shrinks in the block
     double speed;         // [m/s] of the element past the shape
-    double slack;         // [m] to a collider, by which it is wider at the end, as the element turns past it
-    double thickness;     // [m] of element and shape
+    double thickness;     // [m] that element and shape keep between them
     dvec3 velocity;       // [m/s] of the shape there
 };
 
@@ -43,7 +42,8 @@ class ElementContacts {
     void addPoints(const Query& query);
     void addEdges(const Query& query);
     void addFaces(const Query& query);
-    static double slackOf(const Query& query, const std::array<int, 3>& points, double distance);
+    static collision::ElementNear nearestOf(const Query& query, const std::array<int, 3>& points,
+                                            const std::array<dvec3, 3>& x);
     void add(const Query& query, int element, const std::array<int, 3>& points, const collision::ElementNear& near);
 
     // Of one surface and one shape, (points).

@@ -324,6 +324,7 @@ TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     EXPECT_EQ(hinge.damping, 0.4);
     EXPECT_EQ(hinge.motorSpeed, -2.0);
     EXPECT_EQ(hinge.motorMost, 6.0);
+    EXPECT_TRUE(hinge.touch);
     EXPECT_NEAR(*scene.joints.of<world::BallJoint>().at(0).cone, 0.5 * core::pi, 1e-15);
     ASSERT_EQ(scene.masses.size(), 1U);
     EXPECT_EQ(scene.masses[0].target, "block.jelly@corners");

@@ -220,6 +220,7 @@ friction_N_m = 0.3
 damping_N_m_s = 0.4
 motor_rad_per_s = -2
 motor_N_m = 6
+touch = true
 [[joint]]
 a = "solid.stone"
 b = "solid.pill"

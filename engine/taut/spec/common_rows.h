@@ -122,6 +122,8 @@ std::vector<fields::Field> everyJointsRows() {
               "Name for the action release; it releases all joints of the name.")
         .number("break_N", &JointSpec::breakForce, "N", fields::positive,
                 "Mean force of a tie over a tick above which the tie breaks; default never.")
+        .flag("touch", &JointSpec::touch,
+              "Whether the solids, or the solid and the collider, that it joins collide with each other.")
         .number("radius", &JointSpec::look, &JointLook::radius, "m", lengthRange, "Radius of the drawn cord or wire.")
         .whole("turns", &JointSpec::look, &JointLook::turns, "", fields::Range{0.0, 1000.0},
                "Number of turns of the drawn coil; 0: a straight cord.")

@@ -234,7 +234,7 @@ void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const
         const IslandPlan& plan = part.island->plan();
         for (int i = part.first; i < part.last; ++i) join(i, i);  // a merged point
         for (const JointTie& tie : plan.ties) {
-            if (!holds(plan, tie)) continue;
+            if (tie.touch || !holds(plan, tie)) continue;
             if (tie.b >= 0) join(part.first + tie.a, part.first + tie.b);
             const auto pins = [&](const JointTie::Part& own) {
                 const Constraint* constraint = plan.constraints[static_cast<std::size_t>(own.constraint)].get();

@@ -164,7 +164,8 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                        .speed = 0,
                        .slack = 0,
                        .thickness = query.thickness + shape.thickness,
-                       .velocity = dvec3(0.0)};
+                       .velocity = dvec3(0.0),
+                       .spin = collision::spinBetween(shape.from, shape.to, query.seconds)};
     dvec3 end(0.0);
     for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k) {
         touch.place += touch.weights[k] * query.x0[static_cast<std::size_t>(points[k])];

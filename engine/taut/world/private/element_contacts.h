@@ -26,6 +26,7 @@ struct ElementTouch {
     double slack;         // [m] to a collider, by which it is wider at the end, as the element turns past it
     double thickness;     // [m] of element and shape
     dvec3 velocity;       // [m/s] of the shape there
+    dvec3 spin;           // [rad/s] of the shape
 };
 
 // Touches in a block of `seconds` [s], in which points go from x0 to x1 (points) [m]. `mayTouch` says which

@@ -116,6 +116,30 @@ velocity = [0.6, 1.0, -3.5]
 density_kg_per_m3 = 900.0
 finish = {{ colour = "#35648f" }}
 )"},
+    {"hinge", R"(
+[solid.{name}-chest]
+shape = "box"
+size = [0.9, 0.5, 0.6]               # metres
+position = [{x}, 0.25, 0.0]         # its centre
+finish = {{ colour = "#8a5a33" }}
+
+[solid.{name}-lid]                    # stands open, and falls shut
+shape = "box"
+size = [0.9, 0.06, 0.6]
+position = [{x}, 0.8, -0.33]
+rotation_deg = [-90.0, 0.0, 0.0]
+spin_rad_per_s = [0.5, 0.0, 0.0]
+finish = {{ colour = "#c9a36b" }}
+
+[[joint]]
+kind = "hinge"
+a = "solid.{name}-chest"
+b = "solid.{name}-lid"
+place = [0.0, 0.25, -0.3]             # in the axes of the chest: its upper back edge
+axis = [1.0, 0.0, 0.0]
+touch = true                         # the lid stops on the chest
+damping_N_m_s = 2.0
+)"},
 };
 
 constexpr std::string_view head = R"(# A scene to start from; taut manual scenes describes its keys

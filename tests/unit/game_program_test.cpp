@@ -335,7 +335,7 @@ TEST(Program, ANewSceneIsRightAndIsNotOverwritten) {
     const TemporaryFolder folder;
     const std::string file = (folder / "own/first.toml").string();
     const Outcome made = run({"new", (folder / "own/first").string(), "--with", "rope", "--with", "cloth", "--with",
-                              "block", "--with", "net", "--with", "rope", "--with", "solid"});
+                              "block", "--with", "net", "--with", "rope", "--with", "solid", "--with", "hinge"});
     EXPECT_EQ(made.code, 0) << made.err;
     EXPECT_TRUE(has(made.out, "taut render " + file + " -o first.mp4\n")) << made.out;
     const Outcome checked = run({"check", file});

@@ -283,6 +283,8 @@ TEST(SceneFields, SolidsLandInTheirMembers) {
     expectNear(crate.rotation, {0, 0, core::pi / 6});
     EXPECT_EQ(crate.density, 700.0);
     EXPECT_EQ(crate.drag, 0.05);
+    EXPECT_EQ(crate.turnFriction.rolling, 0.003);
+    EXPECT_EQ(crate.turnFriction.spin, 0.004);
     EXPECT_EQ(crate.touch, world::Touch::others);
     const world::SolidSpec& pill = named(scene.bodies.of<world::SolidSpec>(), "pill");
     EXPECT_EQ(pill.height, 0.2);
@@ -324,6 +326,7 @@ TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     EXPECT_EQ(hinge.damping, 0.4);
     EXPECT_EQ(hinge.motorSpeed, -2.0);
     EXPECT_EQ(hinge.motorMost, 6.0);
+    EXPECT_TRUE(hinge.touch);
     EXPECT_NEAR(*scene.joints.of<world::BallJoint>().at(0).cone, 0.5 * core::pi, 1e-15);
     ASSERT_EQ(scene.masses.size(), 1U);
     EXPECT_EQ(scene.masses[0].target, "block.jelly@corners");
@@ -354,6 +357,8 @@ TEST(SceneFields, CollidersLandInTheirMembers) {
     EXPECT_EQ(ball.radius, 0.4);
     EXPECT_EQ(ball.friction, 0.6);
     EXPECT_EQ(ball.restitution, 0.5);
+    EXPECT_EQ(ball.turnFriction.rolling, 0.001);
+    EXPECT_EQ(ball.turnFriction.spin, 0.002);
     EXPECT_FALSE(ball.visible);
     EXPECT_EQ(ball.finish.colour, dvec3(0, 0, 1));
     const world::ColliderSpec& body = named(scene.colliders, "body");

@@ -170,6 +170,8 @@ position = [9, 8, 7]
 rotation_deg = [0, 0, 30]
 density_kg_per_m3 = 700
 drag_per_s = 0.05
+rolling_friction = 0.003
+spin_friction = 0.004
 [solid.pill]
 shape = "capsule"
 radius = 0.06
@@ -220,6 +222,7 @@ friction_N_m = 0.3
 damping_N_m_s = 0.4
 motor_rad_per_s = -2
 motor_N_m = 6
+touch = true
 [[joint]]
 a = "solid.stone"
 b = "solid.pill"
@@ -253,6 +256,8 @@ rotation_deg = [0, 0, 90]
 radius = 0.4
 friction = 0.6
 restitution = 0.5
+rolling_friction = 0.001
+spin_friction = 0.002
 visible = false
 finish = { colour = "#0000ff" }
 [collider.body]

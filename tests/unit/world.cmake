@@ -32,6 +32,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_rehearsal_test.cpp
   world_restoring_test.cpp
   world_rods_test.cpp
+  world_rolling_test.cpp
   world_saving_test.cpp
   world_hinge_test.cpp
   world_seam_test.cpp

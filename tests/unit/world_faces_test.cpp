@@ -17,7 +17,7 @@ using core::pi;
 using support::run;
 
 constexpr double gap = 0.01;
-constexpr double between = 0.8 * gap;  // what edges and faces keep from colliders
+constexpr double gapBetween = 0.8 * gap;  // what edges and faces keep from colliders
 
 // A box of the edge a that stands on a corner; the opposite one at `top`.
 ColliderSpec onCorner(const dvec3& top, double a = 0.3) {
@@ -93,7 +93,7 @@ TEST(Faces, ASheetRestsAtFourFifthsOfItsThicknessOverACorner) {
         }
         EXPECT_LT(world.metrics().penetration, 1e-6);
         if (meets)
-            EXPECT_NEAR(distanceTo(world, top), between, 0.01 * gap);
+            EXPECT_NEAR(distanceTo(world, top), gapBetween, 0.01 * gap);
         else
             EXPECT_GT(distanceTo(world, top), 2 * gap);  // it hangs below
     }
@@ -124,7 +124,7 @@ TEST(Faces, ACornerThatIsThroughAtTheStartComesOut) {
     EXPECT_NEAR(world.metrics().facePenetration, 0.02, 1e-6);  // the scene's, in single precision
     run(world, 30);
     EXPECT_EQ(world.metrics().facePenetration, 0.0);
-    EXPECT_GE(distanceTo(world, {0, 0.5, 0}), 0.95 * between);
+    EXPECT_GE(distanceTo(world, {0, 0.5, 0}), 0.95 * gapBetween);
 }
 
 TEST(Faces, ABallSmallerThanACellHoldsATriangleAtItsRadius) {
@@ -151,7 +151,7 @@ TEST(Faces, ARopeLiesOnAnEdgeBetweenItsPoints) {
     World world(scene);
     run(world, 90);
     const std::vector<dvec3> x = world.positions(entityOf(world, "rope"));
-    EXPECT_NEAR(0.5 * (x[1].y + x[2].y), 0.5 + between, 0.01 * gap);
+    EXPECT_NEAR(0.5 * (x[1].y + x[2].y), 0.5 + gapBetween, 0.01 * gap);
 }
 
 SceneSpec moving() {
@@ -219,7 +219,7 @@ TEST(Faces, CollidersThatComeAreMetAndThoseThatGoAreNot) {
     const ecs::Entity entity = world.spawn(box);
     run(world, 30);
     EXPECT_EQ(world.metrics().facePenetration, 0.0);
-    EXPECT_NEAR(distanceTo(world, {0, 0.5, 0}), between, 0.1 * gap);
+    EXPECT_NEAR(distanceTo(world, {0, 0.5, 0}), gapBetween, 0.1 * gap);
     const double before = lowest(world);
     world.destroy(entity);
     run(world, 30);

@@ -140,6 +140,60 @@ TEST(Hinge, StopsAtItsLimits) {
     EXPECT_LT(world.metrics().kinetic, 1e-6);
 }
 
+// A lid that falls from 60° on the upper back edge of its chest. It stops on the chest if they touch, and swings into
+// it if they do not. Held by a collider or on a solid, the lid lies flat in the end, and the hinge stays closed.
+TEST(Hinge, ALidClosesOnItsChestIfTheyTouch) {
+    const double a = pi / 3;
+    for (const bool isCollider : {true, false})
+        for (const bool touches : {true, false}) {
+            const std::string chest = isCollider ? "collider.chest" : "solid.chest";
+            World world(sceneOf(
+                head("[0, -9.81, 0]") + "[collider.ground]\nshape = \"plane\"\nfriction = 0.6\n[" + chest +
+                "]\nshape = \"box\"\nsize = [0.6, 0.3, 0.4]\nposition = [0, 0.15, 0]\n"
+                "[solid.lid]\nshape = \"box\"\nsize = [0.6, 0.04, 0.4]\nrotation_deg = [-60, 0, 0]\nposition = [0, " +
+                std::to_string(0.3 + 0.02 * std::cos(a) + 0.2 * std::sin(a)) + ", " +
+                std::to_string(-0.2 - 0.02 * std::sin(a) + 0.2 * std::cos(a)) + "]\n" +
+                hinge(chest, "solid.lid", "place = [0, 0.15, -0.2]\naxis = [1, 0, 0]\ntouch = ") +
+                (touches ? "true\n" : "false\n")));
+            const auto armOfLid = [&] {
+                return lengthOf(middle(world, "solid.lid@bottom-back") - dvec3(0, 0.3, -0.2));
+            };
+            const double arm = armOfLid(), under = 0.002;  // [m] points lie inside the rounded face by so much
+            double lowest = 1, opening = 0;
+            dvec3 before(0.0);  // half a second before the end
+            for (int i = 0; i < 200; ++i) {
+                run(world, 1);
+                lowest = std::min(lowest, middle(world, "solid.lid@bottom-front").y);
+                opening = std::max(opening, std::abs(armOfLid() - arm));
+                if (i == 150) before = middle(world, "solid.lid@bottom-front");
+            }
+            if (touches) {
+                EXPECT_NEAR(lowest, 0.3 + under, 1e-3) << chest;
+                EXPECT_NEAR(middle(world, "solid.lid@bottom-front").y, 0.3 + under, 1e-3) << chest;
+                EXPECT_LT(lengthOf(middle(world, "solid.lid@bottom-front") - before), 1e-5) << chest;
+                EXPECT_LT(opening, 1e-3) << chest;
+            } else {
+                EXPECT_LT(lowest, 0.2) << chest;
+            }
+        }
+}
+
+// Wheels that a name with * stands for are hinged each at its own centre.
+TEST(Hinge, SeveralBodiesHaveOneEachAtThePlaceInTheirOwnAxes) {
+    for (const std::string holder : {"solid.cart", "collider.cart"}) {
+        World world(sceneOf(head("[0, -9.81, 0]") + "[" + holder +
+                            "]\nshape = \"box\"\nsize = [2, 0.1, 0.1]\nposition = [0, 2, 0]\n" +
+                            (holder == "solid.cart" ? "hold = [\"all\"]\n" : "") +
+                            "[solid.wheel]\nshape = \"sphere\"\nradius = 0.1\nposition = [-0.5, 2, 0.3]\n"
+                            "spin_rad_per_s = [0, 0, 5]\narray = { count = [3, 1, 1], step_x = [0.5, 0, 0] }\n" +
+                            hinge("solid.wheel.*", holder, "place = [0, 0, 0]\naxis = [0, 0, 1]\n")));
+        run(world, 100);
+        for (int k = 0; k < 3; ++k)
+            EXPECT_LT(lengthOf(middle(world, "solid.wheel." + std::to_string(k)) - dvec3(-0.5 + 0.5 * k, 2, 0.3)), 1e-6)
+                << holder << k;
+    }
+}
+
 // A leash pulls and does not push: a lid that starts at its limit is opened by a motor, and closed by its weight.
 TEST(Hinge, LeavesALimit) {
     World world(sceneOf(head("[0, -9.81, 0]") + post + link("bob", 90) +

@@ -150,7 +150,8 @@ void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, s
         if (!isCounted) continue;
         const std::string& collider = names[static_cast<std::size_t>(deepest.collider)];
         const bool isMounted = std::any_of(world.spec.joints.begin(), world.spec.joints.end(), [&](const auto& joint) {
-            return isTie(joint) && colliderOf(joint) == collider && world::names(pointsOf(joint), *solid.body);
+            return isTie(joint) && !joint.touch && colliderOf(joint) == collider &&
+                   world::names(pointsOf(joint), *solid.body);
         });
         if (isMounted || solid.body->spec->holdOn == collider || ++count > mostDoubts) continue;
         doubts.push_back(warningAt(solid.body->spec->source) +

@@ -72,7 +72,7 @@ glm::mat4 matrixOf(const collision::Pose& pose) {
 std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, const collision::ShapeKinds& kinds,
                                                        bool mayTurn, std::span<const ColliderSpec> all) {
     auto model = std::make_shared<ColliderModel>();
-    model->material = {spec.friction, spec.restitution};
+    model->material = {spec.friction, spec.restitution, spec.turnFriction};
     model->isPlane = isPlane(spec, kinds);
     model->isGround = isFloor(spec, kinds) && !mayTurn;
     const collision::ShapeKind* kind = kinds.find(spec.shape);

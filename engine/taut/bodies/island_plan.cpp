@@ -431,29 +431,30 @@ class Planner {
         int body;
         dvec3 place;  // [m]
     };
-    // The place of a joint, and the axes that its own are in: those of the first side that is a whole body. None if the
-    // joint has none.
-    std::optional<collision::Frame> frameOf(const JointSpec& joint) const {
-        if (!joint.place) return std::nullopt;
-        for (const JointSide& side : {joint.a, joint.b}) {
-            const Body* named = nullptr;
-            for (const Body* body : bodies_)
-                if (isWhole(side) && names(side, *body)) {
-                    if (named != nullptr)
-                        throw Error(ErrorKind::badContent, at(joint.source) + "\"" + side.text() +
-                                                               "\" names several bodies, and place is in the axes of "
-                                                               "one; write a [[joint]] for each");
-                    named = body;
-                }
-            if (named == nullptr) continue;
-            collision::Frame frame = named->axes;
-            frame.position = frame.toWorld(*joint.place);
-            return frame;
+    // The bodies of the first side that is whole bodies, in the axes of which the place of a joint is.
+    struct PlacedSide {
+        bool isA;
+        std::vector<int> bodies;
+    };
+    PlacedSide placedSide(const JointSpec& joint) const {
+        for (const bool isA : {true, false}) {
+            const JointSide& side = isA ? joint.a : joint.b;
+            PlacedSide placed{isA, {}};
+            for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
+                if (isWhole(side) && names(side, body(number))) placed.bodies.push_back(number);
+            if (!placed.bodies.empty()) return placed;
         }
         throw Error(ErrorKind::badContent,
                     at(joint.source) +
                         "place is on a side that is a whole body, and both sides of this joint name points of theirs; "
                         "leave the selector of one out, or leave place out");
+    }
+
+    // The place of a joint on a body of its placed side, and the axes of that.
+    collision::Frame frameOf(const JointSpec& joint, int number) const {
+        collision::Frame frame = body(number).axes;
+        frame.position = frame.toWorld(*joint.place);
+        return frame;
     }
 
     // What ends at `place` [m] if it is a whole body, else its points and places by name.
@@ -492,26 +493,28 @@ class Planner {
         return globalOf(static_cast<int>(nearest - model.positions.begin()));
     }
 
-    // One tie at the place.
+    // A tie at the place on each body of the placed side, to the one other end.
     void addMounted(const JointSpec& joint, int ofScene) {
-        const std::optional<collision::Frame> frame = frameOf(joint);
-        if (!frame)
+        if (!joint.place)
             throw Error(ErrorKind::badContent, at(joint.source) + std::string(joint.title()) + " needs a place");
-        std::vector<JointEnd> sides;
-        for (const JointSide& side : {joint.a, joint.b}) {
-            const std::vector<JointEnd> own = ends(side, joint, frame->position);
-            if (own.size() != 1)
-                throw Error(ErrorKind::badContent, at(joint.source) + std::string(joint.title()) +
-                                                       " ties two bodies at a place, and \"" + side.text() + "\" are " +
-                                                       std::to_string(own.size()) +
-                                                       " points; name a whole body, or one point");
-            sides.push_back(own.front());
-        }
-        islands_.unite(sides[0].body, sides[1].body);
         JointReport& report = reports_.emplace_back();
         report.spec = &joint;
-        report.pairs.push_back({&body(sides[0].body), &body(sides[1].body), 1});
-        joints_.push_back({sides[0].spot, sides[1].spot, &joint, ofScene, 0.0});
+        const auto [isA, own] = placedSide(joint);
+        const JointSide& side = isA ? joint.b : joint.a;
+        for (const int number : own) {
+            const dvec3 place = frameOf(joint, number).position;
+            const std::vector<JointEnd> others = ends(side, joint, place);
+            if (others.size() != 1)
+                throw Error(ErrorKind::badContent, at(joint.source) + std::string(joint.title()) +
+                                                       " ties bodies to one other at a place, and \"" + side.text() +
+                                                       "\" are " + std::to_string(others.size()) +
+                                                       " places; name one whole body, or one point");
+            const JointEnd end{spotOf(number, place), number, place}, &other = others.front();
+            const JointEnd &a = isA ? end : other, &b = isA ? other : end;
+            islands_.unite(a.body, b.body);
+            report.pairs.push_back({&body(a.body), &body(b.body), 1});
+            joints_.push_back({a.spot, b.spot, &joint, ofScene, 0.0});
+        }
     }
 
     Mounting mountingOf(const JointPair& pair) const {
@@ -525,7 +528,8 @@ class Planner {
         };
         mounting.a = end(pair.a);
         mounting.b = end(pair.b);
-        mounting.at = *frameOf(*pair.spec);
+        const Spot& placed = placedSide(*pair.spec).isA ? pair.a : pair.b;
+        mounting.at = frameOf(*pair.spec, refOf(placed.nearest()).body);
         mounting.size = 0.5 * sizeOf(body(refOf(pair.a.nearest()).body));
         return mounting;
     }
@@ -540,8 +544,15 @@ class Planner {
                 return carryBySolids(joint, solidsOfA.empty() ? joint.a : joint.b,
                                      solidsOfA.empty() ? solidsOfB : solidsOfA);
         }
-        const std::optional<collision::Frame> frame = frameOf(joint);
-        const std::optional<dvec3> place = frame ? std::optional(frame->position) : std::nullopt;
+        std::optional<dvec3> place;
+        if (joint.place) {
+            const PlacedSide placed = placedSide(joint);
+            if (placed.bodies.size() > 1)
+                throw Error(ErrorKind::badContent, at(joint.source) + "\"" + (placed.isA ? joint.a : joint.b).text() +
+                                                       "\" names several bodies, and place is in the axes of one; "
+                                                       "write a [[joint]] for each");
+            place = frameOf(joint, placed.bodies.front()).position;
+        }
         std::vector<JointEnd> as = ends(joint.a, joint, place), bs = ends(joint.b, joint, place);
         if (place && !joint.isWeld() && as.size() < bs.size()) std::swap(as, bs);  // all go to the place
         const auto isOther = [&](const JointEnd& end) { return end.body != as.front().body; };
@@ -676,7 +687,8 @@ class Planner {
                 .breakForce = joint.spec->breakForce.value_or(HUGE_VAL),
                 .from = a,
                 .to = b,
-                .isSeam = joint.spec->isSeam()},
+                .isSeam = joint.spec->isSeam(),
+                .touch = joint.spec->touch},
                [&] {
                    if (joint.spec->isMounted())
                        joint.spec->mount(plan, mountingOf(joint));

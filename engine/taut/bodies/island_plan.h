@@ -60,6 +60,7 @@ struct JointTie {
     double breakForce = HUGE_VAL;  // [N]
     Spot from = -1, to = -1;       // the places of its ends
     bool isSeam = false;           // the cells at both points do not touch each other
+    bool touch = false;            // its rigid bodies, or its body and its collider, touch each other
     std::vector<int> springs{};    // of the plan
     struct Part {
         int constraint, tie;  // number in the plan, and number within the constraint

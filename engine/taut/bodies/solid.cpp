@@ -168,12 +168,16 @@ Section SolidSpec::section(const ShapeKinds& known) {
     section.help = "A rigid body.";
     section.variant = shapeNameIn;
     section.variantKey = "shape";
-    section.fields = solidRows(shapes)
-                         .tables("parts", &SolidSpec::parts, partSection(shapes), "Shapes joined into one.")
-                         .required()
-                         .only(namesOf(shapes, "parts"))
-                         .number("drag_per_s", &SolidSpec::drag, "1/s", dragRange, "Rate at which still air slows it.")
-                         .take();
+    section.fields =
+        solidRows(shapes)
+            .tables("parts", &SolidSpec::parts, partSection(shapes), "Shapes joined into one.")
+            .required()
+            .only(namesOf(shapes, "parts"))
+            .number("rolling_friction", &BodySpec::turnFriction, &core::TurnFriction::rolling, "m", lengthOfTorque,
+                    rollingHelp)
+            .number("spin_friction", &BodySpec::turnFriction, &core::TurnFriction::spin, "m", lengthOfTorque, spinHelp)
+            .number("drag_per_s", &SolidSpec::drag, "1/s", dragRange, "Rate at which still air slows it.")
+            .take();
     section.check = [shapes](const fields::CheckInput& input, void* target) {
         auto& solid = *static_cast<SolidSpec*>(target);
         const ShapeKind* kind = shapes.find(solid.shape);

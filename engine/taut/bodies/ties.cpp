@@ -80,10 +80,10 @@ class Tying {
         if (joint.isWeld() && !joint.hasOwnTies() && ends.empty())
             return lead(collider, std::move(points), joint.source);
         ends.insert(ends.end(), points.begin(), points.end());
-        if (joint.isMounted() && ends.size() != 1)
-            fail(joint.source, std::string(joint.title()) + " ties a body and a collider at a place, and \"" +
-                                   pointsOf(joint).text() + "\" are " + std::to_string(ends.size()) +
-                                   " points; name a whole body, or one point");
+        if (joint.isMounted() && points.size() > 1)
+            fail(joint.source, std::string(joint.title()) + " ties bodies and a collider at a place, and \"" +
+                                   pointsOf(joint).text() + "\" are " + std::to_string(points.size()) +
+                                   " points; name whole bodies, or one point");
         const std::size_t grips = plan_.grips.size();
         for (const Spot& end : ends) {
             const std::size_t own = plan_.grips.size();
@@ -99,7 +99,8 @@ class Tying {
                     .a = point,
                     .collider = grip.holder,
                     .breakForce = joint.breakForce.value_or(HUGE_VAL),
-                    .from = end},
+                    .from = end,
+                    .touch = joint.touch},
                    [&] {
                        if (joint.isMounted())
                            mount(joint, end, grip);

@@ -68,6 +68,8 @@ int Colliders::add(const Shape& shape, const Material& material, const Pose& pos
         throw core::Error(core::ErrorKind::badContent, "collider material: " + what);
     };
     if (!(material.friction >= 0.0) || !isFinite(material.friction)) fail("the friction has to be zero or more");
+    if (!(material.turnFriction.rolling >= 0.0 && material.turnFriction.spin >= 0.0))
+        fail("rolling and spin friction have to be at least 0");
     if (!(material.restitution >= 0.0 && material.restitution <= 1.0)) fail("the restitution has to be from 0 to 1");
 
     std::vector<Solid> made;
@@ -223,7 +225,8 @@ void Colliders::findNear(const Ways& ways, double thickness, double seconds, dou
                 const dvec3 velocity =
                     isStill ? dvec3(0.0) : (solid.to.toWorld(met->place) - solid.from.toWorld(met->place)) / h;
                 found.push_back({i, met->plane.distance, solid.to.directionToWorld(met->plane.normal), velocity,
-                                 solid.collider, solid.material});
+                                 isStill ? dvec3(0.0) : spinBetween(solid.from, solid.to, h), solid.collider,
+                                 solid.material});
             }
         }
     }

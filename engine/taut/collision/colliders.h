@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "taut/core/aabb.h"
+#include "taut/core/turn_friction.h"
 
 namespace taut::collision {
 
@@ -41,6 +42,7 @@ struct Shape::Part {
 struct Material {
     double friction = 0.3;     // Coulomb's μ [-]
     double restitution = 0.0;  // 0 … 1: speed after a bounce / speed before [-]
+    core::TurnFriction turnFriction{};
 };
 
 // The points of one body during one step, planar: x plane, y plane, z plane, each `stride` long.
@@ -167,6 +169,7 @@ class Colliders {
         double distance;      // [m]
         glm::dvec3 away;      // unit, in which it grows fastest
         glm::dvec3 velocity;  // [m/s] of the surface there, over a step
+        glm::dvec3 spin;      // [rad/s]
         int collider;
         Material material;
     };

@@ -41,6 +41,12 @@ inline double travelOf(const core::Aabb& box, const Frame& from, const Frame& to
     return std::sqrt(most);
 }
 
+// [rad/s] Of a turn from one frame to another that is not far.
+inline dvec3 spinBetween(const Frame& from, const Frame& to, double seconds) {
+    const glm::dmat3 turn = to.rotation * glm::transpose(from.rotation);
+    return dvec3(turn[1][2] - turn[2][1], turn[2][0] - turn[0][2], turn[0][1] - turn[1][0]) / (2.0 * seconds);
+}
+
 // Signed distance to a surface [m], negative inside, and its gradient, a unit vector away from the solid.
 struct Nearest {
     double distance;

@@ -7,6 +7,8 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "taut/core/turn_friction.h"
+
 namespace taut::contact {
 
 using glm::dvec3;
@@ -28,6 +30,7 @@ struct ContactConstraint {
     double recovery = 1.0;     // 0 … 1: share by which an overlap is taken back, see convexityOf()
     double firstShare = 0.5;   // of the thickness that is the first side's
     double restitution = 0.0;  // speed of parting over that of closing [-]
+    core::TurnFriction turnFriction{};
     // [m] Of two solids, where their impulse acts on each; none: between the closest places.
     std::optional<std::array<dvec3, 2>> places{};
     double slack = 0.0;     // [m] by which the gap is wider where the sides are expected, as one turns past the other

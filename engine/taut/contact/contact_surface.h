@@ -6,6 +6,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "taut/core/turn_friction.h"
+
 namespace taut::contact {
 
 using glm::dvec3;
@@ -20,6 +22,7 @@ struct ContactSurface {
     double thickness = 0.005;  // [m] two surfaces keep a distance of the sum of theirs
     double friction = 1.0;     // factor on the friction of the group [-]
     double restitution = 1.0;  // likewise
+    core::TurnFriction turnFriction{};
     bool meetsItself = true;
     bool meetsOthers = true;
     bool meetsRigid = true;  // touches surfaces of colliders

@@ -54,6 +54,8 @@ void putInto(Pack& pack, int lane, const Row& row, double gap, int number) {
     pack.grip.of[lane] = row.grip > 0 ? row.grip : row.mass;
     pack.turns[lane] = row.turns;
     pack.shares[lane] = row.shares;
+    pack.roll[lane] = row.roll;
+    pack.rolls = pack.rolls || row.roll >= 0;
     pack.hasLevers = pack.hasLevers || !row.turns.isEmpty() || !row.shares.isEmpty();
     pack.closing.of[lane] = row.closing;
     pack.friction.of[lane] = row.friction;
@@ -106,8 +108,17 @@ void readImpulses(std::span<const Pack> packs, std::span<Row> rows) {
 Sweeps batchOf(std::vector<Pack>& packs, int rowCount, std::vector<double>& perRow, int sweeps, double tolerance,
                std::span<Four> velocities, const Levers& levers, Start start) {
     perRow.assign(static_cast<std::size_t>(rowCount) + 1, 0.0);
-    return {packs.data(),        static_cast<int>(packs.size()), rowCount, perRow.data(), velocities.data(),
-            levers.turns.data(), levers.shares.data(),           sweeps,   tolerance,     start};
+    return {packs.data(),
+            static_cast<int>(packs.size()),
+            rowCount,
+            perRow.data(),
+            velocities.data(),
+            levers.turns.data(),
+            levers.shares.data(),
+            levers.rolls.data(),
+            sweeps,
+            tolerance,
+            start};
 }
 
 }  // namespace

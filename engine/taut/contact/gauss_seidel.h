@@ -17,6 +17,9 @@
 // points' slots, and its spin, which is in a slot of its own (Turn). Where more than four velocities move the
 // points of a row, the others are its shares.
 //
+// Rolling. A row between solids may also have a torque against their turn on each other (Roll): across the normal and
+// about it, each at most a length times the normal impulse. A visit clamps it after friction.
+//
 // Four rows at a time. A row waits for the rows before it that share a velocity with it, and for no others. So rows are
 // put into levels, each one above the highest of those it waits for, and go through the processor in packs of four of
 // one level. The result is that of the rows one after the other, bit for bit; sums over rows are in their order.
@@ -24,6 +27,8 @@
 
 #include <span>
 #include <vector>
+
+#include "taut/core/turn_friction.h"
 
 namespace taut::contact {
 
@@ -33,9 +38,18 @@ struct alignas(32) Four {
 
 // A rigid body of which a row has points: these have spin × arm besides the velocity of their slots.
 struct Turn {
-    int slot = 0;      // of the spin [rad/s]
-    double arm[3]{};   // [m] sum of the points' weights × (place of the impulse - centre of mass)
-    double gain[9]{};  // [1/(kg m²)] inverse inertia, symmetric
+    int slot = 0;       // of the spin [rad/s]
+    double arm[3]{};    // [m] sum of the points' weights × (place of the impulse - centre of mass)
+    double gain[9]{};   // [1/(kg m²)] inverse inertia, symmetric
+    double weight = 0;  // sum of the points' weights: 1 of the first side, -1 of the second
+};
+// The torque of a row against the turn of its sides on each other.
+struct Roll {
+    core::TurnFriction friction;
+    double across = 0, about = 0;  // [kg m²] effective inertia, the least across the normal, and about it
+    double reach = 0;              // [m] of the longest arm of the row: a spin times it is a velocity
+    Four driven{};                 // [rad/s] spin of a collider, the second side; last 0
+    Four impulse{};                // [N m s] on the first side; last 0
 };
 // A further velocity of a row.
 struct Share {
@@ -56,6 +70,7 @@ struct Range {
 struct Levers {
     std::span<const Turn> turns;
     std::span<const Share> shares;
+    std::span<Roll> rolls{};
 };
 
 // A direction along which the weighted sum of some velocities may not close.
@@ -72,6 +87,7 @@ struct Row {
     double largestGain = 0;  // [1/kg]
     int slots[4]{};          // of the velocities
     Range turns, shares;     // of the levers
+    int roll = -1;           // likewise; -1: none
     int source = 0;          // for its owner
 };
 
@@ -93,7 +109,9 @@ struct Pack {
     Four gap{}, base{};  // [m], [m/s] closing without it: see Sweeps::gone
     int slots[4][4]{};   // lane, velocity
     bool hasLevers = false;
+    bool rolls = false;             // whether a lane has a roll
     Range turns[4]{}, shares[4]{};  // lane
+    int roll[4]{-1, -1, -1, -1};    // lane
     int rows[4]{};                  // lane; the number of rows where there is none
 };
 struct Sweeps {
@@ -104,6 +122,7 @@ struct Sweeps {
     Four* velocities;
     const Turn* turns;
     const Share* shares;
+    Roll* rolls;
     int most;
     double tolerance;  // [m/s]
     Start start;

@@ -114,6 +114,62 @@ inline void apply(const Pack& pack, const Lanes (&impulse)[4], const Sweeps& bat
     }
 }
 
+// A change of a torque counts so many times as one of an impulse. Friction and torque settle slowly against each other,
+// and a body at rest would creep by what sweeps leave.
+constexpr double finerForRolls = 1e3;
+
+// Calls each(lane, roll).
+template <class Each>
+inline void forEachRoll(const Pack& pack, const Sweeps& batch, const Each& each) {
+    for (int lane = 0; pack.rolls && lane < 4; ++lane)
+        if (pack.roll[lane] >= 0) each(lane, batch.rolls[pack.roll[lane]]);
+}
+
+// [rad/s] The turn of a row's sides on each other.
+inline Lanes turnOf(const Pack& pack, int lane, const Roll& roll, const Sweeps& batch) {
+    Lanes sum = -load(roll.driven);
+    for (int k = pack.turns[lane].first; k < pack.turns[lane].last; ++k)
+        sum += batch.turns[k].weight * load(batch.velocities[batch.turns[k].slot]);
+    return sum;
+}
+// Changes the spins of a row by a torque impulse [N m s].
+inline void twist(const Pack& pack, int lane, const Lanes& impulse, const Sweeps& batch) {
+    for (int k = pack.turns[lane].first; k < pack.turns[lane].last; ++k) {
+        const Turn& turn = batch.turns[k];
+        double* spin = batch.velocities[turn.slot].of;
+        for (int i = 0; i < 3; ++i)
+            spin[i] += turn.weight * (turn.gain[3 * i] * impulse[0] + turn.gain[3 * i + 1] * impulse[1] +
+                                      turn.gain[3 * i + 2] * impulse[2]);
+    }
+}
+inline double dotOf(const Lanes& a, const Lanes& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Solves the torques of the rows against turns. Returns the largest squared change of a velocity [(m/s)²].
+inline double visitRolls(const Pack& pack, const Sweeps& batch) {
+    double largest = 0;
+    forEachRoll(pack, batch, [&](int lane, Roll& roll) {
+        const double pressing = pack.impulse[3].of[lane];
+        const Lanes normal{pack.normal[0].of[lane], pack.normal[1].of[lane], pack.normal[2].of[lane], 0};
+        const Lanes before = load(roll.impulse);
+        const Lanes turn = turnOf(pack, lane, roll, batch);
+        const double spun = dotOf(normal, before), spinning = dotOf(normal, turn);
+        const double limit = roll.friction.rolling * pressing, mostSpin = roll.friction.spin * pressing;
+        double spin = spun - roll.about * spinning;
+        spin = spin > mostSpin ? mostSpin : spin < -mostSpin ? -mostSpin : spin;
+        Lanes rolling = before - spun * normal - roll.across * (turn - spinning * normal);
+        const double square = dotOf(rolling, rolling);
+        if (square > limit * limit) rolling = (limit / __builtin_sqrt(square)) * rolling;
+        const Lanes next = rolling + spin * normal, change = next - before;
+        store(roll.impulse, next);
+        twist(pack, lane, change, batch);
+        const double gain = finerForRolls * roll.reach / roll.across, own = gain * gain * dotOf(change, change);
+        largest = own > largest ? own : largest;
+    });
+    return largest;
+}
+
 // Solves the rows for the current velocities: first the normal impulse, then friction.
 inline void visit(Pack& pack, const Sweeps& batch) {
     const Lanes none{}, mass = load(pack.mass), grip = load(pack.grip), friction = load(pack.friction);
@@ -158,6 +214,9 @@ inline double slope(const Sweeps& batch, double share) {
         storePerRow(
             batch, pack,
             load(pack.impulse[3]) * (dot(load(pack.normal), velocity) + yielding) + dot(load(pack.impulse), velocity));
+        forEachRoll(pack, batch, [&](int lane, const Roll& roll) {
+            batch.perRow[pack.rows[lane]] += dotOf(load(roll.impulse), turnOf(pack, lane, roll, batch));
+        });
     }
     return sumOf(batch);
 }
@@ -191,6 +250,8 @@ inline void start(const Sweeps& batch) {
             const Lanes impulse[4] = {share * load(pack.impulse[0]), share * load(pack.impulse[1]),
                                       share * load(pack.impulse[2]), share * load(pack.impulse[3])};
             apply(pack, impulse, batch);
+            forEachRoll(pack, batch,
+                        [&](int lane, Roll& roll) { twist(pack, lane, share * load(roll.impulse), batch); });
         }
     };
     const double before = slope(batch, 0);
@@ -198,8 +259,10 @@ inline void start(const Sweeps& batch) {
     const double rise = slope(batch, 1) - before;  // λᵀ A λ
     const double share = before < 0 && rise > 0 ? -before / rise : 0.0;
     applyAll(share - 1);
-    for (int p = 0; p < batch.packCount; ++p)
+    for (int p = 0; p < batch.packCount; ++p) {
         for (Four& part : batch.packs[p].impulse) store(part, share * load(part));
+        forEachRoll(batch.packs[p], batch, [&](int, Roll& roll) { store(roll.impulse, share * load(roll.impulse)); });
+    }
 }
 
 }  // namespace
@@ -220,6 +283,8 @@ int sweep(const Sweeps& batch) {
             const Lanes gain = load(pack.largestGain), fastest = gain * gain * own;
             largest = fastest > largest ? fastest : largest;
             storePerRow(batch, pack, own);
+            const double turned = visitRolls(pack, batch);
+            largest[0] = turned > largest[0] ? turned : largest[0];
         }
         bool isSettled = true;
         for (int lane = 0; lane < 4; ++lane) isSettled = isSettled && largest[lane] < batch.tolerance * batch.tolerance;

@@ -228,6 +228,7 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
                          &b = elements_.surface(elements_.surfaceOf(pair.points[3]));
     pair.friction = (a.isOfCollider() || b.isOfCollider() ? 1.0 : options_.friction) * a.friction * b.friction;
     pair.restitution = options_.restitution * a.restitution * b.restitution;
+    pair.turnFriction = a.turnFriction + b.turnFriction;
     if (a.isDriven || b.isDriven) pair.softness = drivenSoftness;
     if (pair.isActive && block_.steps > 1) pair.slack = slackOf(pair, way, x1);
     if (a.thickness + b.thickness > 0) pair.firstShare = a.thickness / (a.thickness + b.thickness);

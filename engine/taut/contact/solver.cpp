@@ -142,6 +142,7 @@ void ContactSolver::findClusters() {
     rows_.clear();
     turns_.clear();
     shares_.clear();
+    rolls_.clear();
     keys_.clear();
     gaps_.clear();
     bases_.clear();
@@ -371,9 +372,25 @@ void ContactSolver::putTerms(Row& row) {
             turn.arm[i] = term.arm[i];
             for (int j = 0; j < 3; ++j) turn.gain[3 * i + j] = term.body->start.inverseInertia[j][i];
         }
+        turn.weight = term.weight;
     }
     row.turns.last = static_cast<int>(turns_.size());
 }
+
+namespace {
+
+// Of a symmetric inverse mass or inertia: along a normal, and the least across it.
+struct AlongAndAcross {
+    double along, across;
+};
+AlongAndAcross effectiveOf(const dmat3& inverse, const dvec3& normal) {
+    const dvec3 t = acrossOf(normal), b = glm::cross(normal, t);
+    const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
+    const double along = glm::dot(normal, inverse * normal), difference = 0.5 * (tt - bb);
+    return {1.0 / along, 1.0 / (0.5 * (tt + bb) + std::sqrt(difference * difference + tb * tb))};
+}
+
+}  // namespace
 
 // Effective masses of a row with solids. The velocity that an impulse p of 1 gives along itself is p·K p.
 void ContactSolver::weigh(Row& row) const {
@@ -386,12 +403,26 @@ void ContactSolver::weigh(Row& row) const {
         inverse += dmat3(term.weight * term.weight / term.body->start.mass);
         inverse -= across * term.body->start.inverseInertia * across;
     }
-    const dvec3 normal = vectorOf(row.normal), t = acrossOf(normal), b = glm::cross(normal, t);
-    const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
-    const double along = glm::dot(normal, inverse * normal), difference = 0.5 * (tt - bb);
-    row.mass = 1.0 / along;
-    row.grip = 1.0 / (0.5 * (tt + bb) + std::sqrt(difference * difference + tb * tb));
+    const AlongAndAcross effective = effectiveOf(inverse, vectorOf(row.normal));
+    row.mass = effective.along;
+    row.grip = effective.across;
     row.largestGain = std::max(1.0 / row.mass, 1.0 / row.grip);
+}
+
+// The torque of a row with solids against their turn. driven [rad/s]: spin of a collider.
+void ContactSolver::addRoll(Row& row, const core::TurnFriction& friction, const dvec3& driven) {
+    Roll& roll = rolls_.emplace_back();
+    row.roll = static_cast<int>(rolls_.size()) - 1;
+    dmat3 inverse(0.0);
+    for (const SolidTerm& term : solidTerms_) {
+        inverse += term.weight * term.weight * term.body->start.inverseInertia;
+        roll.reach = std::max(roll.reach, glm::length(term.arm));
+    }
+    const AlongAndAcross effective = effectiveOf(inverse, vectorOf(row.normal));
+    roll.friction = friction;
+    roll.about = effective.along;
+    roll.across = effective.across;
+    roll.driven = four(driven);
 }
 
 // Appends the row of a pair, or of a contact with a collider. It starts with what it had in the last block.
@@ -404,11 +435,14 @@ void ContactSolver::addRow(int source) {
     const std::size_t pairCount = block_.pairs.size();
     std::uint64_t key;
     double softness = 0, gap = 0;
+    core::TurnFriction turnFriction;
+    dvec3 driven(0.0);
     if (const auto own = static_cast<std::size_t>(source); own < pairCount) {
         const ContactConstraint& pair = block_.pairs[own];
         key = keyOf(pair);
         row.normal = four(pair.normal);
         row.friction = pair.friction;
+        turnFriction = pair.turnFriction;
         softness = pair.softness;
         for (std::size_t i = 0; i < 4; ++i) {
             // Where the sides meet. Each is brought there by a shift of its own.
@@ -430,6 +464,8 @@ void ContactSolver::addRow(int source) {
         key = keyOf(contact, number);
         row.normal = four(contact.normal);
         row.friction = contact.friction;
+        turnFriction = contact.turnFriction;
+        driven = contact.spin;
         const dvec3 place = placeOf(contact.point()) + contact.arm;
         contact.forEachPoint([&](int point, double weight) { addTerm(point, weight, place); });
         row.closing = glm::dot(contact.normal, contact.carried) - contact.speed;
@@ -443,6 +479,7 @@ void ContactSolver::addRow(int source) {
     row.softness = softness * inverse;
     row.mass = 1.0 / (inverse + row.softness);
     if (!solidTerms_.empty()) weigh(row);
+    if (!solidTerms_.empty() && !turnFriction.isNone()) addRoll(row, turnFriction, driven);
 
     keys_.push_back(key);
     gaps_.push_back(gap);
@@ -455,6 +492,7 @@ void ContactSolver::addRow(int source) {
     dvec3 friction = vectorOf(last->impulse);
     friction = withinCone(friction - glm::dot(friction, normal) * normal, row.friction * last->impulse.of[3]);
     row.impulse = {{friction.x, friction.y, friction.z, last->impulse.of[3]}};
+    if (row.roll >= 0) rolls_.back().impulse = last->twist;
 }
 
 // [m] The gap of a row before this step.
@@ -605,6 +643,7 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
             row.closing = target(one);
             row.impulse = {};
             row.friction = 0;
+            row.roll = -1;
         }
         projectedGaussSeidel(impact, mostSweeps, exactly * fastest->closing, velocities, levers());
         for (std::size_t k = 0; k < impact.size(); ++k) {
@@ -651,6 +690,7 @@ void ContactSolver::correctPositions(const Cluster& cluster) {
         Row& own = rows.emplace_back(row);
         own.impulse = {};
         own.friction = 0;
+        own.roll = -1;
         own.closing = -target;
     }
     if (overlaps)
@@ -662,7 +702,9 @@ void ContactSolver::correctPositions(const Cluster& cluster) {
 void ContactSolver::remember() {
     last_.clear();
     for (std::size_t r = 0; r < rows_.size(); ++r)
-        if (rows_[r].impulse.of[3] > 0) last_.push_back({keys_[r], rows_[r].impulse});
+        if (const Row& row = rows_[r]; row.impulse.of[3] > 0)
+            last_.push_back(
+                {keys_[r], row.impulse, row.roll >= 0 ? rolls_[static_cast<std::size_t>(row.roll)].impulse : Four{}});
     std::sort(last_.begin(), last_.end(), [](const LastImpulse& a, const LastImpulse& b) { return a.key < b.key; });
 }
 

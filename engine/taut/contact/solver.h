@@ -90,6 +90,8 @@ struct KinematicContact {
     double thickness = 0.0;    // [m] of the point's surface
     dvec3 arm{0.0};            // [m] from the first point to where the impulse acts, at x0
     double restitution = 0.0;  // [-]
+    core::TurnFriction turnFriction{};
+    dvec3 spin{0.0};  // [rad/s] of the collider
     int point() const { return points[0]; }
     std::span<const int> used() const { return std::span(points).first(points[2] >= 0 ? 3 : points[1] >= 0 ? 2 : 1); }
     // Calls each(point, weight).
@@ -158,7 +160,7 @@ class ContactSolver {
     };
     struct LastImpulse {
         std::uint64_t key;
-        Four impulse;
+        Four impulse, twist;
     };
     const Solid* solidOf(int point) const;  // that moves; null: none
     bool isTouched(const Solid& solid) const;
@@ -170,6 +172,7 @@ class ContactSolver {
     void addTerm(int point, double weight, const dvec3& place);
     void putTerms(Row& row);
     void weigh(Row& row) const;
+    void addRoll(Row& row, const core::TurnFriction& friction, const dvec3& driven);
     void joinPoints();
     void findClusters();
     bool isLikePair(const Row& row) const;
@@ -204,7 +207,7 @@ class ContactSolver {
     std::span<Row> rowsOf(const Cluster& cluster) {
         return {rows_.data() + cluster.first, cluster.last - cluster.first};
     }
-    Levers levers() const { return {turns_, shares_}; }
+    Levers levers() const { return {turns_, shares_, rolls_}; }
 
     SolverBlock block_;
     // A source is a pair, or after all pairs a contact with a collider.
@@ -225,8 +228,9 @@ class ContactSolver {
     std::vector<Body> bodies_;  // (solids) of those that are touched
     CarriedPoints none_;
     const CarriedPoints* carried_ = &none_;
-    std::vector<Turn> turns_;    // of rows
-    std::vector<Share> shares_;  // likewise
+    std::vector<Turn> turns_;          // of rows
+    std::vector<Share> shares_;        // likewise
+    mutable std::vector<Roll> rolls_;  // likewise; sweeps change their impulses
     // Movers and solids of the row that is being made.
     struct Term {
         int slot;

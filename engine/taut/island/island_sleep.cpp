@@ -39,8 +39,8 @@ std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t
     return leaders;
 }
 
-// Whether a rigid body stays: what presses it at places that are not on one line keeps it from tipping, and all its
-// friction from sliding. Their spread across the line is held against the size of the body.
+// Whether a rigid body stays: what presses it at places that are not on one line, or resists rolling, keeps it from
+// tipping, and all its friction from sliding. Their spread across the line is held against the size of the body.
 bool holdRigidly(std::span<const Island::Foothold> footholds, std::span<const dvec3> x) {
     constexpr double leastShare = 0.05;
     double size = 0, length = 0, width = 0, friction = 0, limit = 0;
@@ -54,7 +54,10 @@ bool holdRigidly(std::span<const Island::Foothold> footholds, std::span<const dv
     }
     for (const Island::Foothold& own : footholds)
         width = std::max(width, glm::length(glm::cross(line, own.place - footholds[0].place)));
-    return width > leastShare * size && limit > 0 && friction <= holdingShare * limit;
+    const bool staysUpright =
+        width > leastShare * size ||
+        std::any_of(footholds.begin(), footholds.end(), [](const Island::Foothold& own) { return own.resistsRolling; });
+    return staysUpright && limit > 0 && friction <= holdingShare * limit;
 }
 
 }  // namespace

@@ -190,6 +190,12 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
             .ramps(Affects::colliders)
             .number("restitution", &ColliderSpec::restitution, "", share, "Speed after a bounce over speed before.")
             .ramps(Affects::colliders)
+            .number("rolling_friction", &ColliderSpec::turnFriction, &core::TurnFriction::rolling, "m",
+                    world::lengthOfTorque, world::rollingHelp)
+            .ramps(Affects::colliders)
+            .number("spin_friction", &ColliderSpec::turnFriction, &core::TurnFriction::spin, "m", world::lengthOfTorque,
+                    world::spinHelp)
+            .ramps(Affects::colliders)
             .text("animation", &ColliderSpec::animation, Role::none, "Animation of the file.")
             .only(namesOf(shapes, "animation"))
             .number("start_s", &ColliderSpec::start, "s", placeRange,

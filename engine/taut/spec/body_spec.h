@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "taut/collision/geometry.h"
+#include "taut/core/turn_friction.h"
 #include "taut/mechanics/model.h"
 #include "taut/spec/finish_spec.h"
 #include "taut/spec/mesh_data.h"
@@ -97,7 +98,8 @@ struct BodySpec {
     std::int64_t seed = 1;           // of the jitter
     double friction = 1.0;           // factor on the collider's friction
     double restitution = 1.0;        // factor on the restitution of colliders, and of bodies that touch
-    double thickness = 0.005;        // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
+    core::TurnFriction turnFriction;
+    double thickness = 0.005;  // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
     bool collide = true;
     bool meetsFaces = false;    // its faces meet colliders even if it touches nothing
     bool meetsFigures = false;  // there are figures, which its faces meet

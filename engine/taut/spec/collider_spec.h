@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/turn_friction.h"
 #include "taut/core/value.h"
 #include "taut/spec/finish_spec.h"
 #include "taut/spec/shape_spec.h"
@@ -32,7 +33,8 @@ struct ColliderSpec : ShapeSpec {
     std::vector<ColliderSpec> parts;  // compound
     double friction = 0.3;            // Coulomb's μ [-]
     double restitution = 0.0;         // 0 … 1: speed after a bounce / speed before [-]
-    std::vector<PoseKey> keys;        // keyframes; position and rotation are unused then
+    core::TurnFriction turnFriction;
+    std::vector<PoseKey> keys;  // keyframes; position and rotation are unused then
     bool visible = true;
     FinishSpec finish;
     // Of a part; none: that of the compound. Of a figure; none: the colours of its file.

@@ -25,6 +25,13 @@ inline constexpr fields::Range dampingTimeRange{0.0, 1e3};  // [s]
 inline constexpr fields::Range dragRange{0.0, 1e6};         // [1/s]
 inline constexpr fields::Range strainRange{1e-6, 1e3};      // |l - L|/L
 
+// Of colliders and solids.
+inline constexpr fields::Range lengthOfTorque{0.0, 1e3};  // [m]
+inline constexpr const char* rollingHelp =
+    "Largest torque against rolling over the force along the normal; a contact has the sum of its sides.";
+inline constexpr const char* spinHelp =
+    "Largest torque against spinning about the normal over the force along it; a contact has the sum of its sides.";
+
 fields::Section finishSection();
 fields::Section overrideSection();  // of [solver], by a body
 fields::Section arraySection();
@@ -122,6 +129,8 @@ std::vector<fields::Field> everyJointsRows() {
               "Name for the action release; it releases all joints of the name.")
         .number("break_N", &JointSpec::breakForce, "N", fields::positive,
                 "Mean force of a tie over a tick above which the tie breaks; default never.")
+        .flag("touch", &JointSpec::touch,
+              "Whether the solids, or the solid and the collider, that it joins collide with each other.")
         .number("radius", &JointSpec::look, &JointLook::radius, "m", lengthRange, "Radius of the drawn cord or wire.")
         .whole("turns", &JointSpec::look, &JointLook::turns, "", fields::Range{0.0, 1000.0},
                "Number of turns of the drawn coil; 0: a straight cord.")

@@ -52,6 +52,7 @@ struct JointSpec {
     JointSide a, b;
     std::string name;                  // several joints may share a name; empty: none
     std::optional<double> breakForce;  // [N] at which a tie breaks
+    bool touch = false;                // whether the rigid bodies that it joins collide with each other
     // [m] In the axes of the first side that is a whole body or a collider, of a body that is not rigid in those of the
     // scene as it starts; none: as the kind says.
     std::optional<dvec3> place;
@@ -96,7 +97,7 @@ struct JointSpec {
     bool mayLetGo() const { return !name.empty() || breakForce; }
     bool isDrawn() const { return look.finish.has_value(); }
     // Whether each of its ties has to be known by itself.
-    bool hasOwnTies() const { return mayLetGo() || isDrawn(); }
+    bool hasOwnTies() const { return mayLetGo() || isDrawn() || touch; }
 };
 
 }  // namespace taut::world

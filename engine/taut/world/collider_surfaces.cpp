@@ -22,13 +22,15 @@ struct Placing {
     dvec3 operator()(const dvec3& x) const { return rotation * x + position; }
 };
 
-contact::ContactSurface surfaceOf(const collision::Outline& outline, double friction, int offset, int bond) {
+contact::ContactSurface surfaceOf(const collision::Outline& outline, const collision::Material& material, int offset,
+                                  int bond) {
     contact::ContactSurface surface;
     surface.isRigid = true;
     surface.meetsItself = surface.meetsOthers = false;
     surface.thickness = 0;
     surface.isConvex = outline.isConvex;
-    surface.friction = friction;
+    surface.friction = material.friction;
+    surface.turnFriction = material.turnFriction;
     surface.bond = bond;
     for (int corner : outline.corners) surface.points.push_back(offset + corner);
     for (const collision::Outline::Edge& edge : outline.edges) {
@@ -39,12 +41,14 @@ contact::ContactSurface surfaceOf(const collision::Outline& outline, double fric
     return surface;
 }
 
-contact::ContactSurface surfaceOf(const ColliderFigure& figure, double friction, int offset, int bond) {
+contact::ContactSurface surfaceOf(const ColliderFigure& figure, const collision::Material& material, int offset,
+                                  int bond) {
     contact::ContactSurface surface;
     surface.isDriven = true;
     surface.meetsItself = surface.meetsOthers = false;
     surface.thickness = 0;
-    surface.friction = friction;
+    surface.friction = material.friction;
+    surface.turnFriction = material.turnFriction;
     surface.bond = bond;
     for (int i = 0; i < static_cast<int>(figure.atRest().size()); ++i) surface.points.push_back(offset + i);
     surface.ranks.assign(figure.ranks().begin(), figure.ranks().end());
@@ -68,7 +72,7 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
         // No other surface has this bond.
         const auto bond = [&] { return -1 - static_cast<int>(surfaces.size()); };
         if (own.figure != nullptr) {
-            surfaces.push_back(surfaceOf(*own.figure, colliders[c].material.friction, own.firstPoint, bond()));
+            surfaces.push_back(surfaceOf(*own.figure, colliders[c].material, own.firstPoint, bond()));
             own.vertices.assign(own.figure->atRest().begin(), own.figure->atRest().end());
             rest.insert(rest.end(), own.vertices.begin(), own.vertices.end());
             setEnds(own, seconds);
@@ -76,8 +80,7 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
         const Placing place(colliders[c].pose);
         for (const collision::Outline& outline : colliders[c].outlines) {
             if (outline.vertices.empty()) continue;
-            surfaces.push_back(
-                surfaceOf(outline, colliders[c].material.friction, static_cast<int>(rest.size()), bond()));
+            surfaces.push_back(surfaceOf(outline, colliders[c].material, static_cast<int>(rest.size()), bond()));
             for (const dvec3& vertex : outline.vertices) rest.push_back(place(vertex));
             own.vertices.insert(own.vertices.end(), outline.vertices.begin(), outline.vertices.end());
         }

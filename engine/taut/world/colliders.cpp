@@ -28,7 +28,7 @@ void rebuildColliders(WorldImpl& w) {
     collision::Colliders all;
     std::vector<std::string> names;
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
-        all.add(part.model->shape, {part.spec.friction, part.spec.restitution}, placement.to);
+        all.add(part.model->shape, {part.spec.friction, part.spec.restitution, part.spec.turnFriction}, placement.to);
         names.push_back("collider." + part.spec.name);
     });
     for (const auto& island : w.islands) island->setColliders(all.clone(), names);
@@ -151,7 +151,7 @@ std::vector<TouchedCollider> touchedColliders(const WorldImpl& w) {
                        collision::outlinesOf(part.model->shape),
                        part.model->figure,
                        collision::convexOf(part.model->shape),
-                       {part.spec.friction, part.spec.restitution},
+                       {part.spec.friction, part.spec.restitution, part.spec.turnFriction},
                        placement.to});
     });
     return all;

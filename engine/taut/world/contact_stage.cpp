@@ -79,6 +79,7 @@ contact::ContactSurface surfaceOf(const Body& body, const mechanics::RigidPart& 
     surface.thickness = part.thickness;
     surface.friction = body.spec->friction;
     surface.restitution = body.spec->restitution;
+    surface.turnFriction = body.spec->turnFriction;
     surface.meetsItself = body.spec->touch == Touch::all;
     surface.meetsOthers = body.spec->touch != Touch::nothing;
     surface.meetsRigid = body.spec->facesMeetColliders();
@@ -234,7 +235,7 @@ void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const
         const IslandPlan& plan = part.island->plan();
         for (int i = part.first; i < part.last; ++i) join(i, i);  // a merged point
         for (const JointTie& tie : plan.ties) {
-            if (!holds(plan, tie)) continue;
+            if (tie.touch || !holds(plan, tie)) continue;
             if (tie.b >= 0) join(part.first + tie.a, part.first + tie.b);
             const auto pins = [&](const JointTie::Part& own) {
                 const Constraint* constraint = plan.constraints[static_cast<std::size_t>(own.constraint)].get();
@@ -493,6 +494,8 @@ void ContactStage::addWholeContacts(double h, double ahead) {
             contact.isWhole = true;
             contact.thickness = thickness;
             contact.restitution = surface.material.restitution * spec.restitution;
+            contact.turnFriction = surface.material.turnFriction + spec.turnFriction;
+            contact.spin = surface.spin;
             contact.arm = -thickness * surface.away;
             // At the start of the step, so that its way in this block is no overlap.
             contact.gap = surface.distance - thickness + glm::dot(surface.away, x0_[k] - x1_[k]) + h * contact.speed;
@@ -550,7 +553,7 @@ void ContactStage::addTouches() {
     const auto pointOf = [&](int surface) { return elements().surface(surface).points.front(); };
     // Of a collider, with a body that has this point.
     const auto add = [&](int collider, int point, const dvec3& normal, const dvec3& place, const dvec3& velocity,
-                         double gap) -> contact::KinematicContact& {
+                         const dvec3& spin, double gap) -> contact::KinematicContact& {
         const int surface = elements().surfaceOf(point);
         const BodySpec& spec = *bodyOf(surface).spec;
         const collision::Material& material = materials_[static_cast<std::size_t>(collider)];
@@ -565,6 +568,8 @@ void ContactStage::addTouches() {
         contact.thickness = elements().surface(surface).thickness;
         contact.arm = place - xStart_[static_cast<std::size_t>(point)];
         contact.restitution = material.restitution * spec.restitution;
+        contact.turnFriction = material.turnFriction + spec.turnFriction;
+        contact.spin = spin;
         return contact;
     };
     // Of a solid, the first side, and another body.
@@ -575,13 +580,14 @@ void ContactStage::addTouches() {
         pair.thickness = thickness;
         pair.friction = spec_.friction * first.friction * second.friction;
         pair.restitution = spec_.restitution * first.restitution * second.restitution;
+        pair.turnFriction = first.turnFriction + second.turnFriction;
         pair.isPoint = pair.isActive = true;
         return pair;
     };
     for (const RigidTouch& touch : rigidTouches_) {
         const int a = pointOf(touch.surface);
         if (touch.other < 0) {
-            add(touch.collider, a, touch.normal, touch.onFirst, touch.velocity, touch.gap);
+            add(touch.collider, a, touch.normal, touch.onFirst, touch.velocity, touch.spin, touch.gap);
             continue;
         }
         const int b = pointOf(touch.other);
@@ -612,7 +618,7 @@ void ContactStage::addTouches() {
         }
         contact::KinematicContact& contact =
             add(touch.collider, touch.points[0], touch.normal, touch.place - surface.thickness * touch.normal,
-                touch.velocity, touch.gap);
+                touch.velocity, touch.spin, touch.gap);
         contact.points = touch.points;
         contact.weights = touch.weights;
         if (!contact::mayYield(contact.used(), std::span(contact.weights).first(contact.used().size()), inverseMass_))
@@ -794,7 +800,8 @@ void ContactStage::addFootholds() {
                 place += std::abs(pair.weights[own]) * x1_[static_cast<std::size_t>(pair.points[own])];
             }
             footholds_[bodyOf(surface).island].push_back({pair.places ? (*pair.places)[from == 0 ? 0 : 1] : place,
-                                                          glm::length(friction), pair.friction * normal, false});
+                                                          glm::length(friction), pair.friction * normal,
+                                                          pair.turnFriction.rolling > 0, false});
         }
     });
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
@@ -802,7 +809,7 @@ void ContactStage::addFootholds() {
         if (!contact.isWhole || !(normal > 0)) return;
         const dvec3 place = x1_[static_cast<std::size_t>(contact.point())] + contact.arm;
         footholds_[bodyOf(elements().surfaceOf(contact.point())).island].push_back(
-            {place, glm::length(friction), contact.friction * normal, true});
+            {place, glm::length(friction), contact.friction * normal, contact.turnFriction.rolling > 0, true});
     });
 }
 

@@ -183,7 +183,8 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                        .closing = closing,
                        .speed = glm::length(way) / query.seconds,
                        .thickness = thickness,
-                       .velocity = dvec3(0.0)};
+                       .velocity = dvec3(0.0),
+                       .spin = collision::spinBetween(shape.from, shape.to, query.seconds)};
     for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k)
         touch.place += touch.weights[k] * query.x0[static_cast<std::size_t>(points[k])];
     const dvec3 on = touch.place - near.distance * touch.normal;

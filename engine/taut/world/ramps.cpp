@@ -101,6 +101,7 @@ void takeRampedParts(WorldImpl& w) {
         if (collider == nullptr) return;
         part.spec.friction = collider->friction;
         part.spec.restitution = collider->restitution;
+        part.spec.turnFriction = collider->turnFriction;
     });
 }
 

@@ -124,7 +124,8 @@ void RigidContacts::touch(const ShapeInMotion& a, const ShapeInMotion& b, double
                          onB,
                          0,
                          thickness,
-                         wayOfB / seconds};
+                         wayOfB / seconds,
+                         collision::spinBetween(b.from, b.to, seconds)};
         touch.gap = glm::dot(manifold.normal, onA - onB);
         // One place keeps the angular momentum. A ball is pressed towards its centre, at a place of its own.
         const auto isBall = [](const ShapeInMotion& own) {

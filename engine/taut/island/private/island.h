@@ -145,6 +145,7 @@ class Island {
     struct Foothold {
         dvec3 place;             // [m]
         double friction, limit;  // [N s] and by Coulomb's law at most
+        bool resistsRolling;
         bool isOnCollider;
     };
     bool rests(double t, double seconds, std::vector<Support> supports, std::span<const Foothold> footholds);

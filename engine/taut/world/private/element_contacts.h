@@ -25,6 +25,7 @@ struct ElementTouch {
     double speed;         // [m/s] of the element past the shape
     double thickness;     // [m] that element and shape keep between them
     dvec3 velocity;       // [m/s] of the shape there
+    dvec3 spin;           // [rad/s] of the shape
 };
 
 // Touches in a block of `seconds` [s], in which points go from x0 to x1 (points) [m]. `mayTouch` says which

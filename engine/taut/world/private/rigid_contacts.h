@@ -28,6 +28,7 @@ struct RigidTouch {
     dvec3 onFirst, onSecond;  // [m] where they press each other, at the start of the block
     double gap, thickness;    // [m] then; of both
     dvec3 velocity;           // [m/s] of the collider's surface there
+    dvec3 spin;               // [rad/s] of the collider
 };
 
 class RigidContacts {

@@ -159,6 +159,9 @@ struct FrameView {
     // How all of it is at moments while the shutter is open, evenly spaced; the picture is their mean. Their labels do
     // not count. Empty: it is open for no time.
     std::vector<FrameView> moments;
+
+    // The view of the next frame, for layers that show motion; null: they do not know it.
+    std::shared_ptr<const FrameView> next;
 };
 
 }  // namespace taut::view

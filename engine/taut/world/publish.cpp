@@ -220,6 +220,7 @@ view::FrameView viewOf(WorldImpl& w, bool debug) {
     std::vector<Body*> bodies;
     view::FrameView view = sceneOf(w, 0.0, debug, bodies);
     for (const LabelSpec& label : w.spec.labels) {
+        if (!label.isShown(w.seconds())) continue;
         std::vector<LabelSubject> subjects;
         for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &islandOf(*body)});
         addLabels(label, subjects, view.labels);

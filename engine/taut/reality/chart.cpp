@@ -94,9 +94,9 @@ report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vecto
         curve.style = {.colour = colour, .mark = mark, .isFilled = false, .dash = report::Dash::dotted, .width = 1.4};
         const bool isAbove = curve.points.front().y > 1.5 * elasticaDroop(curve.points.front().x);
         if (isAbove)
-            add(std::move(curve), 0, report::Align::left, 4, 14);
+            add(std::move(curve), 0, report::Align::left, 0, 34);
         else
-            add(std::move(curve), std::string::npos, report::Align::right, 0, 24);
+            add(std::move(curve), std::string::npos, report::Align::right, -12, 40);
     }
     report::Chart chart;
     chart.title = "A strip clamped level droops under its own weight";

@@ -10,6 +10,7 @@
 #include "game/usage.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/image/private/video_writer.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 namespace taut::game {
@@ -77,10 +78,13 @@ std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& fl
     return look;
 }
 
-void expose(const LayerFlags& flags, pipeline::RunOptions& options) {
+void expose(const LayerFlags& flags, const world::SceneSpec& spec, int threads, pipeline::RunOptions& options) {
     options.blurMoments = flags.blurMoments;
     options.fStop = flags.fStop;
     options.focus = flags.focus;
+    for (const LayerFlag& layer : flags.layers)
+        if (layer.isGiven && layer.kind.needsNext)
+            options.ahead = pipeline::frameAhead([spec, threads] { return world::World(spec, {.threads = threads}); });
 }
 
 std::vector<std::string> filesBeside(const LayerFlags& flags) {

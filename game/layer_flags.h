@@ -11,8 +11,9 @@
 #include "taut/render/layer_table.h"
 
 namespace taut::world {
+struct SceneSpec;
 class World;
-}
+}  // namespace taut::world
 
 namespace taut::game {
 
@@ -42,8 +43,8 @@ std::vector<LayerFlag> flagsOf(const render::LayerKinds& kinds);
 // line, or empty.
 void checkLayerFlags(const LayerFlags& flags, const std::string& output, const std::string& video);
 
-// Writes the exposure into the options of a run.
-void expose(const LayerFlags& flags, pipeline::RunOptions& options);
+// Writes the exposure into the options of a run, and the next frame if a layer needs it, by worlds of the scene.
+void expose(const LayerFlags& flags, const world::SceneSpec& spec, int threads, pipeline::RunOptions& options);
 
 // Flags that change pictures besides the scene. `debug` and `overlay` are separate flags.
 std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags);

@@ -49,12 +49,12 @@
 namespace taut::game {
 namespace {
 
-pipeline::RunOptions runOptions(const RenderFlags& flags, const RunPart& part) {
+pipeline::RunOptions runOptions(const RenderFlags& flags, const RunPart& part, const world::SceneSpec& spec) {
     pipeline::RunOptions options;
     options.firstFrame = part.frames.first;
     options.lastFrame = part.frames.last;
     options.debugView = flags.debug;
-    expose(flags.layers, options);
+    expose(flags.layers, spec, flags.threads, options);
     options.checkpointEvery = flags.continuation.every;
     // Who goes on from a checkpoint may want the figures of the frames before it.
     options.metrics = flags.writesMetrics() || flags.overlay || !flags.quiet || options.checkpointEvery > 0;
@@ -252,7 +252,7 @@ int render(const RenderFlags& flags) {
     const scene::Loaded scene = readSceneWithKeys(flags.scene, allOverrides(flags), flags.isConfined);
     const world::SceneSpec& spec = scene.spec;
     const RunPart part = partOf(flags, spec.run);
-    pipeline::RunOptions options = runOptions(flags, part);
+    pipeline::RunOptions options = runOptions(flags, part, spec);
     const std::vector<std::string> figures = addFigures(flags.metricsOf, spec, options);
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, part, spec.run.fps);
     if (!flags.state.empty()) {

@@ -113,7 +113,7 @@ int renderStills(const RenderFlags& flags) {
 
     pipeline::RunOptions options;
     options.debugView = flags.debug;
-    expose(flags.layers, options);
+    expose(flags.layers, spec, flags.threads, options);
     const pipeline::PictureLayers layers = layersOf(flags.layers, walk.world);
     const auto renderer = makeRenderer(spec.picture, flags.threads, flags.gl, layers);
     image::FrameSequence pictures(pattern);

@@ -1,5 +1,6 @@
 // The floor with its lines, fading into the horizon, or into the picture around with ENVIRONMENT. SHADED where shadows
 // may fall, DARKENED where things hide the sky.
+// PATTERN 1 … 4: a pattern in place of the lines.
 // TRANSPARENT: without lines, and only what shadows leave of its colour, 0 … 1. LAMPS further lights shine on it.
 #include "tone.glsl"
 #ifdef SHADED
@@ -13,6 +14,9 @@ uniform sampler2D occlusion;
 #endif
 #ifdef ENVIRONMENT
 #include "environment.glsl"
+#endif
+#ifdef PATTERN
+#include "pattern.glsl"
 #endif
 in vec3 place;
 out vec4 colour;
@@ -31,7 +35,9 @@ vec3 onGround(vec4 colour, vec4 way) { return colour.rgb * max(way.y, 0.0); }
 
 void main() {
     vec3 albedo = groundColour.rgb;
-#ifndef TRANSPARENT
+#ifdef PATTERN
+    albedo = patternColour(place.xz, fwidth(place.xz));
+#elif !defined TRANSPARENT
     if (groundColour.w > 0.0) {
         vec2 cell = place.xz / groundColour.w;
         float width = 0.012;

@@ -1,5 +1,6 @@
 // Surfaces in sun and sky, from what surface.frag has kept of them.
 #include "lit.glsl"
+#include "octahedral.glsl"
 uniform sampler2D tints;
 uniform usampler2D shapes;
 uniform sampler2D materials;  // three texels a row: colour of the back, roughness; sheen, dulled less greyed, translucency, woven; anisotropy
@@ -7,14 +8,6 @@ uniform vec3 firstWay;        // from the eye through the picture's lower left c
 uniform vec3 rightWay;        // from one pixel to the next
 uniform vec3 upWay;
 out vec4 colour;
-
-vec3 fromOctahedral(uint bits) {
-    vec2 at = (vec2(bits & 65535u, bits >> 16) - 32767.0) / 32767.0;
-    vec3 n = vec3(at, 1.0 - abs(at.x) - abs(at.y));
-    float folded = max(-n.z, 0.0);
-    n.xy += vec2(n.x < 0.0 ? folded : -folded, n.y < 0.0 ? folded : -folded);
-    return normalize(n);
-}
 
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);

@@ -47,11 +47,8 @@ void addLamp(int lamp, vec3 place, vec3 normal, vec3 smoothNormal, vec3 toEye, v
 vec3 lit(vec3 place, vec3 toEye, vec3 smoothNormal, vec3 normal, vec3 fibres, float pixel, bool isBack, vec4 pattern,
          vec4 back, vec4 kind, float anisotropy) {
     float open = pattern.a, roughness = back.a;
-    vec3 albedo = isBack ? mix(back.rgb, pattern.rgb, 0.12) : pattern.rgb;
+    vec3 albedo = albedoOf(isBack, pattern.rgb, back.rgb, kind.y);
     vec3 through = isBack ? pattern.rgb : back.rgb;
-    float lightness = dot(albedo, vec3(0.3, 0.6, 0.1));
-    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * lightness, max(kind.y, 0.0));
-    albedo = mix(albedo, vec3(0.12 + 0.2 * lightness), max(-kind.y, 0.0));
 
     float lightSide = dot(smoothNormal, lightWay.xyz);
     float sun = sunlight(place, lightSide < 0.0 ? -smoothNormal : smoothNormal, pixel, true);

@@ -3,6 +3,7 @@
 #ifdef FIBRES
 #include "frame.glsl"
 #endif
+#include "octahedral.glsl"
 #include "pattern.glsl"
 #include "weave.glsl"
 uniform int material;  // row of its table
@@ -11,14 +12,6 @@ in vec3 upright;
 in vec2 along;  // [m] along the material
 layout(location = 0) out vec4 tint;    // rgb: square root of the colour, finer where it is dark; a: openness, 0 … 1
 layout(location = 1) out uvec4 shape;  // normal of the surface, of the threads, bits of 1 / distance, marks
-
-// A unit vector as a place on an octahedron, 16 bits a coordinate.
-uint octahedral(vec3 n) {
-    n *= 1.0 / (abs(n.x) + abs(n.y) + abs(n.z));
-    vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
-    uvec2 steps = uvec2((n.z < 0.0 ? folded : n.xy) * 32767.0 + 32767.5);
-    return steps.x | steps.y << 16;
-}
 
 #ifdef FIBRES
 // The way of the warp over the picture, 128 steps of half a turn.

@@ -22,3 +22,11 @@ vec3 decoded(vec3 bytes) {
 }
 
 vec3 hemisphere(vec3 normal) { return mix(groundLight.rgb, skyLight.rgb, 0.5 + 0.5 * normal.y); }
+
+// The colour of the side that is seen, without light; `dulled` below 0: greyed.
+vec3 albedoOf(bool isBack, vec3 front, vec3 back, float dulled) {
+    vec3 albedo = isBack ? mix(back, front, 0.12) : front;
+    float lightness = dot(albedo, vec3(0.3, 0.6, 0.1));
+    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * lightness, max(dulled, 0.0));
+    return mix(albedo, vec3(0.12 + 0.2 * lightness), max(-dulled, 0.0));
+}

@@ -514,6 +514,48 @@ def flag_colour(u, v):
     return white if 0.245 < u < 0.755 else red
 
 
+def noise(u, v, cells, seed):
+    """-1 … 1, smooth over a lattice of cells (across, down), repeating from edge to edge."""
+    nx, ny = cells
+    x, y = u * nx, v * ny
+    i, j = int(x), int(y)
+    sx, sy = ((3 - 2 * t) * t * t for t in (x - i, y - j))
+
+    def at(i, j):
+        h = (i % nx * 73856093 ^ j % ny * 19349663 ^ seed * 83492791) & 0xFFFFFFFF
+        h = (h ^ h >> 15) * 0x2C1B3C6D & 0xFFFFFFFF
+        h = (h ^ h >> 12) * 0x297A2D39 & 0xFFFFFFFF
+        return (h ^ h >> 15) / 0x7FFFFFFF - 1
+
+    upper = at(i, j) + sx * (at(i + 1, j) - at(i, j))
+    lower = at(i, j + 1) + sx * (at(i + 1, j + 1) - at(i, j + 1))
+    return upper + sy * (lower - upper)
+
+
+def lawn_colour(u, v):
+    """Short grass: blades of all shades, a few dry ones, and soft patches."""
+    shade = 0.55 * noise(u, v, (150, 90), 1) + 0.45 * noise(u, v, (90, 150), 2) + 0.3 * noise(u, v, (9, 9), 3)
+    dry = max(0.0, noise(u, v, (110, 70), 4) - 0.35) + max(0.0, 0.4 * noise(u, v, (7, 7), 5))
+    low, high, straw = map(hex_colour, ("#2f4a1c", "#7c9a4a", "#a8a062"))
+    part = min(1.0, max(0.0, 0.5 + 0.5 * shade))
+    return tuple(low[n] + part * (high[n] - low[n]) + 0.5 * dry * (straw[n] - low[n]) for n in range(3))
+
+
+def parquet_colour(u, v):
+    """Sixteen rows of two oak boards each, staggered, with grain along them."""
+    row = int(16 * v)
+    along = (2 * u + (0.0, 0.62, 0.27, 0.81)[row % 4] + 0.5 * (row // 4 % 2)) % 2.0
+    board = 2 * row + int(along)
+    edge = min(16 * v % 1.0, 1 - 16 * v % 1.0) / 16, min(along % 1.0, 1 - along % 1.0) / 2
+    tone = noise((board * 0.37) % 1.0, (board * 0.71) % 1.0, (61, 67), 6)
+    grain = 0.6 * noise(u, v, (9, 300), 7 + board) + 0.4 * noise(u, v, (24, 130), 80 + board)
+    light, dark = map(hex_colour, ("#a88a68", "#74563c"))
+    part = min(1.0, max(0.0, 0.38 + 0.2 * tone + 0.22 * grain))
+    if min(edge) < 0.0012:
+        part = 1.25
+    return tuple(light[n] + part * (dark[n] - light[n]) for n in range(3))
+
+
 def bear_colour(u, v):
     dark, brown, cream = map(hex_colour, ("#120d0a", "#8a5a34", "#e9d3ab"))
     low, high, t = (dark, brown, 2 * u) if u < 0.5 else (brown, cream, 2 * u - 1)
@@ -532,3 +574,5 @@ if __name__ == "__main__":
     write_png("bear.png", 64, bear_colour)
     write_png("poncho.png", 768, poncho_colour)
     write_png("flag.png", 512, flag_colour)
+    write_png("lawn.png", 384, lawn_colour)
+    write_png("parquet.png", 512, parquet_colour)

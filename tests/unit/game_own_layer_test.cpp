@@ -54,7 +54,7 @@ class NormalsLayer : public render::Layer {
         writeText(vertexFile_, vertexShader);
         writeText(fragmentFile_, fragmentShader);
     }
-    std::string name() const override { return "normals"; }
+    std::string name() const override { return "own-normals"; }
     render::LayerFacts facts() const override { return {{"axes", "right, up, back"}}; }
     std::unique_ptr<render::LayerPass> pass(const render::Gl& gl, const render::ShaderFolder& shaders,
                                             glm::ivec2 size) const override {
@@ -67,7 +67,7 @@ class NormalsLayer : public render::Layer {
 
 Outcome runWithNormals(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
     game::Tables tables;
-    render::LayerKind normals{"normals", "Write a NAME.normals.png beside each frame: normals of surfaces"};
+    render::LayerKind normals{"own-normals", "Write a NAME.own-normals.png beside each frame: normals of surfaces"};
     normals.ask = [&](double, const view::FrameView&) { return std::make_shared<NormalsLayer>(folder); };
     tables.layers.add(normals);
     return run(arguments, game::builtInCommands(tables));
@@ -98,9 +98,9 @@ TEST(OwnLayer, IsDrawnIntoFilesOfItsNameAndStandsInTheRecord) {
     const TemporaryFolder folder;
     const std::string output = (folder / "out").string();
     const Outcome outcome =
-        runWithNormals(folder, {"render", boxScene(folder), "-o", output, "--normals", "--mask", "--quiet"});
+        runWithNormals(folder, {"render", boxScene(folder), "-o", output, "--own-normals", "--mask", "--quiet"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const image::Image picture = image::readImage(folder / "out" / "frame_000000.normals.png");
+    const image::Image picture = image::readImage(folder / "out" / "frame_000000.own-normals.png");
     const auto at = [&](int x) {
         const auto* first = &picture.rgb[3 * static_cast<std::size_t>(24 * 64 + x)];
         return std::array<int, 3>{first[0], first[1], first[2]};
@@ -114,19 +114,21 @@ TEST(OwnLayer, IsDrawnIntoFilesOfItsNameAndStandsInTheRecord) {
     expectNear(at(2), {0.0, 0.0, 0.0});
 
     const auto record = nlohmann::json::parse(core::fileContent(folder / "out" / "run.json"));
-    EXPECT_EQ(record["layers"].dump(),
-              R"({"alpha":null,"depth":null,"mask":{"collider.box":"#800000"},"normals":{"axes":"right, up, back"}})");
+    EXPECT_EQ(
+        record["layers"].dump(),
+        R"({"albedo":null,"alpha":null,"depth":null,"flow":null,"mask":{"collider.box":"#800000"},"normals":null,)"
+        R"("own-normals":{"axes":"right, up, back"}})");
     EXPECT_EQ(pipeline::readPartRecord(folder / "out" / "run.json").besides,
-              (std::vector<std::string>{"mask", "normals"}));
+              (std::vector<std::string>{"mask", "own-normals"}));
 }
 
 TEST(OwnLayer, HasAFlagAsTheOthersHave) {
     const TemporaryFolder folder;
     EXPECT_TRUE(has(runWithNormals(folder, {"render", "--help"}).out,
-                    "\n  --normals                   Write a NAME.normals.png"));
-    EXPECT_FALSE(has(run({"render", "--help"}).out, "normals"));
-    EXPECT_TRUE(has(runWithNormals(folder, {"render", "flag", "-o", "a.mp4", "--normals"}).err,
-                    "--normals writes files beside frames: add -o out/frame_######.png;"));
+                    "\n  --own-normals               Write a NAME.own-normals.png"));
+    EXPECT_FALSE(has(run({"render", "--help"}).out, "own-normals"));
+    EXPECT_TRUE(has(runWithNormals(folder, {"render", "flag", "-o", "a.mp4", "--own-normals"}).err,
+                    "--own-normals writes files beside frames: add -o out/frame_######.png;"));
 }
 
 // What the program says of its own, word for word.

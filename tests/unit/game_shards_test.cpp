@@ -65,10 +65,10 @@ springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]
 TEST_F(Shards, JoinedAreTheBytesOfOneRun) {
     // Figures that the states know nothing of.
     draw({"-o", path("one"), "--video", path("one.mp4"), "--metrics-of", "speed(net.spring@bob)", "--overlay",
-          "--depth"});
+          "--depth", "--flow"});
     draw({"--no-pictures", "--checkpoint-every", "2", "--checkpoints", path("states")});
     const std::vector<std::string> flags = {"--checkpoints",         path("states"), "--resume", "--metrics-of",
-                                            "speed(net.spring@bob)", "--overlay",    "--depth"};
+                                            "speed(net.spring@bob)", "--overlay",    "--depth",  "--flow"};
     drawShards(3, flags);
     for (const auto& file : std::filesystem::directory_iterator(folder_ / "one"))
         if (const std::filesystem::path name = file.path().filename(); name.extension() == ".png")

@@ -48,20 +48,22 @@ TEST(Png, ReadsBackColoursBesideAlpha) {
     EXPECT_TRUE(readImageWithAlpha(folder / "opaque.png").alpha.empty());
 }
 
-TEST(Png, GreyOfSixteenBitsReadsBackByItsUpperByte) {
+TEST(Png, SixteenBitsReadBackByTheirUpperByte) {
     const TemporaryFolder folder;
-    std::vector<std::uint16_t> grey;
-    std::vector<std::uint8_t> upper;
-    for (unsigned i = 0; i < 40 * 30; ++i) {
-        grey.push_back(static_cast<std::uint16_t>(i * i * 37U));
-        upper.insert(upper.end(), 3, static_cast<std::uint8_t>(grey.back() >> 8));
+    for (const std::size_t channels : {1U, 3U}) {
+        std::vector<std::uint16_t> numbers;
+        std::vector<std::uint8_t> upper;
+        for (unsigned i = 0; i < channels * 40 * 30; ++i) {
+            numbers.push_back(static_cast<std::uint16_t>(i * i * 37U));
+            upper.insert(upper.end(), 3 / channels, static_cast<std::uint8_t>(numbers.back() >> 8));
+        }
+        const std::vector<std::byte> bytes = widePngBytes(40, 30, numbers, "metres per unit: 0.001");
+        const std::string content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        test::writeText(folder / "a.png", content);
+        EXPECT_EQ(readImage(folder / "a.png").rgb, upper);  // which looks at the checksums too
+        EXPECT_EQ(content.substr(24, 2), std::string("\x10") + (channels == 1 ? '\0' : '\2'));
+        EXPECT_NE(content.find(std::string("tEXtDescription\0metres per unit: 0.001", 37)), std::string::npos);
     }
-    const std::vector<std::byte> bytes = greyPngBytes(40, 30, grey, "metres per unit: 0.001");
-    const std::string content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    test::writeText(folder / "a.png", content);
-    EXPECT_EQ(readImage(folder / "a.png").rgb, upper);           // which looks at the checksums too
-    EXPECT_EQ(content.substr(24, 2), std::string("\x10\0", 2));  // 16 bits, grey
-    EXPECT_NE(content.find(std::string("tEXtDescription\0metres per unit: 0.001", 37)), std::string::npos);
 }
 
 TEST(Png, IsTheSameBytesEveryTime) {

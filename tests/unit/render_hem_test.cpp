@@ -29,8 +29,8 @@ TEST(RenderHem, AnEdgeSeenCloseIsAsThickAsTheCloth) {
     int rows = 0;
     for (std::size_t y = 0; y < 180; ++y) rows += picture.layer("mask")->rgb[3 * (y * 320 + 160)] != 0 ? 1 : 0;
     EXPECT_NEAR(rows, 12.3, 1.0);
-    EXPECT_NEAR(picture.layer("depth")->grey[90 * 320 + 160], 1950.0, 1.0);
-    EXPECT_EQ(picture.layer("depth")->grey[80 * 320 + 160], image::farDepth);
+    EXPECT_NEAR(picture.layer("depth")->numbers[90 * 320 + 160], 1950.0, 1.0);
+    EXPECT_EQ(picture.layer("depth")->numbers[80 * 320 + 160], image::farDepth);
 }
 
 // 8 mm are 0.99 pixels.

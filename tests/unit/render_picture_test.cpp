@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <tuple>
 
 #include "render_support.h"
 #include "taut/image/png.h"
@@ -53,6 +54,22 @@ TEST(RenderPicture, FloorInKnownLightHasTheValueOfTheToneCurve) {
     view.ground->colour = glm::vec3(0.4F);
     const Pixel pixel = pixelOf(pictureOf(view), view.camera, {0.0F, 0.0F, 0.0F});
     EXPECT_NEAR(pixel[1], srgb(filmic(0.4F * (0.8F + 0.1F))), ditherStep + 0.5);
+}
+
+// Squares of half a metre, whose corners meet at the origin.
+TEST(RenderPicture, FloorWithAPatternHasItsColoursWhereTheyBelong) {
+    view::FrameView view = floorView();
+    view.light.colour = glm::vec3(0.8F * pi);
+    view.light.sky = glm::vec3(0.1F);
+    view::Finish finish;
+    finish.pattern = view::Pattern::checker;
+    finish.front = glm::vec3(0.4F);
+    finish.accent = glm::vec3(0.1F);
+    finish.repeat = 1.0F;
+    view.ground->pattern = std::make_shared<const view::Finish>(finish);
+    const image::Image picture = pictureOf(view);
+    for (const auto& [x, z, colour] : {std::tuple(0.75F, 0.75F, 0.4F), {0.25F, 0.75F, 0.1F}, {-0.25F, -0.75F, 0.1F}})
+        EXPECT_NEAR(pixelOf(picture, view.camera, {x, 0.0F, z})[1], srgb(filmic(colour * 0.9F)), ditherStep + 0.5);
 }
 
 TEST(RenderPicture, CameraMayLookStraightDown) {

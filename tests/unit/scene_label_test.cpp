@@ -49,6 +49,15 @@ TEST(SceneErrors, FaultsOfLabelsAreReported) {
          "s.toml:5:6: error: \"rope.rail@start\" names points, not a body\n"
          "  of = \"rope.rail@start\"\n"
          "       ^ write rope.rail"},
+        {"a caption that ends before it begins",
+         "[label.a]\n"
+         "text = \"x\"\n"
+         "screen = [0.5, 0.5]\n"
+         "from_s = 2.0\n"
+         "to_s = 1.5\n",
+         "s.toml:6:8: error: to_s must be later than from_s\n"
+         "  to_s = 1.5\n"
+         "         ^"},
         {"a size beyond the picture",
          "[label.a]\n"
          "text = \"x\"\n"

@@ -1,4 +1,5 @@
 list(APPEND TAUT_UNIT_TESTS
+  study_atlas_chart_test.cpp
   study_atlas_command_test.cpp
   study_atlas_test.cpp
   study_chart_command_test.cpp

@@ -195,5 +195,20 @@ TEST(Labels, StandWhereTheyAreToldAndHangAboveHeldPoints) {
     EXPECT_EQ(labels[3].at, glm::vec3(5, 3, 0));
 }
 
+TEST(Labels, ACaptionIsShownFromItsFirstTimeToJustBeforeItsLast) {
+    LabelSpec caption;
+    caption.text = "a";
+    caption.screen = dvec2(0.5, 0.9);
+    EXPECT_TRUE(caption.isShown(0.0));
+    caption.from = 1.0;
+    caption.to = 2.0;
+    EXPECT_FALSE(caption.isShown(0.99));
+    EXPECT_TRUE(caption.isShown(1.0));
+    EXPECT_FALSE(caption.isShown(2.0));
+    SceneSpec scene = calmAndWild();
+    scene.labels = {caption};
+    EXPECT_TRUE(World(scene).view(false).labels.empty());  // at the start
+}
+
 }  // namespace
 }  // namespace taut::world

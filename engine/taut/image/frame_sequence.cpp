@@ -144,7 +144,7 @@ void LayerSequence::write(std::int64_t frame, const Image& image) {
             continue;
         }
         core::WholeFile file(path);
-        file.write(greyPngBytes(image.width, image.height, layer.grey, layer.comment));
+        file.write(widePngBytes(image.width, image.height, layer.numbers, layer.comment));
         file.commit();
     }
 }

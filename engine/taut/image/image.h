@@ -11,12 +11,12 @@ namespace taut::image {
 
 inline constexpr std::uint16_t farDepth = 65535;  // where there is nothing
 
-// Of a picture, beside its colours: one number of 16 bits a pixel, or three of 8. The other array is empty.
+// Of a picture, beside its colours: one or three numbers of 16 bits a pixel, or three of 8. The other array is empty.
 struct Layer {
-    std::string name;                   // "depth"
-    std::string comment{};              // meaning of the numbers, for the files
-    std::vector<std::uint16_t> grey{};  // (height × width)
-    std::vector<std::uint8_t> rgb{};    // (height × width × 3)
+    std::string name;                      // "depth"
+    std::string comment{};                 // meaning of the numbers of 16 bits, for the files
+    std::vector<std::uint16_t> numbers{};  // (height × width) or (height × width × 3)
+    std::vector<std::uint8_t> rgb{};       // (height × width × 3)
 };
 
 // 8-bit sRGB, three channels, rows from top to bottom. Layers beside the colours are empty unless requested.

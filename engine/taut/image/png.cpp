@@ -83,19 +83,21 @@ std::vector<std::byte> pngBytes(const Image& image) {
     return {first, first + size};
 }
 
-std::vector<std::byte> greyPngBytes(int width, int height, std::span<const std::uint16_t> grey,
+std::vector<std::byte> widePngBytes(int width, int height, std::span<const std::uint16_t> numbers,
                                     std::string_view comment) {
-    const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-    TAUT_EXPECTS(width > 0 && height > 0 && grey.size() == columns * rows);
+    TAUT_EXPECTS(width > 0 && height > 0);
+    const auto rows = static_cast<std::size_t>(height), pixels = static_cast<std::size_t>(width) * rows;
+    const std::size_t channels = numbers.size() / pixels;
+    TAUT_EXPECTS(numbers.size() == channels * pixels && (channels == 1 || channels == 3));
     std::vector<unsigned char> lines;
-    lines.reserve(rows * (1 + 2 * columns));
+    lines.reserve(rows + 2 * numbers.size());
     for (std::size_t y = 0; y < rows; ++y) {
         lines.push_back(1);  // SUB: each byte less that of the pixel before
-        unsigned before = 0;
-        for (const unsigned here : grey.subspan(y * columns, columns)) {
+        const auto row = numbers.subspan(y * (numbers.size() / rows), numbers.size() / rows);
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const unsigned here = row[i], before = i < channels ? 0U : row[i - channels];
             lines.push_back(static_cast<unsigned char>((here >> 8) - (before >> 8)));
             lines.push_back(static_cast<unsigned char>(here - before));
-            before = here;
         }
     }
     if (lines.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) throw std::bad_alloc();
@@ -107,7 +109,8 @@ std::vector<std::byte> greyPngBytes(int width, int height, std::span<const std::
     std::vector<unsigned char> header, png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     appendNumber(header, static_cast<std::uint32_t>(width));
     appendNumber(header, static_cast<std::uint32_t>(height));
-    header.insert(header.end(), {16, 0, 0, 0, 0});  // bits, grey, deflate, filters a row, not interlaced
+    const unsigned char kind = channels == 1 ? 0 : 2;  // grey, RGB
+    header.insert(header.end(), {16, kind, 0, 0, 0});  // bits, kind, deflate, filters a row, not interlaced
     std::string text = "Description";
     text += '\0';
     text += comment;

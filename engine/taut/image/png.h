@@ -16,9 +16,9 @@ namespace taut::image {
 // image.
 std::vector<std::byte> pngBytes(const Image& image);
 
-// The bytes of a PNG file of one 16-bit channel, grey (height × width), with a comment under the keyword "Description"
-// (Latin-1).
-std::vector<std::byte> greyPngBytes(int width, int height, std::span<const std::uint16_t> grey,
+// The bytes of a PNG file of one or three channels of 16 bits, with a comment under the keyword "Description"
+// (Latin-1). Expects (height × width) or (height × width × 3) numbers.
+std::vector<std::byte> widePngBytes(int width, int height, std::span<const std::uint16_t> numbers,
                                     std::string_view comment);
 
 // Writes the file whole or not at all; throws core::Error(inputOutput). Expects a whole image.

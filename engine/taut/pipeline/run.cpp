@@ -147,6 +147,7 @@ view::FrameView shownNow(const world::World& world, const RunOptions& options) {
     view::FrameView view = world.view(options.debugView);
     addMoments(world, options, view);
     openLens(options, view.camera);
+    if (options.ahead) view.next = options.ahead(world);
     return view;
 }
 

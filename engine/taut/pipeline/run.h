@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "taut/image/frame_sink.h"
+#include "taut/pipeline/frame_ahead.h"
 #include "taut/pipeline/record_log.h"
 #include "taut/view/frame_view.h"
 
@@ -45,6 +46,8 @@ struct RunOptions {
     double fStop = 0.0;
     double focus = 0.0;
 
+    FrameAhead ahead{};  // FrameView::next of each picture; null: there is none
+
     // These draw other frames at the same time, each on its own thread. A picture may not depend on which one draws it.
     std::vector<Draw> moreDraws{};
     // Called for each picture, in order, before it goes to the sink; null: nothing is called.
@@ -54,7 +57,8 @@ struct RunOptions {
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
 };
 
-// The world as it is now, as the picture of a run shows it: with marks, an open shutter and a lens as asked for.
+// The world as it is now, as the picture of a run shows it: with marks, an open shutter, a lens and the next frame as
+// asked for.
 view::FrameView shownNow(const world::World& world, const RunOptions& options);
 
 // Callbacks for progress; every function may be empty. Several threads call them, but never two the same function at

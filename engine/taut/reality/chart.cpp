@@ -4,43 +4,56 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
+
+#include "taut/reality/elastica.h"
 
 namespace taut::reality {
 
 namespace {
 
-// Of each program the strips with the most cells.
+// The mean factor by which strips at rest miss the theory, as a logarithm.
+double missOf(const report::Curve& curve) {
+    double sum = 0;
+    for (const report::ChartPoint& point : curve.points) sum += std::abs(std::log(point.y / elasticaDroop(point.x)));
+    return sum / static_cast<double>(curve.points.size());
+}
+
+// Of each program the settings that come closest to the theory, with the most cells that it has been measured with.
 std::vector<report::Curve> peerCurves(const std::vector<PeerDroop>& peers) {
-    using report::Mark;
-    constexpr std::array<std::pair<const char*, Mark>, 5> looks{{{"#c51b7d", Mark::square},
-                                                                 {"#8c6d31", Mark::circle},
-                                                                 {"#1b7837", Mark::plus},
-                                                                 {"#41ab5d", Mark::cross},
-                                                                 {"#54278f", Mark::star}}};
     std::map<std::string, int> cells;
     for (const PeerDroop& peer : peers) cells[peer.peer] = std::max(cells[peer.peer], peer.cells);
-    std::vector<report::Curve> curves;
+    std::map<std::string, report::Curve> settings;
     for (const PeerDroop& peer : peers) {
         if (peer.cells != cells[peer.peer] || !peer.isAtRest || peer.droop <= 0) continue;
-        const std::string title = fmt::format("{}, {} cells", peer.peer, peer.cells);
-        auto curve =
-            std::find_if(curves.begin(), curves.end(), [&](const auto& known) { return known.title == title; });
-        if (curve == curves.end()) {
-            const auto& [colour, mark] = looks[curves.size() % looks.size()];
-            curve = curves.insert(curve, {.title = title,
-                                          .style = {.colour = colour,
-                                                    .mark = mark,
-                                                    .isFilled = false,
-                                                    .dash = report::Dash::dotted,
-                                                    .width = 1.2,
-                                                    .size = mark == Mark::square ? 1.4 : 1.05}});
-        }
-        curve->points.push_back({peer.gamma, peer.droop});
+        report::Curve& curve = settings[peer.peer];
+        curve.title = fmt::format("{}, {} cells", peer.peer, peer.cells);
+        curve.points.push_back({peer.gamma, peer.droop});
     }
+    std::map<std::string, report::Curve> best;  // by the first word of the name
+    for (const auto& [name, curve] : settings) {
+        const auto [known, isNew] = best.try_emplace(name.substr(0, name.find(' ')), curve);
+        if (!isNew && missOf(curve) < missOf(known->second)) known->second = curve;
+    }
+    std::vector<report::Curve> curves;
+    for (auto& [program, curve] : best) curves.push_back(std::move(curve));
     return curves;
+}
+
+// Beside a point of the curve, in its colour, in place of a legend.
+report::Label nameOf(const report::Curve& curve, std::size_t point, report::Align align, double right, double up) {
+    const report::ChartPoint& at = curve.points[std::min(point, curve.points.size() - 1)];
+    return {.x = at.x,
+            .y = at.y,
+            .text = curve.title,
+            .colour = curve.style.colour,
+            .align = align,
+            .dx = right,
+            .dy = up,
+            .size = 13};
 }
 
 }  // namespace
@@ -48,16 +61,7 @@ std::vector<report::Curve> peerCurves(const std::vector<PeerDroop>& peers) {
 report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vector<PeerDroop>& peers,
                          const std::vector<std::string>& notes) {
     using report::Mark;
-    struct Look {
-        const char* colour;
-        Mark mark;
-    };
-    constexpr std::array<Look, 4> ofTaut{{{"#9ecae1", Mark::triangle},
-                                          {"#4292c6", Mark::square},
-                                          {"#08519c", Mark::diamond},
-                                          {"#08306b", Mark::circle}}};
-    constexpr std::array<Look, 2> ofSprings{{{"#d94801", Mark::down}, {"#fd8d3c", Mark::pentagon}}};
-    std::size_t taut = 0, springs = 0;
+    constexpr int cellsOfPeers = 20;
     report::Panel panel;
     panel.x = {
         .label = "Γ = weight × length³ / bending rigidity", .scale = report::Scale::log, .least = 0.08, .most = 1250};
@@ -65,35 +69,42 @@ report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vecto
                .scale = report::Scale::log,
                .least = 8e-3,
                .most = 150};
+    const auto add = [&](report::Curve curve, std::size_t named, report::Align align, double right, double up) {
+        if (curve.points.empty()) return;
+        panel.labels.push_back(nameOf(curve, named, align, right, up));
+        panel.curves.push_back(std::move(curve));
+    };
     for (const DroopCurve& curve : curves) {
-        report::Curve drawn;
-        drawn.title = curve.name;
+        report::Curve drawn{.title = curve.name};
+        for (const auto& [gamma, droop] : curve.points) drawn.points.push_back({gamma, droop});
         if (curve.cells == 0) {
             drawn.title = "heavy elastica, exact";
             drawn.style = {.colour = "#202020", .width = 2.2};
-        } else if (curve.isOfSprings) {
-            const Look look = ofSprings[springs++ % ofSprings.size()];
-            drawn.style = {.colour = look.colour,
-                           .mark = look.mark,
-                           .isFilled = false,
-                           .dash = report::Dash::dashed,
-                           .width = 1.4,
-                           .size = 1.1};
-        } else {
-            const Look look = ofTaut[taut++ % ofTaut.size()];
-            drawn.style = {.colour = look.colour, .mark = look.mark, .isFilled = false, .width = 0, .size = 1.25};
+            add(std::move(drawn), curve.points.size() / 3, report::Align::left, 12, -14);
+        } else if (curve.cells == cellsOfPeers && !curve.isOfSprings) {
+            drawn.style = {.colour = "#08519c", .mark = Mark::diamond, .isFilled = false, .width = 0, .size = 1.4};
+            add(std::move(drawn), 2, report::Align::left, 12, -14);
         }
-        for (const auto& [gamma, droop] : curve.points) drawn.points.push_back({gamma, droop});
-        panel.curves.push_back(std::move(drawn));
     }
-    for (report::Curve& curve : peerCurves(peers)) panel.curves.push_back(std::move(curve));
+    constexpr std::array<std::pair<const char*, Mark>, 4> looks{
+        {{"#1b7837", Mark::plus}, {"#c51b7d", Mark::square}, {"#8c6d31", Mark::circle}, {"#54278f", Mark::star}}};
+    std::size_t look = 0;
+    for (report::Curve& curve : peerCurves(peers)) {
+        const auto& [colour, mark] = looks[look++ % looks.size()];
+        curve.style = {.colour = colour, .mark = mark, .isFilled = false, .dash = report::Dash::dotted, .width = 1.4};
+        const bool isAbove = curve.points.front().y > 1.5 * elasticaDroop(curve.points.front().x);
+        if (isAbove)
+            add(std::move(curve), 0, report::Align::left, 0, 34);
+        else
+            add(std::move(curve), std::string::npos, report::Align::right, -12, 40);
+    }
     report::Chart chart;
     chart.title = "A strip clamped level droops under its own weight";
-    chart.subtitle =
-        "A rigidity holds at every length and resolution; springs across two cells hold where they were fitted";
+    chart.subtitle = "A rigidity holds at every length; each other program with the settings that come closest";
     chart.panels = {panel};
     chart.panelWidth = 820;
     chart.panelHeight = 520;
+    chart.hasLegend = false;
     chart.notes = notes;
     return chart;
 }

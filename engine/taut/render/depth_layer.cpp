@@ -88,7 +88,7 @@ class DepthPass : public LayerPass {
         std::vector<float> depths;
         scene.targets.depths(scene.part, depths);
         const std::vector<float> nearness = scene.targets.nearness(scene.part);
-        layer.grey = unitsOf(scene.view, {scene.size, scene.part, depths, nearness}, unit_);
+        layer.numbers = unitsOf(scene.view, {scene.size, scene.part, depths, nearness}, unit_);
         layer.comment = comment_;
     }
 

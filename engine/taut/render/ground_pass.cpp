@@ -17,11 +17,13 @@ constexpr int steadyPictures = 8;  // after so many with the maps in the same pl
 
 }  // namespace
 
-GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill, bool transparent)
+GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, bool keepsStill,
+                       bool transparent)
     : gl_(&gl),
       keepsStill_(keepsStill),
       isTransparent_(transparent),
       shaders_(&shaders),
+      textures_(gl, budget),
       layout_(gl, GlKind::vertexArray),
       vertices_(gl, GlKind::buffer),
       indices_(gl, GlKind::buffer),
@@ -29,22 +31,24 @@ GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStil
     groundsUnder({});
 }
 
-GroundPass::Grounds& GroundPass::groundsUnder(const LightKind& kind) {
-    const auto known = grounds_.find(kind);
+GroundPass::Grounds& GroundPass::groundsUnder(const LightKind& kind, view::Pattern pattern) {
+    const auto known = grounds_.find({kind, pattern});
     if (known != grounds_.end()) return known->second;
     const auto program = [&](const std::string& name, std::vector<std::string> definitions) {
         const std::vector<std::string> lights = definitionsOf(kind);
         definitions.insert(definitions.end(), lights.begin(), lights.end());
         if (isTransparent_) definitions.emplace_back("TRANSPARENT");
+        if (pattern != view::Pattern::plain)
+            definitions.push_back("PATTERN " + std::to_string(static_cast<int>(pattern)));
         return shaders_->program(name + ".vert", name + ".frag", definitions);
     };
     Grounds grounds{program("ground", {"SHADED", "DARKENED"}), program("ground", {"DARKENED"}), program("ground", {}),
                     program("background", {})};
-    return grounds_.emplace(kind, std::move(grounds)).first->second;
+    return grounds_.emplace(std::pair(kind, pattern), std::move(grounds)).first->second;
 }
 
 bool GroundPass::Still::operator==(const Still& other) const {
-    return groundHeight == other.groundHeight && environment == other.environment &&
+    return groundHeight == other.groundHeight && pattern == other.pattern && environment == other.environment &&
            std::memcmp(&block, &other.block, sizeof(block)) == 0;
 }
 
@@ -67,7 +71,8 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
     // The light of a picture around is the same all over the ground: only what is seen of it counts here.
     LightKind kind = lights.kind;
     kind.isAround = view.environment && view.environment->isShown && !isTransparent_;
-    now_ = &groundsUnder(kind);
+    const view::Finish* pattern = view.ground && !isTransparent_ ? view.ground->pattern.get() : nullptr;
+    now_ = &groundsUnder(kind, pattern != nullptr ? pattern->pattern : view::Pattern::plain);
     mesh_ = {};
     if (view.ground) {
         std::vector<Shadower> above{lights.sun};
@@ -83,7 +88,8 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
     }
 
     // Where the maps lie is nothing that the open ground knows.
-    Still now{block, view.ground ? std::optional(view.ground->height) : std::nullopt, view.environment};
+    Still now{block, view.ground ? std::optional(view.ground->height) : std::nullopt,
+              pattern != nullptr ? std::optional(*pattern) : std::nullopt, view.environment};
     now.block.toMap = glm::mat4(0.0F);
     now.block.mapSize = now.block.occlusionArea = glm::vec4(0.0F);
     now.block.lightColour.w = 0.0F;
@@ -188,12 +194,18 @@ void GroundPass::drawOpen(const glm::mat4& projection, const std::vector<std::ui
     gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void GroundPass::drawCells(const Program& program, const std::vector<std::uint32_t>& triangles) {
+void GroundPass::drawCells(Program& program, const std::vector<std::uint32_t>& triangles) {
     if (triangles.empty()) return;
     gl_->Disable(GL_CULL_FACE);
     gl_->BindVertexArray(layout_.id());
     gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
     program.use();
+    if (const std::optional<view::Finish>& pattern = before_->pattern) {
+        program.set("frontColour", pattern->front);
+        program.set("accentColour", pattern->accent);
+        program.set("repeat", std::max(pattern->repeat, 1e-4F));
+        if (pattern->pattern == view::Pattern::image) textures_.bind(pattern->texture);
+    }
     gl_->BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(std::uint32_t)),
                     triangles.data(), GL_STREAM_DRAW);
     gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(triangles.size()), GL_UNSIGNED_INT, nullptr);

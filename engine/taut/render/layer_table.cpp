@@ -3,7 +3,10 @@
 // A line a layer, in the order in which helps and records name them: the function that returns its row.
 #define TAUT_LAYERS(LAYER) \
     LAYER(depthKind)       \
-    LAYER(maskKind)
+    LAYER(maskKind)        \
+    LAYER(normalsKind)     \
+    LAYER(albedoKind)      \
+    LAYER(flowKind)
 
 namespace taut::render {
 

@@ -49,6 +49,7 @@ struct LayerKind {
     std::string name;  // "depth": its flag is --depth, its files are NAME.depth.png
     std::string help;  // of the flag
     std::optional<LayerNumber> number{};
+    bool needsNext = false;  // it draws FrameView::next too
     // Makes the layer from its number, for a run whose first view is `first`; null: there is nothing to draw.
     std::function<std::shared_ptr<const Layer>(double number, const view::FrameView& first)> ask{};
 };

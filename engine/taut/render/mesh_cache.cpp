@@ -117,7 +117,7 @@ std::vector<DrawItem> MeshCache::items(const std::vector<view::Surface>& surface
     return result;
 }
 
-void MeshCache::draw(const DrawItem& item) const {
+void MeshCache::draw(const DrawItem& item, GLuint otherVertices) const {
     gl_->BindVertexArray(layout_.id());
     gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, item.indices);
     gl_->BindBuffer(GL_ARRAY_BUFFER, item.vertices);
@@ -128,6 +128,11 @@ void MeshCache::draw(const DrawItem& item) const {
     gl_->BindBuffer(GL_ARRAY_BUFFER, item.corners);
     gl_->EnableVertexAttribArray(2);
     gl_->VertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+    if (otherVertices != 0) {
+        gl_->BindBuffer(GL_ARRAY_BUFFER, otherVertices);
+        gl_->EnableVertexAttribArray(3);
+        gl_->VertexAttribPointer(3, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+    }
     gl_->DrawElements(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT, nullptr);
 }
 

@@ -15,6 +15,16 @@ constexpr std::size_t mostMaterials = 16384;  // GL takes textures of that many 
 
 }  // namespace
 
+void setRays(Program& program, const view::Camera& camera, glm::ivec2 size, glm::vec2 shift) {
+    const view::CameraAxes axes = axesOf(camera);
+    const float pixel =
+        2.0F * std::tan(0.5F * verticalField(camera, size)) / static_cast<float>(size.y);  // [m] 1 m ahead
+    const glm::vec2 half = 0.5F * glm::vec2(size) + shift;
+    program.set("firstWay", axes.forward - pixel * (half.x * axes.right + half.y * axes.up));
+    program.set("rightWay", pixel * axes.right);
+    program.set("upWay", pixel * axes.up);
+}
+
 SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget)
     : gl_(&gl),
       shaders_(&shaders),
@@ -93,7 +103,7 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
     gl_->Disable(GL_CULL_FACE);
 }
 
-void SurfacePass::uploadMaterials() {
+void SurfacePass::bindMaterials() {
     gl_->ActiveTexture(GL_TEXTURE0 + materialsUnit);
     gl_->BindTexture(GL_TEXTURE_2D, materialTexture_.id());
     gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 3, static_cast<GLsizei>(materials_.size()), 0, GL_RGBA, GL_FLOAT,
@@ -103,16 +113,10 @@ void SurfacePass::uploadMaterials() {
 void SurfacePass::light(const LightKind& kind, const view::Camera& camera, const PixelBox& part, glm::ivec2 size,
                         glm::vec2 shift) {
     if (materials_.empty() || part.width == 0 || part.height == 0) return;
-    uploadMaterials();
-    const view::CameraAxes axes = axesOf(camera);
-    const float pixel =
-        2.0F * std::tan(0.5F * verticalField(camera, size)) / static_cast<float>(size.y);  // [m] 1 m ahead
-    const glm::vec2 half = 0.5F * glm::vec2(size) + shift;
+    bindMaterials();
     Program& light = programUnder(kind);
     light.use();
-    light.set("firstWay", axes.forward - pixel * (half.x * axes.right + half.y * axes.up));
-    light.set("rightWay", pixel * axes.right);
-    light.set("upWay", pixel * axes.up);
+    setRays(light, camera, size, shift);
     // At the far plane, where something lies before it.
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_GREATER);

@@ -26,6 +26,8 @@ void checkLabel(const CheckInput& input, const LabelSpec& label) {
     } else if (label.text && label.text->empty()) {
         input.problems.addError(input.at("text"), "text must not be empty");
     }
+    if (label.from && label.to && *label.to <= *label.from)
+        input.problems.addError(input.at("to_s"), "to_s must be later than from_s");
 }
 
 }  // namespace
@@ -58,6 +60,8 @@ SceneSection labelSection() {
             .colour("colour", &LabelSpec::colour, "Colour of the letters; they have a dark rim.")
             .choice("align", &LabelSpec::align, {"left", "centre", "right"}, "Alignment of the text at its place.")
             .number("plate", &LabelSpec::plate, "", share, "Darkness of a plate behind the text.")
+            .number("from_s", &LabelSpec::from, "s", Range{0.0, 1e6}, "Time at which it appears; default the start.")
+            .number("to_s", &LabelSpec::to, "s", Range{0.0, 1e6}, "Time at which it disappears; default never.")
             .take();
     section.check = [](const CheckInput& input, void* target) {
         checkLabel(input, *static_cast<const LabelSpec*>(target));

@@ -81,7 +81,10 @@ struct LabelSpec {
     double size = 0.035;              // [picture heights]
     dvec3 colour{1.0, 1.0, 1.0};
     Align align = Align::centre;
-    double plate = 0.0;  // darkness behind the text, 0 … 1
+    double plate = 0.0;              // darkness behind the text, 0 … 1
+    std::optional<double> from, to;  // [s] it is shown from the first to just before the second; none: always
+
+    bool isShown(double t) const { return t >= from.value_or(t) && (!to || t < *to); }
 };
 
 struct PictureSpec {

@@ -44,7 +44,7 @@ std::string dampingText(const StabilityPanel& panel) {
 Curve predictedCurve(const StabilityMap& map, const StabilityPanel& panel) {
     Curve curve;
     curve.title = "boundary that theory predicts";
-    curve.style = {"#101010", Mark::none, true, Dash::solid, 1.8, 1.0};
+    curve.style = {"#101010", Mark::none, true, Dash::dashDotted, 1.8, 1.0};
     constexpr int points = 200;
     for (int i = 0; i <= points; ++i) {
         const double zeta = map.mostZeta * i / points;

@@ -31,6 +31,7 @@ struct Finish {
     float translucency = 0.2F;  // share of the light on the other side of a cloth that comes through, in its colour
     float anisotropy = 0.0F;  // how far the threads of the warp spread the gloss across them, in their colour, 0 … 1
     std::string texture;      // path of a PNG or JPEG when pattern is image; spans one repeat
+    bool operator==(const Finish&) const = default;
 };
 
 // The constant part of a surface: drawn by index, shared by all frames.
@@ -110,7 +111,8 @@ struct Background {
 struct Ground {
     float height = 0.0F;  // [m]
     glm::vec3 colour{0.5F, 0.49F, 0.47F};
-    float gridSpacing = 1.0F;  // [m] thin lines; 0 is none
+    float gridSpacing = 1.0F;               // [m] thin lines; 0 is none
+    std::shared_ptr<const Finish> pattern;  // along x and -z, in place of colour and lines; null: none
 };
 
 // The debug view: lines (springs coloured by strain) and dots (points, contacts), drawn over the picture.
@@ -159,6 +161,9 @@ struct FrameView {
     // How all of it is at moments while the shutter is open, evenly spaced; the picture is their mean. Their labels do
     // not count. Empty: it is open for no time.
     std::vector<FrameView> moments;
+
+    // The view of the next frame, for layers that show motion; null: they do not know it.
+    std::shared_ptr<const FrameView> next;
 };
 
 }  // namespace taut::view

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "taut/bodies/drawing.h"
 #include "taut/spec/private/motion.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"
@@ -157,6 +158,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
             view.ground = view::Ground{};
             view.ground->height = static_cast<float>(pose.position.y);
             view.ground->colour = linearColour(part.spec.finish.colour);
+            if (part.spec.finish.pattern != view::Pattern::plain) view.ground->pattern = finishOf(part.spec.finish);
         }
         for (const ColliderModel::Piece& piece : part.model->pieces)
             view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
@@ -220,6 +222,7 @@ view::FrameView viewOf(WorldImpl& w, bool debug) {
     std::vector<Body*> bodies;
     view::FrameView view = sceneOf(w, 0.0, debug, bodies);
     for (const LabelSpec& label : w.spec.labels) {
+        if (!label.isShown(w.seconds())) continue;
         std::vector<LabelSubject> subjects;
         for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &islandOf(*body)});
         addLabels(label, subjects, view.labels);

@@ -6,19 +6,21 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "taut/render/private/frame_block.h"
 #include "taut/render/private/ground.h"
 #include "taut/render/private/program.h"
 #include "taut/render/private/targets.h"
+#include "taut/render/private/texture_cache.h"
 
 namespace taut::render {
 
 class GroundPass {
   public:
     // `transparent`: without sky, and of the ground the part of its colour under shadows, 0 … 1.
-    GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill, bool transparent);
+    GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, bool keepsStill, bool transparent);
 
     // Call before anything else of a picture is drawn, with the frame block and the maps in place. `block` has the
     // common inputs of all shaders.
@@ -42,6 +44,7 @@ class GroundPass {
     struct Still {
         FrameBlock block{};
         std::optional<float> groundHeight;
+        std::optional<view::Finish> pattern;
         std::optional<view::Environment> environment;
         bool operator==(const Still& other) const;
     };
@@ -54,21 +57,22 @@ class GroundPass {
     // The kept look of a cell.
     enum class Look : std::uint8_t { open, darkened, shaded };
 
-    // The ground under lights of a kind, and the sky.
+    // The ground with a pattern under lights of a kind, and the sky.
     struct Grounds {
         Program shaded, darkened, open, background;
     };
 
-    Grounds& groundsUnder(const LightKind& kind);
+    Grounds& groundsUnder(const LightKind& kind, view::Pattern pattern = view::Pattern::plain);
     void keep(const glm::mat4& projection, Targets& targets);
     void leaveOut(std::vector<std::uint32_t>& triangles, Look look) const;
-    void drawCells(const Program& program, const std::vector<std::uint32_t>& triangles);
+    void drawCells(Program& program, const std::vector<std::uint32_t>& triangles);
     void drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles);
 
     const Gl* gl_;
     bool keepsStill_, isTransparent_;
     const ShaderFolder* shaders_;
-    std::map<LightKind, Grounds> grounds_;
+    TextureCache textures_;
+    std::map<std::pair<LightKind, view::Pattern>, Grounds> grounds_;
     Grounds* now_ = nullptr;  // of them
     GlObject layout_, vertices_, indices_, empty_;
     GroundMesh mesh_;

@@ -18,7 +18,7 @@ namespace taut::render {
 // The items to draw; the frame block is in place.
 struct LayerScene {
     const view::FrameView& view;
-    std::span<const DrawItem> items;  // the nearest first
+    std::span<const DrawItem> items;  // with rims and widened tubes, the nearest first
     PixelBox part;                    // in which they are
     glm::ivec2 size;                  // [px] of the picture
     const MeshCache& meshes;
@@ -32,6 +32,21 @@ class LayerPass {
     virtual ~LayerPass() = default;
     // Fills the numbers of the layer; its name is set.
     virtual void draw(const LayerScene& scene, image::Layer& layer) = 0;
+};
+
+// Three numbers of 8 or 16 bits a pixel, with a depth of their own.
+class LayerTarget {
+  public:
+    LayerTarget(const Gl& gl, glm::ivec2 size, bool isWide);
+
+    void begin() const;                    // binds and clears it
+    void read(image::Layer& layer) const;  // into the numbers, rows from the top
+
+  private:
+    const Gl* gl_;
+    glm::ivec2 size_;
+    bool isWide_;
+    GlObject colour_, depth_, target_;
 };
 
 // Draws the camera's view into colours of 8 bits by a pair of shaders of its own, without anti-aliasing. The shaders
@@ -48,8 +63,7 @@ class FlatPass : public LayerPass {
 
     const Gl* gl_;
     Program program_;
-    glm::ivec2 size_;
-    GlObject colour_, depth_, target_;
+    LayerTarget target_;
 };
 
 }  // namespace taut::render

@@ -42,8 +42,9 @@ class MeshCache {
     // Uploads new data. Expects topology, geometry and finish of every surface, of matching sizes.
     std::vector<DrawItem> items(const std::vector<view::Surface>& surfaces);
 
-    // Draws the triangles of an item with the program in use: positions at location 0, normals 1, uv 2.
-    void draw(const DrawItem& item) const;
+    // Draws the triangles of an item with the program in use: positions at location 0, normals 1, uv 2; at 3
+    // the positions of another item's vertices, if they are given.
+    void draw(const DrawItem& item, GLuint otherVertices = 0) const;
 
     std::size_t size() const { return geometries_.size() + topologies_.size(); }
 

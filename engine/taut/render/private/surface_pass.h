@@ -17,6 +17,10 @@
 
 namespace taut::render {
 
+// How shaders find a pixel's ray: from the eye `firstWay`, 1 m ahead, `rightWay` and `upWay` from pixel to pixel, in a
+// picture that shows everything `shift` [pixels] to the right and up. Expects that the program is in use.
+void setRays(Program& program, const view::Camera& camera, glm::ivec2 size, glm::vec2 shift);
+
 class SurfacePass {
   public:
     SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget);
@@ -28,6 +32,9 @@ class SurfacePass {
     // frame block and the shadow maps must be in place.
     void light(const LightKind& kind, const view::Camera& camera, const PixelBox& part, glm::ivec2 size,
                glm::vec2 shift);
+
+    // The table of the drawn surfaces, for shaders that read `materials`.
+    void bindMaterials();
 
   private:
     // The data of a surface for light.frag: a row of its table.
@@ -41,7 +48,6 @@ class SurfacePass {
     Program& programFor(const view::Surface& surface);
     Program& programUnder(const LightKind& kind);
     int rowOf(const view::Surface& surface);
-    void uploadMaterials();
 
     const Gl* gl_;
     const ShaderFolder* shaders_;

@@ -126,9 +126,8 @@ finish = {{ colour = "#8a5a33" }}
 [solid.{name}-lid]                    # stands open, and falls shut
 shape = "box"
 size = [0.9, 0.06, 0.6]
-position = [{x}, 0.8, -0.33]
-rotation_deg = [-90.0, 0.0, 0.0]
-spin_rad_per_s = [0.5, 0.0, 0.0]
+position = [{x}, 0.7975, -0.2513]
+rotation_deg = [-75.0, 0.0, 0.0]
 finish = {{ colour = "#c9a36b" }}
 
 [[joint]]

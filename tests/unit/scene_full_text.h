@@ -322,6 +322,8 @@ at = [1, 2, 3]
 [label.title]
 text = "title"
 screen = [0.1, 0.2]
+from_s = 0.5
+to_s = 1.5
 [hand]
 anywhere = true
 strength_N_per_m = 150

@@ -17,6 +17,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_freeze_test.cpp
   world_hands_test.cpp
   world_inside_test.cpp
+  joined_bodies_test.cpp
   world_islands_test.cpp
   world_motion_test.cpp
   world_letting_go_test.cpp

@@ -99,7 +99,9 @@ bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> 
                              std::span<const dvec3> values, bool arePlaces, double settled) {
     // What is redundant, as the third pin of a hinge, agrees only to the second order: a solve goes no further.
     constexpr double exactly = 1e-4;
-    constexpr double leastResponse = 1e-10;
+    // Of what pairs respond to each alone. Two pins that are aslant by s have s² along their axle; n links in a row, of
+    // which only the ends are held, have 1/n².
+    constexpr double leastResponse = 1e-6;
     const std::size_t count = pairs_.size();
     p_.assign(count, dvec3(0.0));
     left_.resize(count);

@@ -87,7 +87,7 @@ struct Row {
     double largestGain = 0;  // [1/kg]
     int slots[4]{};          // of the velocities
     Range turns, shares;     // of the levers
-    int roll = -1;           // likewise; -1: none
+    int roll = -1;           // number of its torque; -1: none
     int source = 0;          // for its owner
 };
 

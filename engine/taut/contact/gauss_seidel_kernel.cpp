@@ -114,8 +114,8 @@ inline void apply(const Pack& pack, const Lanes (&impulse)[4], const Sweeps& bat
     }
 }
 
-// A change of a torque counts so many times as one of an impulse. Friction and torque settle slowly against each other,
-// and a body at rest would creep by what sweeps leave.
+// Weight of a change of a torque, against one of an impulse, in the test that ends the sweeps. Friction and torque
+// converge slowly against each other, and a body at rest would creep.
 constexpr double finerForRolls = 1e3;
 
 // Calls each(lane, roll).

@@ -34,6 +34,17 @@ std::uint64_t keyOf(const KinematicContact& contact, int number) {
     return static_cast<std::uint64_t>(contact.point()) << 31U | static_cast<std::uint64_t>(number);
 }
 
+// Of a symmetric inverse mass or inertia: along a normal, and the least across it.
+struct AlongAndAcross {
+    double along, across;
+};
+AlongAndAcross effectiveOf(const dmat3& inverse, const dvec3& normal) {
+    const dvec3 t = acrossOf(normal), b = glm::cross(normal, t);
+    const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
+    const double along = glm::dot(normal, inverse * normal), difference = 0.5 * (tt - bb);
+    return {1.0 / along, 1.0 / (0.5 * (tt + bb) + std::sqrt(difference * difference + tb * tb))};
+}
+
 }  // namespace
 
 void ContactSolver::setSolids(std::span<const Solid> solids, std::size_t pointCount) {
@@ -376,21 +387,6 @@ void ContactSolver::putTerms(Row& row) {
     }
     row.turns.last = static_cast<int>(turns_.size());
 }
-
-namespace {
-
-// Of a symmetric inverse mass or inertia: along a normal, and the least across it.
-struct AlongAndAcross {
-    double along, across;
-};
-AlongAndAcross effectiveOf(const dmat3& inverse, const dvec3& normal) {
-    const dvec3 t = acrossOf(normal), b = glm::cross(normal, t);
-    const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
-    const double along = glm::dot(normal, inverse * normal), difference = 0.5 * (tt - bb);
-    return {1.0 / along, 1.0 / (0.5 * (tt + bb) + std::sqrt(difference * difference + tb * tb))};
-}
-
-}  // namespace
 
 // Effective masses of a row with solids. The velocity that an impulse p of 1 gives along itself is p·K p.
 void ContactSolver::weigh(Row& row) const {

@@ -228,9 +228,9 @@ class ContactSolver {
     std::vector<Body> bodies_;  // (solids) of those that are touched
     CarriedPoints none_;
     const CarriedPoints* carried_ = &none_;
-    std::vector<Turn> turns_;          // of rows
-    std::vector<Share> shares_;        // likewise
-    mutable std::vector<Roll> rolls_;  // likewise; sweeps change their impulses
+    std::vector<Turn> turns_;          // of all rows
+    std::vector<Share> shares_;        // of all rows
+    mutable std::vector<Roll> rolls_;  // of all rows; sweeps change their impulses
     // Movers and solids of the row that is being made.
     struct Term {
         int slot;

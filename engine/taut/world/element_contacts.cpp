@@ -8,8 +8,7 @@ namespace {
 
 // Of the thickness:
 constexpr double closeShare = 0.05;   // what is nearer counts though nothing closes
-constexpr double expectedWay = 1.0;   // after which an element is expected where its touch is
-constexpr double betweenShare = 0.8;  // that is kept from colliders between points
+constexpr double betweenShare = 0.8;  // edges and faces keep this distance from colliders
 
 double longestEdge(const contact::Elements& elements, int surface, std::span<const dvec3> x) {
     double square = 0;
@@ -36,8 +35,8 @@ struct ElementContacts::Query {
 
     // [m] A place that is further from the shape, and goes no further than `way`, does not meet it.
     double reach(double way) const { return way + shape.travel + (1 + closeShare) * thickness; }
-    // [m] What an element keeps from the shape. Points keep the whole thickness from colliders by themselves: elements
-    // that lie flat on one, or bent about one, need no touch.
+    // [m] Least distance of an element from the shape. Points keep the whole thickness from colliders by themselves, so
+    // that elements that lie flat on a collider, or bent about it, need no touch.
     double kept() const { return shape.surface >= 0 ? thickness : betweenShare * thickness; }
 };
 
@@ -162,11 +161,12 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
     const double closing = -glm::dot(near.normal, way), gap = near.distance - query.kept();
     if (!(gap < closeShare * thickness || closing > gap)) return;
 
+    // A place that a block keeps from its start pushes too late where an element rocks, and feeds the rocking. So it is
+    // the place where the element is expected at the end, or after a way of one thickness.
     collision::ElementNear at = near;
-    double share = 0;
+    double share = 0;  // of the way
     if (shape.collider >= 0) {
-        const double size = glm::length(way);
-        share = size > expectedWay * thickness ? expectedWay * thickness / size : 1.0;
+        share = std::min(1.0, thickness / glm::length(way));
         for (std::size_t k = 0; k < 3; ++k) x[k] += share * ways[k];
         at = nearestOf(query, points, x);
     }
@@ -187,7 +187,7 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                        .spin = collision::spinBetween(shape.from, shape.to, query.seconds)};
     for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k)
         touch.place += touch.weights[k] * query.x0[static_cast<std::size_t>(points[k])];
-    const dvec3 on = touch.place - near.distance * touch.normal;
+    const dvec3 on = touch.place - near.distance * touch.normal;  // of the shape
     touch.velocity = (shape.to.toWorld(shape.from.toLocal(on)) - on) / query.seconds;
     touches_.push_back(touch);
 }

@@ -91,7 +91,7 @@ void HingeJoint::carry(IslandPlan&, const Spot&, Grip) const {
 Kind<JointSpec> ballKind() {
     return mountedKind<BallJoint>(
         "A ball joint holds two bodies together at `place`, about which they turn in any way. One or both are "
-        "rigid; of others it is the nearest point of a side. Sides do not touch each other.",
+        "rigid; of others it is the nearest point of a side. Sides collide with each other only if `touch` is set.",
         fields::FieldList<BallJoint>().degrees("cone_deg", &BallJoint::cone, fields::Range{0.1, 180.0},
                                                "Largest angle between the axis of the one body and that of the other, "
                                                "which are one as the scene starts; any if not given."));
@@ -100,7 +100,7 @@ Kind<JointSpec> ballKind() {
 Kind<JointSpec> hingeKind() {
     Kind<JointSpec> kind = mountedKind<HingeJoint>(
         "A hinge holds two rigid bodies, or one and a collider, together at an axis through `place`. "
-        "Sides do not touch each other.",
+        "Sides collide with each other only if `touch` is set.",
         fields::FieldList<HingeJoint>()
             .vector(
                 "limits_deg", &HingeJoint::limits, "degrees", fields::Range{-180.0, 180.0},

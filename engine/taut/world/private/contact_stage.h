@@ -55,8 +55,8 @@ bool touches(const IslandPlan& plan);
 // One of surfacesOf(body). Its points have their island numbers plus `offset`.
 contact::ContactSurface surfaceOf(const Body& body, const mechanics::RigidPart& part, int offset, int bond);
 
-// Puts the carried surface of a body in place of its own, if it has one: its points follow those that are there in
-// `rest`. numberOf(point of the model): in `rest`.
+// Replaces the surface of a body by its carried surface, whose points are appended to `rest`. numberOf(point of the
+// model): its number in `rest`.
 void carry(const CarriedSurface& own, const std::function<int(int)>& numberOf, contact::ContactSurface& surface,
            std::vector<dvec3>& rest, std::vector<contact::CarriedPoint>& carried);
 

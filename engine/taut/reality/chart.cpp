@@ -94,7 +94,7 @@ report::Chart droopChart(const std::vector<DroopCurve>& curves, const std::vecto
         curve.style = {.colour = colour, .mark = mark, .isFilled = false, .dash = report::Dash::dotted, .width = 1.4};
         const bool isAbove = curve.points.front().y > 1.5 * elasticaDroop(curve.points.front().x);
         if (isAbove)
-            add(std::move(curve), 0, report::Align::left, 0, 34);
+            add(std::move(curve), 4, report::Align::right, -12, 14);
         else
             add(std::move(curve), std::string::npos, report::Align::right, -12, 40);
     }

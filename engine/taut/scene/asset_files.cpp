@@ -108,7 +108,7 @@ void warnOfLostDirections(const ReadScene& scene, Problems& problems) {
             material == scene.spec.materials.end())
             continue;
         const world::BendingSpec& of = material->second.rigidity;
-        if (!of.weft && !of.bias) continue;
+        if (!of.warp || (!of.weft && !of.bias)) continue;  // without warp it is refused
         problems.addWarning(
             scene.owners.at("material." + material->first),
             fmt::format("bending_rigidity_N_m is {:.3g} all ways in {}: {} has no texture coordinates for the warp to "

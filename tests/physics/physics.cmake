@@ -3,6 +3,7 @@ list(APPEND TAUT_PHYSICS_TESTS
   bending_test.cpp
   blanes_moan_test.cpp
   block_recovery_test.cpp
+  closed_systems_test.cpp
   contact_test.cpp
   float_floor_test.cpp
   free_motion_test.cpp

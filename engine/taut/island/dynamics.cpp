@@ -221,9 +221,8 @@ class DynamicsOf final : public Dynamics {
         findVelocities(t, contacts, pressed);
         return list(velocity_);
     }
-    void synchronise(double t, std::span<const collision::Contact> contacts,
-                     std::span<const ContactAcceleration> pressed) override {
-        findVelocities(t, contacts, pressed);
+    void synchronise(double t, std::span<const collision::Contact> contacts) override {
+        findVelocities(t, contacts, {});
         std::copy(velocity_.begin(), velocity_.end(), state_.v.begin());
     }
     void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }

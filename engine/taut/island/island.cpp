@@ -204,7 +204,7 @@ void Island::tryAgain(const TickTime& time, TickVerdict verdict) {
     now_.following = following;
     now_.budget.factor = budget.factor;
     now_.budget.calmTicks = budget.calmTicks;
-    dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
+    dynamics_->synchronise(time.start(), now_.contacts);
     startWith(time, wantedSubsteps(), true);
 }
 
@@ -227,7 +227,7 @@ int Island::stepsToPress(bool bounces) const {
 void Island::takeParts(const TickTime& time, int parts) {
     parts_ = parts;
     if (isStill() || wantedSubsteps() == now_.substeps) return;
-    dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
+    dynamics_->synchronise(time.start(), now_.contacts);
     startWith(time, wantedSubsteps(), false);
 }
 
@@ -366,7 +366,7 @@ void Island::watchVolumes(double t) {
 
 void Island::open(const TickTime& time) {
     if (isOpen_) return;
-    if (!isStill()) dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
+    if (!isStill()) dynamics_->synchronise(time.start(), now_.contacts);
     isOpen_ = true;
 }
 

@@ -129,14 +129,15 @@ class Dynamics {
     virtual ode::Work work() const = 0;  // since the island was made or read
 
     // velocities(): as the method stores them. velocitiesAt(): at t [s], which may cost an evaluation. synchronise():
-    // stores those at t. Contacts at t cancel, point by point, what forces have added since the stored velocities.
-    // Pressed points stay pressed.
+    // stores those at t. Contacts with colliders at t cancel, point by point, what forces have added since the stored
+    // velocities. What other bodies press on keeps still in velocitiesAt(), which is for reports. synchronise() leaves
+    // that to the impulses of the next step, which push both sides alike: only one of the two islands may change its
+    // step.
     virtual std::vector<dvec3> velocities() const = 0;
     virtual void velocities(std::span<dvec3> v) const = 0;
     virtual std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts,
                                             std::span<const ContactAcceleration> pressed) = 0;
-    virtual void synchronise(double t, std::span<const collision::Contact> contacts,
-                             std::span<const ContactAcceleration> pressed) = 0;
+    virtual void synchronise(double t, std::span<const collision::Contact> contacts) = 0;
     virtual void setVelocity(int point, const dvec3& v) = 0;
     // Whether every velocity is a number below the limit; likewise only at the points that the last collide() touched.
     virtual bool isBounded() const = 0;

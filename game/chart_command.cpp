@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "game/chart_refinement.h"
+#include "game/chart_studies.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/flags.h"
@@ -44,7 +44,8 @@ void printProblems() {
     printResult("taut chart PROBLEM or taut chart SCENE draws error against cost for every method. The problems:\n\n");
     for (const study::ProblemInfo& problem : study::problems())
         printResult("  {:<14} {}\n", problem.name, problem.about);
-    printResult("\ntaut chart {} draws error against resolution instead: {}\n", refinementName, refinementAbout);
+    for (const ChartStudy& study : chartStudies())
+        printResult("\ntaut chart {} draws {} instead: {}\n", study.name, study.draws, study.about);
     printResult("\nThe methods:");
     for (const ode::MethodInfo& method : ode::methods()) printResult(" {}", method.name);
     printResult("\nA SCENE is a file, or the name of a shipped one: {}\n", fmt::join(shippedScenes(), ", "));
@@ -63,7 +64,7 @@ std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
                         !std::filesystem::exists(flags.subject);
     if (isBare) {
         for (const study::ProblemInfo& problem : study::problems()) names.emplace_back(problem.name);
-        names.emplace_back(refinementName);
+        for (const ChartStudy& own : chartStudies()) names.emplace_back(own.name);
         const std::string hint = didYouMean(flags.subject, names);
         failUsage("there is no problem or scene '{}'{}", flags.subject,
                   hint.empty() ? "; taut chart --list names the problems" : hint);
@@ -110,15 +111,15 @@ std::string machineNote(const pipeline::Machine& machine) {
     return fmt::format("{}, {}, {}; {}", machine.processor, machine.compiler, machine.simd, programText(machine));
 }
 
-int chartResolutions(const ChartFlags& flags) {
+int chartStudy(const ChartStudy& study, const ChartFlags& flags) {
     const ChartFlags unset;
     if (!flags.methods.empty() || !flags.overrides.empty() || flags.precision != unset.precision ||
         flags.seconds != unset.seconds || flags.budget != unset.budget)
-        failUsage("{} compares bodies at rest: it takes --output and --quiet only", refinementName);
+        failUsage("{} compares {}: it takes --output and --quiet only", study.name, study.compares);
     const pipeline::Machine machine = pipeline::machine();
-    const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / refinementName
-                                                              : std::filesystem::path(flags.output);
-    return chartRefinement(folder, machineFacts(machine), machineNote(machine), flags.quiet);
+    const std::filesystem::path folder =
+        flags.output.empty() ? std::filesystem::path("out/charts") / study.name : std::filesystem::path(flags.output);
+    return study.chart(folder, machineFacts(machine), machineNote(machine), flags.quiet);
 }
 
 int chart(const ChartFlags& flags) {
@@ -127,7 +128,8 @@ int chart(const ChartFlags& flags) {
         return static_cast<int>(ExitCode::ok);
     }
     checkMethods(flags.methods);
-    if (flags.subject == refinementName) return chartResolutions(flags);
+    for (const ChartStudy& study : chartStudies())
+        if (flags.subject == study.name) return chartStudy(study, flags);
     const std::unique_ptr<study::Subject> subject = chosenSubject(flags);
     const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / subject->name()
                                                               : std::filesystem::path(flags.output);
@@ -147,7 +149,8 @@ int chart(const ChartFlags& flags) {
 
 Action declareChart(Options& options) {
     const auto flags = std::make_shared<ChartFlags>();
-    options.value("PROBLEM", flags->subject, "A built-in problem, a scene file, a shipped scene, or refinement");
+    options.value("PROBLEM", flags->subject,
+                  "A built-in problem, a scene file, a shipped scene, refinement or contact");
     options.flag("--list", flags->list, "List the built-in problems");
     options.value("-o,--output", flags->output, "Folder for CSV, JSON, SVG and PNG; default out/charts/NAME")
         .typeName("FOLDER");
@@ -166,7 +169,8 @@ Action declareChart(Options& options) {
         "  taut chart cloth-corners\n"
         "  taut chart growth --methods euler,rk4 -o out/growth\n"
         "  taut chart flag --seconds 0.5 --precision double\n"
-        "  taut chart refinement");
+        "  taut chart refinement\n"
+        "  taut chart contact -o charts");
     return withThreads(options, [flags] { return chart(*flags); });
 }
 

@@ -3,6 +3,7 @@ list(APPEND TAUT_UNIT_TESTS
   study_atlas_command_test.cpp
   study_atlas_test.cpp
   study_chart_command_test.cpp
+  study_contact_test.cpp
   study_steps_table_test.cpp
   study_fit_command_test.cpp
   study_fit_test.cpp

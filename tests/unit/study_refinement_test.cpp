@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "game/chart_refinement.h"
+#include "game/chart_studies.h"
 #include "image_support.h"
 #include "program_support.h"
 #include "taut/study/refinement_chart.h"

@@ -497,6 +497,12 @@ double ContactSolver::gapNow(std::size_t row) const {
     return gaps_[row] + glm::dot(vectorOf(own.normal), relativeVelocity(own, gone_, levers()));
 }
 
+// By which the sides may still approach. A gap that a solid would fall through from rest in a block counts as closed.
+double ContactSolver::openGap(std::size_t row) const {
+    const double slop = rows_[row].turns.isEmpty() ? 0.0 : 0.5 * block_.options.restSpeed * block_.seconds();
+    return std::max(gapNow(row) - slop, 0.0);
+}
+
 void ContactSolver::sweep(Cluster& cluster) {
     if (!cluster.packs) return sweepSolids(cluster);
     const int most = step_ == 0 ? block_.options.sweeps : block_.options.moreSweeps;
@@ -508,12 +514,10 @@ void ContactSolver::sweep(Cluster& cluster) {
 void ContactSolver::sweepSolids(const Cluster& cluster) {
     constexpr int fewSweeps = 16;
     const std::span<Row> rows = rowsOf(cluster);
-    // Gaps that a solid would fall through from rest count as closed.
-    const double slop = 0.5 * block_.options.restSpeed * block_.seconds();
     for (std::size_t r = cluster.first; r < cluster.last; ++r) {
         Row& row = rows_[r];
         row.closing = bases_[r];
-        if (isLikePair(row)) row.closing += std::max(gapNow(r) - (row.turns.isEmpty() ? 0.0 : slop), 0.0) / block_.h;
+        if (isLikePair(row)) row.closing += openGap(r) / block_.h;
     }
     // Sweeps are good enough for what moves, and for one alone. What sweeps leave of a pile at rest, it creeps by.
     const bool isPile = cluster.solids.size() > 1 && isNearRest(cluster);
@@ -577,7 +581,7 @@ void ContactSolver::bounce(const Cluster& cluster) {
         const KinematicContact* contact = isPair ? nullptr : &block_.kinematic[source - pairCount];
         const double restitution = isPair ? block_.pairs[source].restitution : contact->restitution;
         if (!(restitution > 0) || !isLikePair(row)) continue;
-        const double gap = std::max(gapNow(static_cast<std::size_t>(&row - rows_.data())), 0.0);
+        const double gap = openGap(static_cast<std::size_t>(&row - rows_.data()));
         const auto closingIn = [&](std::span<const Four> velocities) {
             return -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, levers()));
         };

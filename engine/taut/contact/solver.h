@@ -182,6 +182,7 @@ class ContactSolver {
     int slotOf(int point);
     int addSlot();
     double gapNow(std::size_t row) const;
+    double openGap(std::size_t row) const;
     bool areOfOneImpact(const Row& a, const Row& b) const;
     struct Bouncing {
         const Row* row;

@@ -50,7 +50,7 @@ endif()
 # The folders where a scene's time goes. The others are compiled with -O1, which takes a quarter less. With sanitizers
 # -O1 pays where a scene is built, too; the rest has -O0 there.
 set(TAUT_COMPUTES core ode mechanics collision contact forces island image geometry render)
-set(TAUT_BUILDS_SCENES bodies world)
+set(TAUT_BUILDS_SCENES damage body drawing bodies plan joints world)
 
 # Those whose own loops take time too; of the others what is downloaded may be as small as can be.
 set(TAUT_LOOPS core ode mechanics collision contact)

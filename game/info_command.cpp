@@ -17,7 +17,7 @@
 #include "taut/advice/bending_cells.h"
 #include "taut/advice/private/start_doubts.h"
 #include "taut/bodies/cloth.h"
-#include "taut/bodies/private/solid_places.h"
+#include "taut/body/private/solid_places.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
 #include "taut/mechanics/sheet_moduli.h"

@@ -6,9 +6,9 @@
 
 #include "support/network.h"
 #include "support/small_scenes.h"
-#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/rope.h"
 #include "taut/forces/wind.h"
+#include "taut/joints/joints.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/private/stability.h"
 #include "taut/spec/spec.h"

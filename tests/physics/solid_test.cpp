@@ -10,11 +10,11 @@
 #include <numeric>
 
 #include "support/piercings.h"
-#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/solid.h"
 #include "taut/core/rigid_motion.h"
 #include "taut/core/trig.h"
 #include "taut/forces/wind.h"
+#include "taut/joints/joints.h"
 #include "taut/spec/actions.h"
 #include "touching_scenes.h"
 

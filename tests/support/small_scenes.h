@@ -5,8 +5,8 @@
 
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
-#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/rope.h"
+#include "taut/joints/joints.h"
 #include "taut/spec/spec.h"
 
 namespace taut::support {

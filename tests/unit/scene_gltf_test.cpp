@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "taut/bodies/collider_figure.h"
+#include "taut/drawing/collider_figure.h"
 #include "taut/figure/figure.h"
 #include "taut/scene/private/gltf_file.h"
 #include "taut/world/world.h"

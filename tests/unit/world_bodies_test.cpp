@@ -1,4 +1,4 @@
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
-#include "taut/bodies/body.h"
-#include "taut/bodies/drawing.h"
+#include "taut/body/body.h"
 #include "taut/collision/colliders.h"
 #include "taut/collision/shape_table.h"
 #include "taut/core/error.h"
+#include "taut/drawing/drawing.h"
 #include "taut/spec/mesh_data.h"
 #include "taut/view/frame_view.h"
 #include "taut/world/private/drawn_contact.h"

@@ -4,9 +4,9 @@
 
 #include "support/small_scenes.h"
 #include "taut/bodies/cloth.h"
-#include "taut/bodies/island_plan.h"
 #include "taut/bodies/rope.h"
 #include "taut/core/error.h"
+#include "taut/plan/island_plan.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

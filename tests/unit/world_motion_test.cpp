@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "taut/bodies/private/ties.h"
 #include "taut/core/trig.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/private/rotation.h"
 
 namespace taut::world {

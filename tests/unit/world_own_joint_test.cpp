@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "taut/bodies/island_plan.h"
-#include "taut/bodies/joints/constraint.h"
-#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/net.h"
+#include "taut/joints/joints.h"
+#include "taut/plan/constraint.h"
+#include "taut/plan/island_plan.h"
 #include "taut/spec/kinds.h"
 #include "unit/scene_support.h"
 

@@ -6,8 +6,8 @@
 #include "support/small_scenes.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
-#include "taut/bodies/drawing.h"
 #include "taut/bodies/rope.h"
+#include "taut/drawing/drawing.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

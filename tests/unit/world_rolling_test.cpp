@@ -5,7 +5,7 @@
 #include <string>
 
 #include "support/timelines.h"
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 #include "taut/island/private/island.h"
 #include "taut/world/private/impl.h"
 #include "unit/scene_support.h"

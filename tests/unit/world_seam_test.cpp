@@ -7,8 +7,8 @@
 #include <set>
 
 #include "support/timelines.h"
-#include "taut/bodies/private/seam_pairing.h"
 #include "taut/mechanics/builders.h"
+#include "taut/plan/private/seam_pairing.h"
 #include "taut/world/world.h"
 #include "unit/scene_support.h"
 

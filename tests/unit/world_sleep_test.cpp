@@ -6,11 +6,11 @@
 
 #include "support/scenes.h"
 #include "support/timelines.h"
-#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/net.h"
 #include "taut/core/private/hash.h"
 #include "taut/forces/wind.h"
 #include "taut/island/private/rest_bound.h"
+#include "taut/joints/joints.h"
 #include "taut/world/private/impl.h"
 
 namespace taut::world {

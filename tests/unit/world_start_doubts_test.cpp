@@ -5,8 +5,8 @@
 
 #include "support/timelines.h"
 #include "taut/advice/figures.h"
-#include "taut/bodies/joints/joints.h"
 #include "taut/bodies/solid.h"
+#include "taut/joints/joints.h"
 
 namespace taut::world {
 namespace {

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <set>
 
-#include "taut/bodies/private/inside.h"
-#include "taut/bodies/private/ties.h"
 #include "taut/contact/closest_points.h"
+#include "taut/damage/private/inside.h"
+#include "taut/plan/private/ties.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"

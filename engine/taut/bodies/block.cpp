@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <set>
 
-#include "taut/bodies/drawing.h"
+#include "taut/bodies/private/carried_surface.h"
 #include "taut/core/error.h"
+#include "taut/drawing/drawing.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/spec/common_rows.h"
@@ -135,7 +136,10 @@ mechanics::Model BlockSpec::build(const SceneSpec&) const {
 }
 
 std::unique_ptr<BodyDrawing> BlockSpec::drawing(const Body& body) const {
-    return sidedDrawing(body);
+    const bool drawsSkin = finish.skinData != nullptr && body.damage.isEmpty();
+    if (!drawsSkin && meshData == nullptr) return sidedDrawing(body);
+    const BlockFrame frame = frameOf(body);
+    return sidedDrawing(body, frame, drawsSkin ? shiftOf(body, frame) : meshPlaceOf(body, frame));
 }
 
 BodyOutline BlockSpec::outline(const SceneSpec&) const {

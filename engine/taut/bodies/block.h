@@ -1,4 +1,4 @@
-// A deformable block: a box, or what a closed mesh from a file fills.
+// A deformable block: a box, or the inside of a closed mesh from a file.
 #pragma once
 
 #include "taut/core/value.h"
@@ -44,7 +44,7 @@ struct BlockSpec final : SpecOf<BlockSpec, BodySpec>, MeshSource {
     void fillMesh();
     // Its cells. Throws as fillMesh() does, naming the scene as well.
     std::shared_ptr<const mechanics::Lattice> lattice() const;
-    // What is built of these cells.
+    // The shape to build, of these cells.
     mechanics::BlockShape shapeOf(const mechanics::Lattice& cells) const;
 
   private:

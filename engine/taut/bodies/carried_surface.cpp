@@ -6,44 +6,30 @@
 #include <numeric>
 #include <set>
 
-#include "taut/bodies/private/cut_mesh.h"
-#include "taut/bodies/private/skin_pieces.h"
 #include "taut/core/error.h"
+#include "taut/damage/private/cut_mesh.h"
+#include "taut/damage/private/skin_pieces.h"
 #include "taut/spec/private/rotation.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {
 
-BlockFrame::BlockFrame(const Body& body)
-    : block_(&dynamic_cast<const BlockSpec&>(*body.spec)),
-      lattice_(block_->lattice()),
-      first_(body.model.positions.front() - jitterOf(body, 0)),
-      turn_(rotationOf(block_->rotation)) {}
-
-dvec3 BlockFrame::shift() const {
-    const mechanics::BlockShape shape = block_->shapeOf(*lattice_);
-    return first_ - (shape.centre + shape.axes * (lattice_->cell * dvec3(lattice_->points.front()) - 0.5 * shape.size));
+BlockFrame frameOf(const Body& body) {
+    const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
+    return {block.lattice(), body.model.positions.front() - jitterOf(body, 0), rotationOf(block.rotation)};
 }
 
-std::vector<dvec3> BlockFrame::placesOf(std::span<const dvec3> file) const {
-    const dvec3 from = shift() + block_->position;
-    std::vector<dvec3> places;
-    for (const dvec3& x : file) places.push_back(from + rotated(turn_, block_->scale * x));
-    return places;
+MeshPlace shiftOf(const Body& body, const BlockFrame& frame) {
+    const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
+    const mechanics::Lattice& lattice = frame.lattice();
+    const mechanics::BlockShape shape = block.shapeOf(lattice);
+    const dvec3 first = body.model.positions.front() - jitterOf(body, 0);
+    return {first - (shape.centre + shape.axes * (lattice.cell * dvec3(lattice.points.front()) - 0.5 * shape.size))};
 }
 
-dvec3 BlockFrame::inside(const dvec3& place) const {
-    dvec3 local = lattice_->cell * dvec3(lattice_->points.front());
-    for (int axis = 0; axis < 3; ++axis) {
-        dvec3 unit(0.0);
-        unit[axis] = 1.0;
-        local[axis] += glm::dot(place - first_, rotated(turn_, unit));
-    }
-    return local;
-}
-
-dvec3 BlockFrame::place(const dvec3& inside) const {
-    return first_ + rotated(turn_, inside - lattice_->cell * dvec3(lattice_->points.front()));
+MeshPlace meshPlaceOf(const Body& body, const BlockFrame& frame) {
+    const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
+    return {shiftOf(body, frame).shift + block.position, rotationOf(block.rotation), block.scale};
 }
 
 namespace {
@@ -139,9 +125,10 @@ CarriedSurface carriedSurface(const Body& body) {
     const bool isCut = body.damage.goneTetrahedra() > 0;
     // At a cut its thickness behind it, so that what is drawn of a body ends where what it touches begins.
     const double back = body.spec->thickness;
-    if (!body.spec->hasCarriedSurface()) return isCut ? surfaceOf(bluntSkinOf(body, back)) : CarriedSurface{};
-    const BlockFrame frame(body);
-    const BlockSpec& block = frame.block();
+    if (!body.spec->hasCarriedSurface())
+        return isCut ? surfaceOf(bluntSkinOf(body.model, body.damage, back)) : CarriedSurface{};
+    const auto& block = dynamic_cast<const BlockSpec&>(*body.spec);
+    const BlockFrame frame = frameOf(body);
     const MeshData& file = *block.meshData;
     // A file may have a place several times, with other normals or texture coordinates.
     Mesh mesh = joined(Mesh{file.positions, file.triangles}, [&](std::size_t v) {
@@ -149,9 +136,11 @@ CarriedSurface carriedSurface(const Body& body) {
         return std::array{x.x, x.y, x.z};
     });
     mesh = thinned(mesh, fineness * block.cell / block.scale);
-    PlacedMesh placed{frame.placesOf(mesh.places), std::vector<dvec2>(mesh.places.size()), std::move(mesh.triangles)};
+    PlacedMesh placed{{}, std::vector<dvec2>(mesh.places.size()), std::move(mesh.triangles)};
+    const MeshPlace place = meshPlaceOf(body, frame);
+    for (const dvec3& x : mesh.places) placed.places.push_back(place.of(x));
     refine(placed, coarseness * block.cell, [](const Triangle&) { return true; });
-    if (isCut) return surfaceOf(bluntMesh(body, placed, back));
+    if (isCut) return surfaceOf(bluntMesh(body.model, body.damage, frame, placed, back));
     CarriedSurface surface;
     for (const dvec3& x : placed.places) {
         const dvec3 local = frame.inside(x) / frame.lattice().cell;

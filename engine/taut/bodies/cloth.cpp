@@ -5,6 +5,7 @@
 
 #include "taut/bodies/private/cloth_panel.h"
 #include "taut/core/error.h"
+#include "taut/drawing/drawing.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/panel_mesher.h"
@@ -191,6 +192,14 @@ mechanics::Model ClothSpec::buildSheet(const SceneSpec& scene) const {
 PlasticitySpec ClothSpec::plasticityIn(const SceneSpec& scene) const {
     const auto found = scene.materials.find(material);
     return found == scene.materials.end() ? PlasticitySpec{} : found->second.plasticity;
+}
+
+// A skin lies as its mesh, else in metres of the scene; an array's copies each have their own.
+std::unique_ptr<BodyDrawing> ClothSpec::drawing(const Body& body) const {
+    const dvec3 first = body.model.positions.front() - jitterOf(body, 0);
+    if (meshData == nullptr) return sheetDrawing(body, {first - origin});
+    const glm::dquat turn = rotationOf(rotation);
+    return sheetDrawing(body, {first - rotated(turn, scale * meshData->positions.front()), turn, scale});
 }
 
 BodyOutline ClothSpec::outline(const SceneSpec&) const {

@@ -49,6 +49,7 @@ struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     PlasticitySpec plasticityIn(const SceneSpec& scene) const override;
     std::string_view materialName() const override { return material; }
     BodyOutline outline(const SceneSpec& scene) const override;
+    std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
     using BodySpec::meshSource;
     const MeshSource* meshSource() const override { return this; }
     bool isPanel() const { return !corners.empty(); }

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "taut/bodies/drawing.h"
+#include "taut/drawing/drawing.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/spec/common_rows.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "taut/bodies/body.h"
-#include "taut/bodies/drawing.h"
+#include "taut/body/body.h"
+#include "taut/drawing/drawing.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/spec/common_rows.h"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "taut/bodies/drawing.h"
-#include "taut/bodies/private/bound_mesh.h"
 #include "taut/bodies/private/rigid_marks.h"
+#include "taut/drawing/drawing.h"
+#include "taut/drawing/private/bound_mesh.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/closed_mesh.h"

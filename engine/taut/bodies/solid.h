@@ -9,8 +9,7 @@
 
 namespace taut::world {
 
-// Sharp edges are rounded by the thickness as it touches: what is drawn is what others keep from, of meshes by the
-// thickness.
+// Sharp edges are rounded by the thickness in contact: others keep from the drawn surface, of meshes by the thickness.
 struct SolidSpec final : SpecOf<SolidSpec, BodySpec>, ShapeSpec {
     static constexpr const char* kindName = "solid";
     double density = 500.0;      // [kg/m³]

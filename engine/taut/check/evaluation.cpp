@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 #include "taut/check/private/function_table.h"
 #include "taut/core/error.h"
 #include "taut/spec/targets.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 #include "taut/check/private/function_table.h"
 #include "taut/check/private/places.h"
 #include "taut/world/private/body_surfaces.h"

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "taut/bodies/private/joints/pins.h"
 #include "taut/core/error.h"
 #include "taut/forces/force.h"
 #include "taut/mechanics/private/filling.h"
+#include "taut/plan/private/pins.h"
 #include "taut/spec/common_rows.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
-#include "taut/bodies/state_bytes.h"
 #include "taut/mechanics/force_generator.h"
+#include "taut/plan/island_plan.h"
+#include "taut/plan/state_bytes.h"
 
 namespace taut::world {
 

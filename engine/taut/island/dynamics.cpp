@@ -8,7 +8,6 @@
 #include <limits>
 #include <type_traits>
 
-#include "taut/bodies/private/ties.h"
 #include "taut/island/private/constraint_slot.h"
 #include "taut/island/private/island_contacts.h"
 #include "taut/island/private/rounding_watch.h"
@@ -17,6 +16,7 @@
 #include "taut/mechanics/private/element_bending.h"
 #include "taut/mechanics/private/grid_bending.h"
 #include "taut/mechanics/private/grid_friction.h"
+#include "taut/plan/private/ties.h"
 
 namespace taut::world {
 namespace {

@@ -5,9 +5,9 @@
 #include <map>
 #include <optional>
 
-#include "taut/bodies/private/ties.h"
 #include "taut/core/error.h"
 #include "taut/forces/private/scene_forces.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"

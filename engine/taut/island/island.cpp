@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "taut/bodies/joints/constraint.h"
-#include "taut/bodies/private/ties.h"
 #include "taut/island/private/island_report.h"
+#include "taut/plan/constraint.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/private/motion.h"
 
 namespace taut::world {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "taut/bodies/joints/constraint.h"
 #include "taut/island/metric_table.h"
 #include "taut/island/private/divergence.h"
 #include "taut/mechanics/private/cell_shape.h"
+#include "taut/plan/constraint.h"
 
 namespace taut::world {
 namespace {

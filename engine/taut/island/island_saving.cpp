@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/bodies/joints/constraint.h"
 #include "taut/island/private/cutting.h"
 #include "taut/island/private/island.h"
+#include "taut/plan/constraint.h"
 
 namespace taut::world {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "taut/bodies/joints/constraint.h"
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island.h"
 #include "taut/island/private/rest_bound.h"
+#include "taut/plan/constraint.h"
 
 namespace taut::world {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/bodies/island_plan.h"
+#include "taut/plan/island_plan.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {

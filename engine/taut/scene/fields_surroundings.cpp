@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "taut/bodies/joints/joints.h"
-#include "taut/bodies/private/ties.h"
 #include "taut/fields/field_list.h"
 #include "taut/fields/private/problems.h"
+#include "taut/joints/joints.h"
+#include "taut/plan/private/ties.h"
 #include "taut/scene/private/merged_rows.h"
 #include "taut/scene/private/sections.h"
 #include "taut/spec/private/shape_rows.h"

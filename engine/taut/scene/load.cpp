@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/joints/sewn_panels.h"
 #include "taut/scene/private/asset_files.h"
 #include "taut/scene/private/body_size.h"
 #include "taut/scene/private/claims.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "taut/bodies/private/ties.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/targets.h"
 
 namespace taut::scene {

@@ -7,9 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "taut/bodies/joints/joints.h"
-#include "taut/bodies/private/ties.h"
 #include "taut/fields/private/value_reader.h"
+#include "taut/joints/joints.h"
+#include "taut/plan/private/ties.h"
 #include "taut/scene/private/body_index.h"
 #include "taut/scene/private/ramp_key.h"
 #include "taut/spec/actions.h"

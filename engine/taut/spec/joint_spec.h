@@ -47,6 +47,8 @@ struct JointLook {
     double coil = 0.04;  // [m] radius of the turns
 };
 
+constexpr double weldReach = 0.02;  // [m] of a weld by default, see reach()
+
 // Targets are written KIND.NAME@SELECTOR, e.g. "cloth.flag@left"; NAME may have the wildcard *.
 struct JointSpec {
     JointSide a, b;

@@ -39,6 +39,16 @@ bool SceneSpec::isFigure(const ColliderSpec& collider) const {
     return kind != nullptr && kind->extent == collision::Extent::animated;
 }
 
+bool bodiesTouch(const SceneSpec& spec) {
+    return std::any_of(
+        spec.bodies.begin(), spec.bodies.end(), [](const BodySpec& body) { return body.touch != Touch::nothing; });
+}
+
+void meetFigures(SceneSpec& spec) {
+    if (std::any_of(spec.colliders.begin(), spec.colliders.end(), [&](const auto& c) { return spec.isFigure(c); }))
+        for (BodySpec& body : spec.bodies) body.meetsFigures = body.collide;
+}
+
 std::vector<std::string> namesOf(const collision::ShapeKinds& shapes, std::string_view field) {
     std::vector<std::string> names;
     for (const collision::ShapeKind& kind : shapes.all())

@@ -97,8 +97,4 @@ bool bodiesTouch(const SceneSpec& spec);
 // Makes all bodies that collide meet the figures, if there are any.
 void meetFigures(SceneSpec& spec);
 
-// Gives sides of panels as many points as the edges have that seams sew them to, if the cells allow it. Throws
-// core::Error(badContent) for bodies that cannot be built.
-void evenSeams(SceneSpec& spec);
-
 }  // namespace taut::world

@@ -6,10 +6,10 @@
 #include <cstdlib>
 
 #include "taut/bodies/block.h"
-#include "taut/bodies/body.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
 #include "taut/bodies/rope.h"
+#include "taut/body/body.h"
 #include "taut/core/error.h"
 #include "taut/forces/wind.h"
 #include "taut/scene/fabrics.h"

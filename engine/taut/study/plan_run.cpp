@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "taut/bodies/block.h"
-#include "taut/bodies/body.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
+#include "taut/body/body.h"
 #include "taut/core/error.h"
 #include "taut/ecs/registry.h"
 #include "taut/spec/spec.h"

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "taut/bodies/joints/constraint.h"
-#include "taut/bodies/private/ties.h"
 #include "taut/core/error.h"
 #include "taut/forces/private/scene_forces.h"
+#include "taut/plan/constraint.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/targets.h"
 #include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"

@@ -5,9 +5,9 @@
 #include <limits>
 #include <set>
 
-#include "taut/bodies/body.h"
 #include "taut/bodies/private/carried_surface.h"
 #include "taut/bodies/private/rigid_marks.h"
+#include "taut/body/body.h"
 #include "taut/contact/contact_group.h"
 #include "taut/contact/crossings.h"
 #include "taut/island/private/island.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "taut/bodies/private/ties.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/private/motion.h"
 #include "taut/spec/targets.h"
 #include "taut/world/private/impl.h"

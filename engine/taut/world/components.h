@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "taut/bodies/body.h"
-#include "taut/bodies/drawing.h"
+#include "taut/body/body.h"
 #include "taut/collision/colliders.h"
+#include "taut/drawing/drawing.h"
 #include "taut/ecs/registry.h"
 #include "taut/spec/collider_spec.h"
 #include "taut/spec/picture_spec.h"

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 
 namespace taut::world {
 namespace {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/private/carried_surface.h"
-#include "taut/bodies/private/joints/pins.h"
 #include "taut/contact/penetration.h"
 #include "taut/contact/rigid_side.h"
 #include "taut/core/private/parallel.h"
 #include "taut/core/rigid_motion.h"
+#include "taut/plan/constraint.h"
+#include "taut/plan/private/pins.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/bodies/private/ties.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/private/motion.h"
 #include "taut/spec/private/rotation.h"
 #include "taut/world/private/impl.h"

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <optional>
 
-#include "taut/bodies/private/ties.h"
 #include "taut/core/aabb.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/targets.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"

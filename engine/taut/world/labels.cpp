@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "taut/bodies/drawing.h"
+#include "taut/drawing/drawing.h"
 
 namespace taut::world {
 namespace {

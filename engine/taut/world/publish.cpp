@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "taut/bodies/drawing.h"
+#include "taut/drawing/drawing.h"
 #include "taut/spec/private/motion.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"

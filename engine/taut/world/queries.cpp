@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
-#include "taut/bodies/drawing.h"
 #include "taut/core/private/hash.h"
+#include "taut/drawing/drawing.h"
 #include "taut/island/private/island_report.h"
 #include "taut/spec/targets.h"
 #include "taut/view/camera_axes.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "taut/core/error.h"
+#include "taut/joints/sewn_panels.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"

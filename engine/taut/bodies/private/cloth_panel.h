@@ -1,4 +1,4 @@
-// The rows of a cloth that is a panel, and what is checked of one.
+// The rows of a cloth that is a panel, and its checks.
 #pragma once
 
 #include "taut/fields/field.h"
@@ -10,7 +10,7 @@ struct ClothSpec;
 fields::Section panelHoleSection();
 fields::Section panelEdgeSection();
 
-// Meshes the panel. Reports what is wrong with its outline and its edges, at the corner and the key concerned.
+// Meshes the panel. Reports errors of its outline and its edges, at the corner and the key concerned.
 void checkPanel(const fields::CheckInput& input, ClothSpec& cloth);
 
 }  // namespace taut::world

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 #include "taut/collision/geometry.h"
 
 namespace taut::world {

@@ -13,12 +13,12 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
-#include "taut/bodies/joints/constraint.h"
 #include "taut/island/private/joined_bodies.h"
 #include "taut/island/private/planar.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/ode/method.h"
+#include "taut/plan/constraint.h"
+#include "taut/plan/island_plan.h"
 
 namespace taut::world {
 

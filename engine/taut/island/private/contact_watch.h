@@ -26,10 +26,10 @@
 #include <utility>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
 #include "taut/island/private/dynamics.h"
 #include "taut/island/private/planar.h"
 #include "taut/mechanics/private/cell_shape.h"
+#include "taut/plan/island_plan.h"
 
 namespace taut::world {
 

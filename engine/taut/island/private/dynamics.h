@@ -7,8 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
-#include "taut/bodies/state_bytes.h"
 #include "taut/collision/colliders.h"
 #include "taut/core/private/hash.h"
 #include "taut/forces/force.h"
@@ -16,6 +14,8 @@
 #include "taut/mechanics/private/state_bound.h"
 #include "taut/mechanics/private/volume.h"
 #include "taut/ode/method.h"
+#include "taut/plan/island_plan.h"
+#include "taut/plan/state_bytes.h"
 
 namespace taut::world {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
 #include "taut/forces/force.h"
+#include "taut/plan/island_plan.h"
 
 namespace taut::world {
 

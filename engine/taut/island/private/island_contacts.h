@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "taut/bodies/joints/constraint.h"
 #include "taut/collision/colliders.h"
 #include "taut/island/private/contact_watch.h"
 #include "taut/island/private/planar.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/ode/method.h"
+#include "taut/plan/constraint.h"
 
 namespace taut::world {
 

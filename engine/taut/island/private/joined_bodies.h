@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "taut/bodies/spot.h"
+#include "taut/body/spot.h"
 #include "taut/core/rigid_motion.h"
 
 namespace taut::world {

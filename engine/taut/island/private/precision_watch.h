@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
 #include "taut/island/private/dynamics.h"
+#include "taut/plan/island_plan.h"
 
 namespace taut::world {
 

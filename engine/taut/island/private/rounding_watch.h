@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "taut/bodies/state_bytes.h"
 #include "taut/island/private/dynamics.h"
 #include "taut/ode/method.h"
+#include "taut/plan/state_bytes.h"
 
 namespace taut::world {
 

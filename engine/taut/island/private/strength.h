@@ -25,8 +25,8 @@
 #include <span>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
 #include "taut/mechanics/private/spring_watch.h"
+#include "taut/plan/island_plan.h"
 
 namespace taut::world {
 

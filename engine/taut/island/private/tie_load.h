@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
 #include "taut/island/private/dynamics.h"
+#include "taut/plan/island_plan.h"
 
 namespace taut::world {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
 #include "taut/island/private/dynamics.h"
 #include "taut/island/private/strength.h"
+#include "taut/plan/island_plan.h"
 
 namespace taut::world {
 

@@ -1,8 +1,8 @@
 // Pins points in place or to a collider, or frees them.
 #include <algorithm>
 
-#include "taut/bodies/private/ties.h"
 #include "taut/fields/private/problems.h"
+#include "taut/plan/private/ties.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 #include "taut/ecs/entity.h"
 #include "taut/forces/force.h"
 

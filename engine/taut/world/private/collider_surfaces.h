@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "taut/bodies/collider_figure.h"
 #include "taut/collision/convex.h"
 #include "taut/collision/outline.h"
 #include "taut/contact/elements.h"
+#include "taut/drawing/collider_figure.h"
 #include "taut/island/private/island.h"
 
 namespace taut::world {

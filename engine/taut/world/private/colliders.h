@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "taut/bodies/private/ties.h"
 #include "taut/ecs/entity.h"
 #include "taut/island/private/island.h"
+#include "taut/plan/private/ties.h"
 #include "taut/spec/collider_spec.h"
 #include "taut/world/components.h"
 #include "taut/world/private/collider_surfaces.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/bodies/state_bytes.h"
+#include "taut/plan/state_bytes.h"
 #include "taut/world/private/contact_stage.h"
 
 namespace taut::world {

@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/bodies/private/joints/tie_drawing.h"
 #include "taut/core/private/parallel.h"
+#include "taut/drawing/private/tie_drawing.h"
 #include "taut/island/private/island.h"
 #include "taut/spec/spec.h"
 #include "taut/world/components.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/bodies/island_plan.h"
+#include "taut/plan/island_plan.h"
 
 namespace taut::world {
 

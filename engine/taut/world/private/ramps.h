@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 #include "taut/spec/actions.h"
 
 namespace taut::world {

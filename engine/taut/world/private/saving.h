@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "taut/bodies/state_bytes.h"
+#include "taut/plan/state_bytes.h"
 #include "taut/spec/actions.h"
 
 namespace taut::world {

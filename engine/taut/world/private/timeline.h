@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "taut/bodies/body.h"
+#include "taut/body/body.h"
 #include "taut/spec/actions.h"
 
 namespace taut::world {

@@ -1,0 +1,131 @@
+// Joints at a place between two rigid bodies, made of pins: a ball joint is one, a hinge two on its axis. What limits
+// them is a leash between two spots that the bodies carry, so that one row ends a turn at either limit:
+//
+//          a         arm r of a at the middle of the limits, arm of b at the turn: the spots are
+//         /          2 r sin(|turn - middle| / 2) apart
+//        o----b
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "taut/core/across.h"
+#include "taut/core/error.h"
+#include "taut/core/trig.h"
+#include "taut/fields/private/problems.h"
+#include "taut/joints/joints.h"
+#include "taut/joints/private/axles.h"
+#include "taut/joints/private/only_constraint.h"
+#include "taut/joints/private/rods.h"
+#include "taut/plan/island_plan.h"
+#include "taut/plan/mounting.h"
+#include "taut/plan/private/pins.h"
+#include "taut/spec/common_rows.h"
+
+namespace taut::world {
+namespace {
+
+void pin(IslandPlan& plan, const Mounting& at, const dvec3& place, const Source& source) {
+    changeOnly<Pins>(
+        plan,
+        [&](Pins& pins) { std::visit([&](const auto& end) { pins.tie(at.a(place), end, source); }, at.b(place)); });
+}
+
+// Keeps a spot of a, at `first`, within the length of one of b, at `second`.
+void leash(IslandPlan& plan, const Mounting& at, const dvec3& first, const dvec3& second, double length,
+           const Source& source) {
+    changeOnly<Rods>(
+        plan,
+        [&](Rods& rods) {
+            std::visit([&](const auto& end) { rods.tie(at.a(first), end, length, source, true); }, at.b(second));
+        });
+}
+
+[[noreturn]] void failMount(const JointSpec& joint) {
+    throw core::Error(core::ErrorKind::badContent, at(joint.source) + std::string(joint.title()) + " needs a place");
+}
+
+template <class Own>
+Kind<JointSpec> mountedKind(std::string help, fields::FieldList<Own> own) {
+    own.direction("axis", &Own::axis, "Its direction, in the same axes as `place`.");
+    Kind<JointSpec> kind = jointKind<Own>(std::move(help), std::move(own));
+    for (fields::Field& row : kind.section.fields)
+        if (row.key == "place") row.required = true;
+    return kind;
+}
+
+}  // namespace
+
+void BallJoint::mount(IslandPlan& plan, const Mounting& at) const {
+    const dvec3& middle = at.at.position;
+    pin(plan, at, middle, source);
+    if (!cone || *cone >= core::pi) return;
+    const dvec3 end = middle + at.size * glm::normalize(at.at.rotation * axis);
+    leash(plan, at, end, end, 2.0 * at.size * core::sine(0.5 * *cone), source);
+}
+
+void BallJoint::carry(IslandPlan&, const Spot&, Grip) const {
+    failMount(*this);
+}
+
+void HingeJoint::mount(IslandPlan& plan, const Mounting& at) const {
+    const dvec3& middle = at.at.position;
+    const dvec3 along = glm::normalize(at.at.rotation * axis), across = core::acrossOf(along);
+    const dvec3 half = (0.5 * at.size) * along, arm = at.size * across;
+    pin(plan, at, middle - half, source);
+    pin(plan, at, middle + half, source);
+    if (limits && limits->y - limits->x < 2.0 * core::pi) {
+        const double mean = 0.5 * (limits->x + limits->y), range = 0.5 * (limits->y - limits->x);
+        const dvec3 turned = core::cosine(mean) * arm + core::sine(mean) * glm::cross(along, arm);
+        leash(plan, at, middle + turned, middle + arm, 2.0 * at.size * core::sine(0.5 * range), source);
+    }
+    if (friction > 0 || damping > 0 || motorMost > 0)
+        plan.constraints.push_back(
+            std::make_shared<Axle>(Constraint::Drive{{0, 0, 0}, {0, 0, 0}, damping, friction, motorSpeed, motorMost},
+                                   at, std::array{middle - half, middle + half, middle + arm}));
+}
+
+void HingeJoint::carry(IslandPlan&, const Spot&, Grip) const {
+    failMount(*this);
+}
+
+Kind<JointSpec> ballKind() {
+    return mountedKind<BallJoint>(
+        "A ball joint holds two bodies together at `place`, about which they turn in any way. One or both are "
+        "rigid; of others it is the nearest point of a side. Sides collide with each other only if `touch` is set.",
+        fields::FieldList<BallJoint>().degrees("cone_deg", &BallJoint::cone, fields::Range{0.1, 180.0},
+                                               "Largest angle between the axis of the one body and that of the other, "
+                                               "which are one as the scene starts; any if not given."));
+}
+
+Kind<JointSpec> hingeKind() {
+    Kind<JointSpec> kind = mountedKind<HingeJoint>(
+        "A hinge holds two rigid bodies, or one and a collider, together at an axis through `place`. "
+        "Sides collide with each other only if `touch` is set.",
+        fields::FieldList<HingeJoint>()
+            .vector(
+                "limits_deg", &HingeJoint::limits, "degrees", fields::Range{-180.0, 180.0},
+                "Least and largest turn of b about the axis since the start, counter-clockwise seen against it; any if "
+                "not given. It stops there without a bounce.",
+                core::radians(1.0))
+            .number("friction_N_m", &HingeJoint::friction, "N m", fields::notNegative,
+                    "Largest torque with which friction slows the turn, and holds.")
+            .number("damping_N_m_s", &HingeJoint::damping, "N m s", fields::notNegative,
+                    "Torque against the turn over its speed, as of a door closer.")
+            .number("motor_rad_per_s", &HingeJoint::motorSpeed, "rad/s", fields::Range{-1e4, 1e4},
+                    "Speed of b's turn that a motor seeks, with up to motor_N_m; 0: it holds.")
+            .number("motor_N_m", &HingeJoint::motorMost, "N m", fields::notNegative,
+                    "Largest torque of the motor; 0: there is none."));
+    kind.section.check = [rest = kind.section.check](const fields::CheckInput& input, void* target) {
+        rest(input, target);
+        const auto& hinge = *static_cast<const HingeJoint*>(target);
+        if (hinge.limits && !(hinge.limits->x <= 0 && hinge.limits->y >= 0 && hinge.limits->x < hinge.limits->y))
+            input.problems.addError(input.at("limits_deg"),
+                                    "the limits are turns since the start, which is 0 and between them",
+                                    "e.g. limits_deg = [0, 90]");
+        if (hinge.motorSpeed != 0 && !(hinge.motorMost > 0))
+            input.problems.addError(input.at("motor_rad_per_s"), "a motor has a torque", "e.g. motor_N_m = 10");
+    };
+    return kind;
+}
+
+}  // namespace taut::world

@@ -1,0 +1,40 @@
+// Keeps springs of bodies with a strain_limit from being longer than that allows. It only ever stops them:
+//
+//     n·(x_b - x_a) <= l_most      or the length when the step began, if that is more by rounding
+//
+// along the line n of both ends when the step began, so that impulses keep momentum and angular momentum (rods.h). Each
+// of these sets holds the state in which nothing moves, so a projection onto any of them, over-relaxed or not, takes
+// kinetic energy and never adds any, in whatever order and however often (Agmon 1954). Springs take turns until none is
+// too long: all of them now and then, in between those that are nearly as long as they may be.
+#pragma once
+
+#include "taut/plan/constraint.h"
+
+namespace taut::world {
+
+class StrainLimit final : public ConstraintOf<StrainLimit> {
+  public:
+    static bool isIn(const IslandPlan& plan);  // whether any of its bodies has a limit
+    explicit StrainLimit(const IslandPlan& plan);
+
+    std::span<const int> points() const override { return points_; }
+    bool projectPositions(const Moment& moment) override;
+    bool projectVelocities(const Moment& moment) override;
+    void follow(const IslandPlan& plan) override;
+
+  private:
+    struct Link {
+        int a, b;     // of points_
+        double most;  // [m]
+    };
+    // Calls project(link), which returns whether it changed anything, until none does. Returns whether any did. x: as
+    // in Moment.
+    template <class Project>
+    bool takeTurns(std::span<const dvec3> x, int mostTurns, const Project& project);
+
+    std::vector<int> points_;
+    std::vector<Link> links_;
+    std::vector<Link> long_;  // of links_, nearly as long as they may be
+};
+
+}  // namespace taut::world

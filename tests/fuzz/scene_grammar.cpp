@@ -225,7 +225,35 @@ class Growing {
         return own.name + "@" + choices_.of(own.selectors);
     }
 
+    static bool isSolid(const Own& own) { return own.name.starts_with("solid"); }
+
+    // Joints at a place of a solid; the other side is rigid too, or points.
+    void addMounted(const std::string& solid, const std::string& other, bool isRigid) {
+        const std::string kind = isRigid ? choices_.of({"hinge", "ball"}) : "ball";
+        add({"[[joint]]\na = \"{}\"\nb = \"{}\"\nkind = \"{}\"\nplace = {}\naxis = {}\n", solid, other, kind,
+             choices_.vector(0.2), choices_.vector(1)});
+        if (choices_.oneIn(3)) add({"touch = true\n"});
+        if (kind == "ball") {
+            if (choices_.oneIn(2)) add({"cone_deg = {:.6g}\n", choices_.between(1, 170)});
+            return;
+        }
+        if (choices_.oneIn(2))
+            add({"limits_deg = [{:.6g}, {:.6g}]\n", choices_.between(-170, 0), choices_.between(1, 170)});
+        if (choices_.oneIn(3)) add({"friction_N_m = {:.6g}\n", choices_.magnitude(1e-3, 100)});
+        if (choices_.oneIn(3)) add({"damping_N_m_s = {:.6g}\n", choices_.magnitude(1e-3, 100)});
+        if (choices_.oneIn(3)) {
+            isClosed_ = false;
+            add({"motor_rad_per_s = {:.6g}\nmotor_N_m = {:.6g}\n", choices_.between(-20, 20),
+                 choices_.magnitude(1e-3, 100)});
+        }
+    }
+
     void addJoint(const Own& a, const Own& b) {
+        if (isSolid(a) && choices_.oneIn(2)) {
+            const std::string points = b.name + "@" + choices_.of(b.selectors);
+            addMounted(a.name, isSolid(b) ? b.name : points, isSolid(b));
+            return;
+        }
         const auto isCloth = [](const Own& own) { return own.name.starts_with("cloth"); };
         if (isCloth(a) && isCloth(b) && choices_.oneIn(2)) {
             add({"[[seam]]\na = \"{}@right\"\nb = \"{}@left\"\nover_s = {:.6g}\n", a.name, b.name,
@@ -241,7 +269,9 @@ class Growing {
 
     void addTies(int colliders) {
         if (isJoined_) addJoint(bodies_[0], bodies_[1]);
-        if (colliders > 0 && !bodies_[0].isHeld && choices_.oneIn(5))
+        if (colliders > 0 && isSolid(bodies_[0]) && choices_.oneIn(3))
+            addMounted(bodies_[0].name, "collider.c0", true);
+        else if (colliders > 0 && !bodies_[0].isHeld && choices_.oneIn(5))
             add({"[[joint]]\na = \"{}@{}\"\nb = \"collider.c0\"\nkind = \"{}\"\n", bodies_[0].name,
                  choices_.of(bodies_[0].selectors), choices_.of({"weld", "spring"})});
         if (choices_.oneIn(6)) {

@@ -37,7 +37,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, GrownScenes, testing::Range(0U, 60U));
 TEST(SceneGrammar, EveryKindGrows) {
     for (const std::string kind :
          {"[cloth.", "[rope.", "[block.", "[solid.", "[net.", "[[joint]]", "[[seam]]", "[wind.", "[anchor.",
-          "[filling.", "shape = \"figure\"", "collider.f.upper", "do = \"cut\"", "do = \"spawn\"", "break_strain"}) {
+          "[filling.", "shape = \"figure\"", "collider.f.upper", "kind = \"hinge\"", "kind = \"ball\"",
+          "motor_rad_per_s", "cone_deg", "do = \"cut\"", "do = \"spawn\"", "break_strain"}) {
         unsigned count = 0;
         for (unsigned seed = 0; seed < 1000; ++seed) count += grownFrom(seed).text.find(kind) != std::string::npos;
         EXPECT_GT(count, 0U) << kind;

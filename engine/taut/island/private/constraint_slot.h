@@ -196,6 +196,8 @@ class ConstraintSlot {
     }
 
   private:
+    static constexpr double settled = 1e-12;  // of places and velocities: joined bodies agree to it
+
     struct Tie {
         std::shared_ptr<Constraint> constraint;
         std::vector<std::size_t> numbers;  // of points_, followed by places_
@@ -293,13 +295,12 @@ class ConstraintSlot {
             }
         return bodies;
     }
-    // What pairs of ties hold of rigid bodies (joined_bodies.h).
-    void joinBodies(bool (Constraint::*projection)(const Constraint::Moment&)) {
+    // What pairs of ties hold of rigid bodies (joined_bodies.h). Returns whether they hold any.
+    bool joinBodies(bool (Constraint::*projection)(const Constraint::Moment&)) {
         constexpr int mostSolves = 20;
-        constexpr double settled = 1e-12;
         const bool isOfPlaces = projection == &Constraint::projectPositions;
         const std::vector<Tie*> bodies = findJoined(isOfPlaces ? from_ : x_);
-        if (joined_.isEmpty()) return;
+        if (joined_.isEmpty()) return false;
         std::vector<dvec3>& values = isOfPlaces ? x_ : v_;
         const auto makeRigid = [&] {
             for (Tie* tie : bodies) {
@@ -314,7 +315,7 @@ class ConstraintSlot {
         if (joined_.hasLeash()) makeRigid();
         for (int solves = 0; solves < mostSolves; ++solves) {
             const std::vector<dvec3>& at = isOfPlaces ? from_ : x_;
-            if (!joined_.solve(at, inverseMass_, values, isOfPlaces, settled)) return;
+            if (!joined_.solve(at, inverseMass_, values, isOfPlaces, settled)) break;
             for (std::size_t k = 0; k < joined_.pairs().size(); ++k) {
                 const auto& [a, b, pull, length, isMost] = joined_.pairs()[k];
                 const dvec3& impulse = joined_.impulses()[k];
@@ -324,6 +325,16 @@ class ConstraintSlot {
             }
             makeRigid();
         }
+        return true;
+    }
+    // Whether the projection of a tie has just moved a point by more than joined bodies agree to.
+    bool hasMoved(const Tie& tie, bool isOfPlaces) const {
+        const std::vector<dvec3>&now = isOfPlaces ? tie.x : tie.v, &before = isOfPlaces ? x_ : v_;
+        for (std::size_t k = 0; k < tie.constraint->points().size(); ++k) {
+            const dvec3 &was = before[tie.numbers[k]], way = now[k] - was;
+            if (glm::dot(way, way) > settled * settled * (1.0 + glm::dot(was, was))) return true;
+        }
+        return false;
     }
     // A drive where its bodies are before a step.
     struct Couple {
@@ -387,10 +398,11 @@ class ConstraintSlot {
                 addImpulses(1.0 / h);
             }
     }
+    // Joined bodies are solved together first; turns that move their points by less than that leaves end.
     void takeTurns(bool (Constraint::*projection)(const Constraint::Moment&)) {
         constexpr int mostRounds = 50;
         std::fill(pull_.begin(), pull_.end(), dvec3(0.0));
-        if (ties_.size() > 1) joinBodies(projection);
+        const bool isJoined = ties_.size() > 1 && joinBodies(projection);
         std::vector<dvec3> ignored(1);
         const bool isOfPlaces = projection == &Constraint::projectPositions;
         for (int round = 0; round < mostRounds; ++round) {
@@ -402,7 +414,7 @@ class ConstraintSlot {
                 const std::span<dvec3> pull =
                     isOne ? std::span(ignored) : std::span(pull_).subspan(static_cast<std::size_t>(tie.first), size);
                 if (!((*tie.constraint).*projection)({tie.w, tie.from, tie.x, tie.v, pull, time_})) continue;
-                moves = true;
+                moves = moves || !isJoined || hasMoved(tie, isOfPlaces);
                 if (isOne) isOfPlaces ? seePull(tie, tie.x, x_) : seePull(tie, tie.v, v_);
                 for (std::size_t k = 0; k < tie.constraint->points().size(); ++k) {
                     x_[tie.numbers[k]] = tie.x[k];

@@ -1,7 +1,6 @@
 #include "taut/contact/solver.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/glm.hpp>
 
@@ -14,10 +13,8 @@ namespace {
 
 using glm::dmat3;
 
-constexpr double fastestOut = 1.0;         // [m/s] limit of the position correction
-constexpr std::size_t parallelRows = 64;   // fewer rows are solved on one thread, which is faster
-constexpr std::size_t colouredPairs = 64;  // clusters with fewer keep the order of their pairs
-constexpr int mostColours = 64;
+constexpr double fastestOut = 1.0;        // [m/s] limit of the position correction
+constexpr std::size_t parallelRows = 64;  // fewer rows are solved on one thread, which is faster
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
 constexpr int sweepsOfSolids = 60;       // of a step
 constexpr int sweepsOfShift = 20;        // of a position correction
@@ -70,131 +67,6 @@ int ContactSolver::leaderOf(int point) const {
     return solid != nullptr ? solid->points.front() : point;
 }
 
-int ContactSolver::root(int point) {
-    while (parent_[static_cast<std::size_t>(point)] != point) {
-        int& up = parent_[static_cast<std::size_t>(point)];
-        up = parent_[static_cast<std::size_t>(up)];
-        point = up;
-    }
-    return point;
-}
-
-// Union-find over the points of pairs -> parent_, touched_. The root of a cluster is its lowest point. A fixed point
-// does not join its pairs to one cluster.
-void ContactSolver::joinPoints() {
-    const std::size_t pointCount = block_.x.size();
-    if (parent_.size() != pointCount)
-        parent_.assign(pointCount, -1);
-    else
-        for (int i : touched_) parent_[static_cast<std::size_t>(i)] = -1;
-    // All that move a point, with what others of its pair have come to.
-    const auto join = [&](int point, int& first) {
-        carried_->forEachMover(point, [&](int mover, double) {
-            const int i = leaderOf(mover);
-            if (parent_[static_cast<std::size_t>(i)] < 0) parent_[static_cast<std::size_t>(i)] = i;
-            if (isFixed(i)) return;
-            const int own = root(i);
-            if (first < 0) {
-                first = own;
-                return;
-            }
-            const int low = std::min(first, own);
-            parent_[static_cast<std::size_t>(std::max(first, own))] = low;
-            first = low;
-        });
-    };
-    for (const ContactConstraint& pair : block_.pairs) {
-        int first = -1;
-        for (int point : pair.points) join(point, first);
-    }
-    for (const KinematicContact& contact : block_.kinematic) {
-        int first = -1;
-        if (contact.isWhole) contact.forEachPoint([&](int point, double) { join(point, first); });
-    }
-    for (const Solid& solid : solids_)
-        if (const int leader = solid.points.front(); solid.moves && parent_[static_cast<std::size_t>(leader)] >= 0)
-            for (int i : solid.points) parent_[static_cast<std::size_t>(i)] = root(leader);
-    touched_.clear();
-    for (std::size_t i = 0; i < pointCount; ++i)
-        if (parent_[i] >= 0) touched_.push_back(static_cast<int>(i));
-}
-
-// Sorts the sources by cluster, and makes their rows -> rows_, clusters_, slots_.
-void ContactSolver::findClusters() {
-    joinPoints();
-    slots_.resize(block_.x.size());
-    u_.clear();
-    moving_.clear();
-    fixed_.clear();
-    driven_.clear();
-    for (int i : touched_) {
-        if (isFixed(i) || solidOf(i) != nullptr) continue;
-        const int slot = slots_[static_cast<std::size_t>(i)] = addSlot();
-        moving_.emplace_back(slot, i);
-    }
-    takeSolids();
-
-    const int pairCount = static_cast<int>(block_.pairs.size());
-    order_.clear();
-    // By what moves one of the points; nothing may.
-    const auto addSource = [&](std::span<const int> points, int source) {
-        int mover = -1;
-        for (int point : points)
-            carried_->forEachMover(point, [&](int i, double) {
-                if (mover < 0 && parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i)) mover = i;
-            });
-        if (mover >= 0) order_.emplace_back(root(mover), source);
-    };
-    for (int p = 0; p < pairCount; ++p) addSource(block_.pairs[static_cast<std::size_t>(p)].points, p);
-    for (std::size_t k = 0; k < block_.kinematic.size(); ++k)
-        addSource(block_.kinematic[k].used(), pairCount + static_cast<int>(k));
-    std::sort(order_.begin(), order_.end());
-
-    rows_.clear();
-    turns_.clear();
-    shares_.clear();
-    rolls_.clear();
-    keys_.clear();
-    gaps_.clear();
-    bases_.clear();
-    clusters_.clear();
-    std::vector<int> sources, roots;
-    for (std::size_t k = 0; k < order_.size();) {
-        Cluster cluster{rows_.size(), 0, 1e300, {}, {}};
-        sources.clear();
-        std::size_t next = k;
-        for (; next < order_.size() && order_[next].first == order_[k].first; ++next) {
-            const int source = order_[next].second;
-            sources.push_back(source);
-            const double thickness = source < pairCount
-                                         ? block_.pairs[static_cast<std::size_t>(source)].thickness
-                                         : block_.kinematic[static_cast<std::size_t>(source - pairCount)].thickness;
-            if (thickness > 0) cluster.tolerance = std::min(cluster.tolerance, thickness);
-        }
-        cluster.tolerance *= block_.options.settled / block_.h;
-        colour(sources);
-        for (int source : sources) addRow(source);
-        cluster.last = rows_.size();
-        clusters_.push_back(std::move(cluster));
-        roots.push_back(order_[k].first);
-        k = next;
-    }
-    for (std::size_t s = 0; s < solids_.size(); ++s) {
-        if (!isTouched(solids_[s])) continue;
-        const auto at = std::lower_bound(roots.begin(), roots.end(), root(solids_[s].points.front()));
-        const core::RigidMotion& own = bodies_[s].start;
-        clusters_[static_cast<std::size_t>(at - roots.begin())].solids.push_back(
-            {bodies_[s].slot, own.mass, glm::inverse(own.inverseInertia)});
-    }
-    for (Cluster& cluster : clusters_)
-        if (cluster.solids.empty())
-            cluster.packs.emplace(rowsOf(cluster),
-                                  std::span(gaps_).subspan(cluster.first, cluster.last - cluster.first), u_.size(),
-                                  levers());
-    v_.resize(u_.size());
-    gone_.assign(u_.size(), Four{});
-}
-
 // Whether its row may close its gap, and pushes out what overlaps; other contacts with colliders only hold.
 bool ContactSolver::isLikePair(const Row& row) const {
     const auto source = static_cast<std::size_t>(row.source), pairCount = block_.pairs.size();
@@ -208,31 +80,6 @@ bool ContactSolver::isNearRest(const Cluster& cluster) const {
                             const dvec3 velocity = relativeVelocity(row, u_, levers());
                             return !(glm::dot(velocity, velocity) <= most * most);
                         });
-}
-
-// Sorts the pairs of a large cluster by colour. A pair gets the first colour that none of its points has yet.
-void ContactSolver::colour(std::span<int> sources) {
-    const auto pairs = static_cast<std::size_t>(
-        std::lower_bound(sources.begin(), sources.end(), static_cast<int>(block_.pairs.size())) - sources.begin());
-    if (pairs < colouredPairs) return;
-    taken_.assign(block_.x.size(), 0);
-    std::array<std::vector<int>, mostColours> colours;
-    for (int source : sources.first(pairs)) {
-        std::uint64_t used = 0;
-        const std::array<int, 4>& points = block_.pairs[static_cast<std::size_t>(source)].points;
-        for (int point : points)
-            carried_->forEachMover(point, [&](int i, double) {
-                if (!isFixed(i)) used |= taken_[static_cast<std::size_t>(leaderOf(i))];
-            });
-        const int free = std::min(std::countr_one(used), mostColours - 1);  // the last one may share points
-        colours[static_cast<std::size_t>(free)].push_back(source);
-        for (int point : points)
-            carried_->forEachMover(point, [&](int i, double) {
-                taken_[static_cast<std::size_t>(leaderOf(i))] |= std::uint64_t{1} << static_cast<unsigned>(free);
-            });
-    }
-    auto to = sources.begin();
-    for (const std::vector<int>& own : colours) to = std::copy(own.begin(), own.end(), to);
 }
 
 int ContactSolver::addSlot() {
@@ -526,143 +373,6 @@ void ContactSolver::sweepSolids(const Cluster& cluster) {
     if (!isPile || first < fewSweeps) return;
     stepRigidly(rows, cluster.solids, levers(), tolerance, u_);
     projectedGaussSeidel(rows, sweepsOfSolids, tolerance, u_, levers(), Start::applied);
-}
-
-// Whether two rows are between the same bodies that turn, so that they bounce as one impact.
-bool ContactSolver::areOfOneImpact(const Row& a, const Row& b) const {
-    const auto turnsAll = [&](const Row& row, const Row& other) {
-        const auto own = row.turns.of(levers().turns), wanted = other.turns.of(levers().turns);
-        return std::all_of(wanted.begin(), wanted.end(), [&](const Turn& turn) {
-            return std::any_of(own.begin(), own.end(), [&](const Turn& one) { return one.slot == turn.slot; });
-        });
-    };
-    return &a == &b || (!a.turns.of(levers().turns).empty() && turnsAll(a, b) && turnsAll(b, a));
-}
-
-// Whether a row has no point of a deformable body.
-bool ContactSolver::isRigid(const Row& row) const {
-    const auto isOf = [&](int point) {
-        bool all = true;
-        carried_->forEachMover(point, [&](int i, double) { all = all && (isFixed(i) || solidOf(i) != nullptr); });
-        return all;
-    };
-    const auto source = static_cast<std::size_t>(row.source);
-    if (source >= block_.pairs.size()) {
-        const auto used = block_.kinematic[source - block_.pairs.size()].used();
-        return std::all_of(used.begin(), used.end(), isOf);
-    }
-    const auto& points = block_.pairs[source].points;
-    return std::all_of(points.begin(), points.end(), isOf);
-}
-
-// Bounces: one impact after the other, the fastest first, gives back its share of the speeds with which its rows close,
-// until none closes faster than restSpeed. So momentum goes through a row of balls as from one to the next, and a box
-// that lands on a face leaves it without turning. Normal impulses of an impact that each give their row its speed take
-// Σ λ (1 - e) c / 2 of the energy. Friction comes after them, against the slip that they leave: against that before it
-// would be answered with energy of its own, where the impact turns a body. The impulses are added to those that the
-// rows get.
-//
-//       the gap closes      now         Rigid bodies that close by c meet s before the end of the step. Until then they
-//     |-------- h - s ------|--- s ---| use up the gap, then they part by e c. Forces, which change u to v by d along
-//     step before                       the normal, act on until v: for h/2 + s under leap-frog, and before that on c.
-//
-// Springs would gain or lose by that, since their forces go with the place. A step of leap-frog from x keeps
-// ½ w·Mw + V(x), where w is the velocity at x: the mean of those before and after its kick. So a row of a deformable
-// body gives back its closing w, and u and v change as w does: at e = 1 this is the step before taken back.
-void ContactSolver::bounce(const Cluster& cluster) {
-    const std::span<const Row> rows = rowsOf(cluster);
-    const std::span<double> sizes = std::span(bounces_).subspan(cluster.first, rows.size());
-    thread_local std::vector<Bouncing> all;
-    all.clear();
-    const std::size_t pairCount = block_.pairs.size();
-    for (const Row& row : rows) {
-        const auto source = static_cast<std::size_t>(row.source);
-        const bool isPair = source < pairCount;
-        const KinematicContact* contact = isPair ? nullptr : &block_.kinematic[source - pairCount];
-        const double restitution = isPair ? block_.pairs[source].restitution : contact->restitution;
-        if (!(restitution > 0) || !isLikePair(row)) continue;
-        const double gap = openGap(static_cast<std::size_t>(&row - rows_.data()));
-        const auto closingIn = [&](std::span<const Four> velocities) {
-            return -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, levers()));
-        };
-        const double u = closingIn(u_);
-        all.push_back({&row, restitution, gap, u - closingIn(start_), closingIn(v_) - u, 0.0, isRigid(row)});
-    }
-    const double h = block_.h;
-    // Until the sides meet [s]; they part by e c then.
-    const auto untilMet = [h](const Bouncing& own, double closing) { return std::min(own.gap / closing, h); };
-    // Forces have changed the closing by so much since it was c.
-    const auto parts = [](const Bouncing& own, double change) {
-        return -std::max(own.restitution * (own.closing - change) - change, 0.0);
-    };
-    bounceIn(u_, all, rows, {}, [&](const Bouncing& own) {
-        if (!own.isRigid) return parts(own, own.gained);
-        const double before = untilMet(own, own.closing);
-        return (before - own.restitution * (h - before)) * own.closing / h;
-    });
-    bounceIn(v_, all, rows, sizes, [&](const Bouncing& own) {
-        if (!own.isRigid) return parts(own, own.gained + own.drift);
-        const double then = own.closing - own.drift;  // of u
-        const double before = then > 0 ? untilMet(own, then) : h;
-        return parts(own, own.drift * (1.5 - before / h));
-    });
-}
-
-// target(row): how fast it may close afterwards [m/s].
-void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& all, std::span<const Row> rows,
-                             std::span<double> sizes, const std::function<double(const Bouncing&)>& target) const {
-    constexpr std::size_t mostEach = 50;  // impacts of a row, on average
-    constexpr int mostSweeps = 200;
-    constexpr double exactly = 1e-9;  // of the speed
-    const auto measure = [&](Bouncing& own) {
-        own.closing = -glm::dot(vectorOf(own.row->normal), relativeVelocity(*own.row, velocities, levers()));
-    };
-    std::for_each(all.begin(), all.end(), measure);
-    std::vector<bool> isOther(velocities.size(), false);
-    const auto forEachSlot = [&](const Row& row, const auto& each) {
-        for (int slot : row.slots) each(static_cast<std::size_t>(slot));
-        for (const Share& share : row.shares.of(levers().shares)) each(static_cast<std::size_t>(share.slot));
-    };
-    constexpr double rounding = 1e-9;  // so that all corners of a face meet in the same step
-    const auto closes = [&](const Bouncing& own) {
-        return own.closing > block_.options.restSpeed && own.gap < (1 + rounding) * own.closing * block_.h;
-    };
-    std::vector<Row> impact;
-    std::vector<const Row*> own;
-    for (std::size_t left = mostEach * rows.size(); left > 0; --left) {
-        const Bouncing* fastest = nullptr;
-        for (const Bouncing& one : all)
-            if (closes(one) && (fastest == nullptr || one.closing > fastest->closing)) fastest = &one;
-        if (fastest == nullptr) return;
-        impact.clear();
-        own.clear();
-        for (const Bouncing& one : all) {
-            if (!closes(one) || !areOfOneImpact(*one.row, *fastest->row)) continue;
-            own.push_back(one.row);
-            Row& row = impact.emplace_back(*one.row);
-            row.closing = target(one);
-            row.impulse = {};
-            row.friction = 0;
-            row.roll = -1;
-        }
-        projectedGaussSeidel(impact, mostSweeps, exactly * fastest->closing, velocities, levers());
-        for (std::size_t k = 0; k < impact.size(); ++k) {
-            const Row& row = *own[k];
-            const double size = impact[k].impulse.of[3];
-            const dvec3 normal = vectorOf(row.normal), velocity = relativeVelocity(row, velocities, levers());
-            const double grip = row.grip > 0 ? row.grip : row.mass;
-            push(row, withinCone(-grip * (velocity - glm::dot(velocity, normal) * normal), row.friction * size),
-                 velocities, levers());
-            if (!sizes.empty()) sizes[static_cast<std::size_t>(&row - rows.data())] += size;
-            forEachSlot(row, [&](std::size_t slot) { isOther[slot] = true; });
-        }
-        for (Bouncing& one : all) {
-            bool isAny = false;
-            forEachSlot(*one.row, [&](std::size_t slot) { isAny = isAny || isOther[slot]; });
-            if (isAny) measure(one);
-        }
-        for (const Row* row : own) forEachSlot(*row, [&](std::size_t slot) { isOther[slot] = false; });
-    }
 }
 
 // Solves 0 <= multiplier  ⊥  n·shift - target >= 0, for the pairs that overlap or have an impulse. Pairs that do not

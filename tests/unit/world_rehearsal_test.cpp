@@ -107,6 +107,39 @@ TEST(Rehearsal, HasNothingToSayOfCoarseCells) {
     EXPECT_TRUE(rehearse(scene).advice.empty());
 }
 
+// A rope that strikes itself at some 20 m/s for a second, in steps near the limit of its springs. Where nothing is lost
+// in a bounce, the errors of the steps add up; else it only loses energy.
+TEST(Rehearsal, WarnsOfEnergyThatComesFromNowhere) {
+    SceneSpec scene;
+    scene.world.gravity = dvec3(0.0);
+    scene.contact.friction = 0.0;
+    scene.run.seconds = 2;
+    RopeSpec rope;
+    rope.name = "line";
+    rope.end = {0.6, 0.0, 0.0};
+    rope.segments = 15;
+    rope.radius = 0.02;
+    rope.mass = 0.5;
+    rope.dampingTime = rope.drag = 0.0;
+    rope.touch = Touch::all;
+    scene.bodies.add(rope);
+    for (const auto& [at, impulse] :
+         {std::pair{"start", dvec3(1.0, 0.6, 0.2)}, {"end", dvec3(-1.0, 0.2, -0.3)}, {"50%", dvec3(0.1, -0.8, 0.2)}}) {
+        PushAction push;
+        push.target = std::string("rope.line@") + at;
+        push.impulse = impulse;
+        scene.actions.add(push);
+    }
+    for (const double restitution : {0.0, 1.0}) {
+        scene.contact.restitution = restitution;
+        const std::vector<std::string> all = printed(rehearse(scene).warnings);
+        EXPECT_EQ(std::count_if(
+                      all.begin(), all.end(),
+                      [](const std::string& text) { return text.starts_with("the energy of the bodies grows by "); }),
+                  restitution > 0 ? 1 : 0);
+    }
+}
+
 // It falls by 4.9 m, and the picture is 2 m high where it is.
 TEST(Rehearsal, WarnsOfABodyThatLeavesThePictureInTheFirstSecond) {
     SceneSpec scene = heldRope();

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 #include "taut/advice/mesh_cells.h"
 #include "taut/advice/private/encounters.h"
@@ -116,25 +118,69 @@ Outcome play(const SceneSpec& scene, std::int64_t tick, double end, Rehearsal& r
     return Outcome::fine;
 }
 
-// Plays the first second. Bodies that start in the picture and are outside after it.
-void warnOfLeaving(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
+// Whether nothing drives the bodies once they have started: their energy can only fall.
+bool isLeftAlone(const SceneSpec& scene) {
+    return scene.forces.empty() && scene.joints.empty() && bodiesTouch(scene) &&
+           std::all_of(
+               scene.actions.begin(), scene.actions.end(), [](const auto& action) { return action.t == 0; }) &&
+           std::all_of(
+               scene.colliders.begin(), scene.colliders.end(),
+               [&](const ColliderSpec& collider) { return collider.keys.empty() && !scene.isFigure(collider); });
+}
+
+// Whether the energy of bodies that are left alone grows by a tenth of what they have in motion and springs. Steps near
+// the limit of a method are wrong by less.
+class EnergyWatch {
+  public:
+    void look(const World& world) {
+        const Metrics now = world.metrics();
+        energies_.push_back(now.energy());
+        most_ = std::max(most_, now.kinetic + now.elastic);
+    }
+    std::optional<core::Finding> warning() const {
+        constexpr double share = 0.1;
+        if (energies_.size() < 10) return std::nullopt;
+        const auto few = static_cast<std::ptrdiff_t>(energies_.size() / 10);
+        const double first = energies_.front(),
+                     last = std::accumulate(energies_.end() - few, energies_.end(), 0.0) / static_cast<double>(few);
+        if (!(last - first > share * most_)) return std::nullopt;
+        return warningAt({}) +
+               fmt::format(
+                   "the energy of the bodies grows by {:.2g} J in the first second, though nothing drives them: give "
+                   "them damping, less restitution, or smaller steps (safety of [solver])",
+                   last - first);
+    }
+
+  private:
+    std::vector<double> energies_;  // [J] (ticks)
+    double most_ = 0;               // [J] in motion and springs
+};
+
+// Plays the first second. Bodies that start in the picture and are outside after it; energy that comes from nowhere.
+void watchFirstSecond(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
     constexpr double seconds = 1, mostOf = 0.5;  // of its points, to be in the picture
     constexpr std::size_t most = 8;
-    if (scene.run.seconds < seconds || scene.run.startState != nullptr || scene.cameras.empty()) return;
+    const bool watchesEnergy = isLeftAlone(scene);
+    if (scene.run.seconds < seconds || scene.run.startState != nullptr) return;
+    if (scene.cameras.empty() && !watchesEnergy) return;
     if (core::processorSeconds() > end) return;
     World world(scene);
     WorldImpl& w = WorldAccess::of(world);
     const auto shareOf = [&](const Body& body) { return world.shareInPicture(world.points(body.fullName()).x); };
     std::map<std::string, const Body*> inside;
     for (const Body* body : bodiesOf(w))
-        if (shareOf(*body) >= mostOf) inside[body->fullName()] = body;
+        if (!scene.cameras.empty() && shareOf(*body) >= mostOf) inside[body->fullName()] = body;
+    EnergyWatch energy;
     try {
-        while (world.time() < seconds)
+        while (world.time() < seconds) {
             if (core::processorSeconds() > end || world.advance()) return;
+            if (watchesEnergy) energy.look(world);
+        }
     } catch (const core::Error& error) {
         if (error.kind() != core::ErrorKind::badContent) throw;
         return;
     }
+    if (const auto warning = energy.warning()) rehearsal.warnings.push_back(*warning);
     std::size_t count = 0;
     for (const Body* body : bodiesOf(w)) {
         const auto before = inside.find(body->fullName());
@@ -190,7 +236,7 @@ Rehearsal rehearse(const SceneSpec& scene) {
     std::vector<core::Finding>& warnings = rehearsal.warnings;
     const bool mayRun = rehearsal.faults.empty();
     const Outcome outcome = mayRun && lastDoubtful ? play(scene, *lastDoubtful, end, rehearsal) : Outcome::refused;
-    if (mayRun) warnOfLeaving(scene, end, rehearsal);
+    if (mayRun) watchFirstSecond(scene, end, rehearsal);
     if (outcome == Outcome::fine) return rehearsal;
     warnings.insert(warnings.end(), certain.begin(), certain.end());
     if (outcome == Outcome::unknown) warnings.insert(warnings.end(), doubts.begin(), doubts.end());

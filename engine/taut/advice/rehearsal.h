@@ -23,9 +23,9 @@ bool isTooLarge(const SceneSpec& scene);
 
 // Performs the timeline on bodies in their initial places. This finds targets that cannot be held, cut or pushed. If
 // the verdict depends on the later place of a body, it simulates up to there if that is cheap. It also simulates the
-// first second, to find bodies that leave the picture. Everything takes at most two seconds of processor time; if
-// building the world takes longer, nothing is simulated. Steps that will diverge are errors too. Throws core::Error if
-// the scene cannot be built.
+// first second, to find bodies that leave the picture, and energy that comes from nowhere. Everything takes at most two
+// seconds of processor time; if building the world takes longer, nothing is simulated. Steps that will diverge are
+// errors too. Throws core::Error if the scene cannot be built.
 Rehearsal rehearse(const SceneSpec& scene);
 
 }  // namespace taut::world

@@ -514,6 +514,8 @@ class Planner {
             islands_.unite(a.body, b.body);
             report.pairs.push_back({&body(a.body), &body(b.body), 1});
             joints_.push_back({a.spot, b.spot, &joint, ofScene, 0.0});
+            const dvec3 there = body(other.body).spec->isRigid() ? other.place : position(refOf(other.spot.nearest()));
+            report.jump = std::max(report.jump, std::sqrt(glm::dot(there - place, there - place)));
         }
     }
 

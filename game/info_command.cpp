@@ -384,7 +384,53 @@ void printMethods() {
         "order 4 to 2.\n");
 }
 
+// Names of points, and the corners of a box.
+std::vector<std::pair<std::string, std::vector<int>>> namedPoints(const world::Body& body) {
+    std::vector<std::pair<std::string, std::vector<int>>> named;
+    for (const auto& [name, points] : body.model.groups)
+        if (name != "all" && !points.empty()) named.emplace_back(name, points);
+    for (const char* depth : {"back", "front"})
+        for (const char* height : {"bottom", "top"})
+            for (const char* width : {"left", "right"}) {
+                const std::string name = fmt::format("{}-{}-{}", depth, height, width);
+                if (auto corner = world::selectPoints(body.model, name); corner.size() == 1)
+                    named.emplace_back(name, std::move(corner));
+            }
+    return named;
+}
+
+// As the scene starts.
+Json pointsJson(const world::Body& body) {
+    const auto jsonOf = [](const glm::dvec3& x) { return Json{x.x, x.y, x.z}; };
+    Json positions = Json::array(), names = Json::object(), places = Json::object();
+    for (const glm::dvec3& x : body.model.positions) positions.push_back(jsonOf(x));
+    for (const auto& [name, points] : namedPoints(body)) names[name] = points;
+    for (const std::string& name : world::placeNames(body.model)) places[name] = jsonOf(*world::placeNamed(body, name));
+    return {{"name", body.fullName()}, {"positions_m", positions}, {"points", names}, {"places_m", places}};
+}
+
 // Each name once, with its points or its place as the scene starts.
+void printPoints(const world::Body& body) {
+    const auto textOf = [](const glm::dvec3& x) {
+        const auto number = [](double own) { return std::abs(own) < 1e-12 ? 0.0 : own; };
+        return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", number(x.x), number(x.y), number(x.z));
+    };
+    printResult("{}: {} points\n", body.fullName(), body.model.pointCount());
+    for (const auto& [name, points] : namedPoints(body)) {
+        constexpr std::size_t shown = 8;
+        std::vector<std::string> numbers;
+        for (const int i : points)
+            if (numbers.size() < shown) numbers.push_back(fmt::format("#{}", i));
+        const bool isOne = points.size() == 1;
+        printResult("  @{:<24} {}{}\n", name, fmt::join(numbers, " "),
+                    isOne                   ? "  " + textOf(body.model.positions[static_cast<std::size_t>(points[0])])
+                    : points.size() > shown ? fmt::format(" … {} in all", points.size())
+                                            : "");
+    }
+    for (const std::string& name : world::placeNames(body.model))
+        printResult("  @{:<24} {}\n", name, textOf(*world::placeNamed(body, name)));
+}
+
 int infoPoints(const InfoFlags& flags) {
     const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
     std::vector<world::Body> bodies = world::buildBodies(spec);
@@ -394,35 +440,13 @@ int infoPoints(const InfoFlags& flags) {
         for (const world::Body& body : bodies) names.push_back(body.fullName());
         failUsage("--points {}: there is no such body; there are {}", flags.pointsOf, fmt::join(names, ", "));
     }
-    const auto textOf = [](const glm::dvec3& x) {
-        const auto number = [](double own) { return std::abs(own) < 1e-12 ? 0.0 : own; };
-        return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", number(x.x), number(x.y), number(x.z));
-    };
-    for (const world::Body* body : found) {
-        printResult("{}: {} points\n", body->fullName(), body->model.pointCount());
-        for (const auto& [name, points] : body->model.groups) {
-            if (name == "all" || points.empty()) continue;
-            constexpr std::size_t shown = 8;
-            std::vector<std::string> numbers;
-            for (const int i : points)
-                if (numbers.size() < shown) numbers.push_back(fmt::format("#{}", i));
-            const bool isOne = points.size() == 1;
-            printResult("  @{:<24} {}{}\n", name, fmt::join(numbers, " "),
-                        isOne ? "  " + textOf(body->model.positions[static_cast<std::size_t>(points[0])])
-                        : points.size() > shown ? fmt::format(" … {} in all", points.size())
-                                                : "");
-        }
-        for (const char* depth : {"back", "front"})
-            for (const char* height : {"bottom", "top"})
-                for (const char* width : {"left", "right"}) {
-                    const std::string name = fmt::format("{}-{}-{}", depth, height, width);
-                    if (const auto corner = world::selectPoints(body->model, name); corner.size() == 1)
-                        printResult("  @{:<24} #{}  {}\n", name, corner[0],
-                                    textOf(body->model.positions[static_cast<std::size_t>(corner[0])]));
-                }
-        for (const std::string& name : world::placeNames(body->model))
-            printResult("  @{:<24} {}\n", name, textOf(*world::placeNamed(*body, name)));
+    if (flags.json) {
+        Json all = Json::array();
+        for (const world::Body* body : found) all.push_back(pointsJson(*body));
+        printResult("{}\n", all.dump(2));
+        return static_cast<int>(ExitCode::ok);
     }
+    for (const world::Body* body : found) printPoints(*body);
     return static_cast<int>(ExitCode::ok);
 }
 

@@ -227,7 +227,7 @@ class Growing {
 
     static bool isSolid(const Own& own) { return own.name.starts_with("solid"); }
 
-    // Joints at a place of a solid; the other side is rigid too, or points.
+    // A joint at a place of a solid.
     void addMounted(const std::string& solid, const std::string& other, bool isRigid) {
         const std::string kind = isRigid ? choices_.of({"hinge", "ball"}) : "ball";
         add({"[[joint]]\na = \"{}\"\nb = \"{}\"\nkind = \"{}\"\nplace = {}\naxis = {}\n", solid, other, kind,
@@ -250,8 +250,7 @@ class Growing {
 
     void addJoint(const Own& a, const Own& b) {
         if (isSolid(a) && choices_.oneIn(2)) {
-            const std::string points = b.name + "@" + choices_.of(b.selectors);
-            addMounted(a.name, isSolid(b) ? b.name : points, isSolid(b));
+            addMounted(a.name, b.name, isSolid(b));
             return;
         }
         const auto isCloth = [](const Own& own) { return own.name.starts_with("cloth"); };

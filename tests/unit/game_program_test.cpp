@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -417,6 +418,25 @@ TEST(Program, InfoListsWhatJointsTie) {
     EXPECT_EQ(json["joints"][0]["pairs"][0]["b"], "rope.b");
     EXPECT_TRUE(has(run({"info", scene, "--set", "rope.b.ends=[[1.015, 1, 0], [2, 1, 0]]"}).out,
                     ": 1 point, moved together by up to 0.015 m\n"));
+}
+
+// A box of 0.2 m, 0.4 m and 0.6 m about [1, 2, 3]. Its points are 2 mm within, its thickness.
+TEST(Program, InfoListsNamesAsJson) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "box.toml",
+                    "schema = 1\n[solid.box]\nshape = \"box\"\nsize = [0.2, 0.4, 0.6]\nposition = [1, 2, 3]\n");
+    const auto all =
+        nlohmann::json::parse(run({"info", (folder / "box.toml").string(), "--points", "solid.*", "--json"}).out);
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0]["name"], "solid.box");
+    const auto expectAt = [](const nlohmann::json& place, std::array<double, 3> x) {
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(place[k].get<double>(), x[k], 1e-12);
+    };
+    const auto corner = all[0]["points"]["front-top-left"];
+    ASSERT_EQ(corner.size(), 1U);
+    expectAt(all[0]["positions_m"][corner[0].get<std::size_t>()], {0.902, 2.198, 3.298});
+    expectAt(all[0]["places_m"]["centre"], {1, 2, 3});
+    expectAt(all[0]["places_m"]["top-middle"], {1, 2.2, 3});
 }
 
 TEST(Program, InfoTellsWhatTheSceneBuilds) {

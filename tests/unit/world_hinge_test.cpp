@@ -336,6 +336,23 @@ TEST(Places, WeldsAndRodsEndThere) {
     EXPECT_LT(middle(world, "solid.plank@left").y, 0.9);  // it turns about the place
 }
 
+// A loose end 0.3 m beside its place comes to it, with a warning; the box does not move or lose its shape for it.
+TEST(Places, LooseEndsComeToASolid) {
+    const std::string box = head("[0, 0, 0]") + "[solid.box]\nshape = \"box\"\nsize = [0.2, 0.4, 0.6]\n",
+                      net =
+                          "[net.n]\npoints = [{ name = \"p\", position = [0.4, 0, 0], mass_kg = 50 }]\n"
+                          "[[joint]]\nkind = \"ball\"\na = \"solid.box\"\nb = \"net.n@p\"\nplace = [0.1, 0, 0]\n";
+    World alone(sceneOf(box)), joined(sceneOf(box + net));
+    EXPECT_EQ(joined.points("solid.box").x, alone.points("solid.box").x);
+    EXPECT_LT(lengthOf(joined.points("net.n").x[0] - dvec3(0.1, 0, 0)), 1e-12);
+    ASSERT_EQ(joined.warnings().size(), 1U);
+    EXPECT_EQ(joined.warnings()[0].text,
+              "the ball joint \"solid.box\" – \"net.n@p\" jerks points together by 0.3 m: move the bodies together, or "
+              "use kind = \"spring\"");
+    run(joined, 10);
+    EXPECT_LT(lengthOf(joined.points("net.n").v[0]), 1e-9);
+}
+
 TEST(Places, WhatCannotBeIsRefused) {
     const std::string box =
         "[solid.box]\nshape = \"box\"\nsize = [0.2, 0.4, 0.6]\nposition = [1, 2, 3]\n"

@@ -169,10 +169,12 @@ void placeRigidly(std::span<const double> masses, std::span<const dvec3> rest, s
                   std::span<dvec3> x) {
     constexpr int mostRounds = 30;
     constexpr double settled = 1e-15;  // [rad]
+    constexpr double longest = 0.5;    // [rad] of a round
     double mass = 0;
     const dvec3 restCentre = centreOf(masses, rest, mass), oldCentre = centreOf(masses, from, mass);
     const dvec3 centre = centreOf(masses, std::span<const dvec3>(x), mass);
-    // b(Q) = Σ m from × Q rest has to become b0 = Σ m from × x. Newton's method over rotations.
+    // b(Q) = Σ m from × Q rest has to become b0 = Σ m from × x. Newton's method over rotations. A quarter turn has the
+    // most momentum: if more is wanted, it ends with about that turn.
     dmat3 mixed(0.0);  // Σ m rest fromᵀ
     dvec3 wanted(0.0);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -184,7 +186,10 @@ void placeRigidly(std::span<const double> masses, std::span<const dvec3> rest, s
     for (int round = 0; round < mostRounds; ++round) {
         const dmat3 b = turn * mixed;  // b[j][i] = Σ m (Q rest)_i from_j
         const dvec3 now(b[2][1] - b[1][2], b[0][2] - b[2][0], b[1][0] - b[0][1]);
-        const dvec3 angle = glm::inverse(core::inertiaOf(b)) * (wanted + now);
+        dvec3 angle = glm::inverse(core::inertiaOf(b)) * (wanted + now);
+        const double size = std::sqrt(glm::dot(angle, angle));
+        if (!std::isfinite(size)) break;
+        if (size > longest) angle *= longest / size;
         turn = turnedBy(angle) * turn;
         if (glm::dot(angle, angle) < settled * settled) break;
     }

@@ -96,7 +96,7 @@ struct JointReport {
         int points;         // number of points of a joined to b
     };
     std::vector<Pair> pairs;  // in the order of the bodies
-    double jump = 0;          // [m] largest distance of points that were welded
+    double jump = 0;          // [m] largest distance of places that it makes one
     int idle = 0;             // number of its ties between points of one solid, which are left out
     struct Sewn {
         std::array<double, 2> lengths{};  // [m] of its two edges

@@ -97,6 +97,9 @@ void addMounted(const JointSpec& joint, int ofScene, const ScenePoints& scene, C
         coupled.islands.unite(a.body, b.body);
         report.pairs.push_back({&scene.body(a.body), &scene.body(b.body), 1});
         coupled.pairs.push_back({a.spot, b.spot, &joint, ofScene, 0.0});
+        const bool isRigid = scene.body(other.body).spec->isRigid();
+        const dvec3 there = isRigid ? other.place : scene.position(scene.refOf(other.spot.nearest()));
+        report.jump = std::max(report.jump, std::sqrt(glm::dot(there - place, there - place)));
     }
 }
 

@@ -134,8 +134,12 @@ void Pins::layOutRows(std::span<const int> pins) {
     ease_.resize(clusters_.size());
 }
 
+// Points of solids stay, as the solids would lose their shape; what is tied to them comes.
 void Pins::settle(IslandPlan& plan) {
-    const std::vector<double> inverseMasses = inverseMassesOf(plan);
+    std::vector<double> inverseMasses = inverseMassesOf(plan);
+    for (const Body* body : plan.bodies)
+        if (body->spec->isRigid())
+            for (const int point : body->pointOf) inverseMasses[static_cast<std::size_t>(point)] = 0.0;
     for (const auto& constraint : plan.constraints) {
         const auto* own = dynamic_cast<const Pins*>(constraint.get());
         if (own == nullptr) continue;

@@ -55,15 +55,20 @@ core::Finding warningOf(const JointReport& report) {
                            : ": other bodies are nearer");
 }
 
-// Warns of a weld that moves points further than a cell; else none.
+// Warns of a joint that moves points further than a cell, or ends of bodies without cells by a centimetre; else none.
 std::optional<core::Finding> jumpWarning(const JointReport& report) {
+    constexpr double mostWithoutCells = 0.01;  // [m]
     double cell = HUGE_VAL;
-    for (const auto& [a, b, points] : report.pairs) cell = std::min({cell, shortestEdge(*a), shortestEdge(*b)});
-    if (!(report.jump > cell)) return std::nullopt;
+    for (const auto& [a, b, points] : report.pairs)
+        for (const Body* body : {a, b})
+            if (!body->spec->isRigid()) cell = std::min(cell, shortestEdge(*body));
+    const bool hasCells = std::isfinite(cell);
+    if (!(report.jump > (hasCells ? cell : mostWithoutCells))) return std::nullopt;
     const JointSpec& joint = *report.spec;
-    return warningAt(joint.source) + "the weld \"" + joint.a.text() + "\" – \"" + joint.b.text() +
-           "\" jerks points together by " + metres(report.jump) + ", more than a cell (" + metres(cell) +
-           "): move the bodies together, lower reach_m, or use kind = \"spring\"";
+    return warningAt(joint.source) + "the " + std::string(joint.title().substr(2)) + " \"" + joint.a.text() +
+           "\" – \"" + joint.b.text() + "\" jerks points together by " + metres(report.jump) +
+           (hasCells ? ", more than a cell (" + metres(cell) + ")" : "") + ": move the bodies together" +
+           (joint.isWeld() ? ", lower reach_m," : ",") + " or use kind = \"spring\"";
 }
 
 // Warns of ties that nothing could move; else none.

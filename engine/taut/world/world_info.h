@@ -45,7 +45,7 @@ struct JointInfo {
     };
     std::vector<Pair> pairs;
     int left = 0;                    // number of points that it still ties
-    double jump = 0;                 // [m] for a weld: largest way that it moves a point when it is made
+    double jump = 0;                 // [m] of points that it holds in one place: largest distance before
     std::vector<std::string> loose;  // bodies that it names but does not tie
 };
 

@@ -234,7 +234,7 @@ class Growing {
              choices_.vector(0.2), choices_.vector(1)});
         if (choices_.oneIn(3)) add({"touch = true\n"});
         if (kind == "ball") {
-            if (choices_.oneIn(2)) add({"cone_deg = {:.6g}\n", choices_.between(1, 170)});
+            if (isRigid && choices_.oneIn(2)) add({"cone_deg = {:.6g}\n", choices_.between(1, 170)});
             return;
         }
         if (choices_.oneIn(2))

@@ -12,12 +12,14 @@ namespace {
 
 using glm::dvec3;
 
-// Two bodies of 1 kg, each with two pins on an axle. Those of the one are 1e-9 m further apart and aslant by so many
-// radians: no motion makes up for the distance. Their response along the axle is the square of the slant, so impulses
-// that go after it would move the bodies by half a metre. They move by some times what the pins are off, no more.
+// Two bodies of 1 kg, each with two pins on an axle. Those of the one are `off` further apart and aslant by so many
+// radians: no motion makes up for the distance. Six rows would have a response along the axle of the square of the
+// slant, and impulses that go after it would move the bodies by off / slant². They move by some times what the pins are
+// off, no more.
 TEST(JoinedBodies, DoNotAskInVainForWhatTwoPinsAlongAnAxleCannotGive) {
-    for (const double slant : {0.0, 1e-6, 1e-5, 1e-4, 3e-4}) {
-        constexpr double half = 0.01, off = 1e-9;
+    for (const auto& [off, slant] : std::vector<std::pair<double, double>>{
+             {1e-9, 0.0}, {1e-9, 1e-5}, {1e-9, 3e-4}, {1e-5, 1e-3}, {1e-5, 1e-2}, {1e-4, 0.1}}) {
+        constexpr double half = 0.01;
         std::vector<dvec3> x;
         world::JoinedBodies joined;
         joined.begin(16);

@@ -374,7 +374,11 @@ TEST(Places, WhatCannotBeIsRefused) {
           {"a = \"solid.box\"\nb = \"net.n@p\"\nkind = \"hinge\"\nplace = [0, 0, 0]\nlimits_deg = [10, 20]\n",
            "the limits are turns since the start"},
           {"a = \"solid.box\"\nb = \"net.n@p\"\nkind = \"hinge\"\nplace = [0, 0, 0]\nmotor_rad_per_s = 2\n",
-           "a motor has a torque"}})
+           "a motor has a torque"},
+          {"a = \"solid.box\"\nb = \"net.n@p\"\nkind = \"ball\"\nplace = [0, 0, 0]\ncone_deg = 10\n",
+           "a ball joint with cone_deg needs a rigid body or a collider on each side"},
+          {"a = \"solid.box\"\nb = \"net.n@p\"\nkind = \"hinge\"\nplace = [0, 0, 0]\n",
+           "a hinge needs a rigid body or a collider on each side"}})
         EXPECT_NE(messageOf(head("[0, 0, 0]") + box + "[[joint]]\n" + joint).find(message), std::string::npos)
             << joint << messageOf(head("[0, 0, 0]") + box + "[[joint]]\n" + joint);
 }

@@ -32,7 +32,34 @@ void JoinedBodies::addBody(const core::RigidMotion& body, std::span<const std::s
 
 // The part of a difference that a pair rules.
 dvec3 JoinedBodies::held(std::size_t pair, const dvec3& difference) const {
-    return pairs_[pair].length > 0 ? glm::dot(difference, along_[pair]) * along_[pair] : difference;
+    if (pairs_[pair].length > 0) return glm::dot(difference, along_[pair]) * along_[pair];
+    dvec3 left = difference;
+    for (const dvec3& given : given_[pair]) left -= glm::dot(left, given) * given;
+    return left;
+}
+
+// Of pairs between two bodies, or between one and places that nothing moves.
+void JoinedBodies::findGiven(std::span<const dvec3> at, std::span<const double> inverseMass) {
+    constexpr double least = 1e-6;  // [m]
+    constexpr int loose = -2;
+    given_.assign(pairs_.size(), {dvec3(0.0), dvec3(0.0)});
+    const auto bodyAt = [&](const Spot& end) {
+        const auto point = static_cast<std::size_t>(end.nearest());
+        return bodyOf_[point] < 0 && inverseMass[point] > 0 ? loose : bodyOf_[point];
+    };
+    std::vector<std::pair<std::array<int, 2>, std::size_t>> earlier;  // bodies, pair
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+        const std::array<int, 2> bodies{bodyAt(pairs_[k].a), bodyAt(pairs_[k].b)};
+        if (pairs_[k].length > 0 || bodies[0] == loose || bodies[1] == loose) continue;
+        auto next = given_[k].begin();
+        for (const auto& [others, other] : earlier) {
+            if (others != bodies || next == given_[k].end()) continue;
+            const dvec3 way = held(k, pairs_[k].a.of(at) - pairs_[other].a.of(at));
+            const double size = std::sqrt(glm::dot(way, way));
+            if (size > least) *next++ = way / size;
+        }
+        earlier.emplace_back(bodies, k);
+    }
 }
 
 bool JoinedBodies::isEmpty() const {
@@ -97,10 +124,9 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
 
 bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> inverseMass,
                              std::span<const dvec3> values, bool arePlaces, double settled) {
-    // What is redundant, as the third pin of a hinge, agrees only to the second order: a solve goes no further.
+    // What is redundant, as rods can be, agrees only to the second order: a solve goes no further.
     constexpr double exactly = 1e-4;
-    // Of what pairs respond to each alone. Two pins that are aslant by s have s² along their axle; n links in a row, of
-    // which only the ends are held, have 1/n².
+    // Of what pairs respond to each alone. n links in a row, of which only the ends are held, have 1/n².
     constexpr double leastResponse = 1e-6;
     const std::size_t count = pairs_.size();
     p_.assign(count, dvec3(0.0));
@@ -118,6 +144,7 @@ bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> 
         return 1.0 / body.mass + glm::dot(arm, arm) * (i[0][0] + i[1][1] + i[2][2]) / 3.0;
     };
     along_.assign(count, dvec3(0.0));
+    findGiven(at, inverseMass);
     double furthest = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const Pair& pair = pairs_[k];
@@ -132,6 +159,8 @@ bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> 
                 isSlack_[k] = true;
             if (isSlack_[k]) along_[k] = dvec3(0.0);
             left_[k] = arePlaces ? (length * length - square) / (2.0 * length) * along_[k] : held(k, left_[k]);
+        } else {
+            left_[k] = held(k, left_[k]);
         }
         ease_[k] = easeOf(pair.a) + easeOf(pair.b);
         const dvec3 a = pair.a.of(values);

@@ -44,6 +44,17 @@ void leash(IslandPlan& plan, const Mounting& at, const dvec3& first, const dvec3
     throw core::Error(core::ErrorKind::badContent, at(joint.source) + std::string(joint.title()) + " needs a place");
 }
 
+// Throws core::Error(badContent) if a side is a single point, which has no axis. off: a place beside the joint.
+void expectAxes(const JointSpec& joint, const Mounting& at, const dvec3& off, const char* why) {
+    const dvec3& middle = at.at.position;
+    const Mounting::End there = at.b(middle), beside = at.b(off);
+    const Spot* point = std::get_if<Spot>(&there);
+    if (!(at.a(middle) == at.a(off)) && (point == nullptr || !(*point == std::get<Spot>(beside)))) return;
+    throw core::Error(core::ErrorKind::badContent, world::at(joint.source) + std::string(joint.title()) + why +
+                                                       " needs a rigid body or a collider on each side: a point has "
+                                                       "no axis");
+}
+
 template <class Own>
 Kind<JointSpec> mountedKind(std::string help, fields::FieldList<Own> own) {
     own.direction("axis", &Own::axis, "Its direction, in the same axes as `place`.");
@@ -60,6 +71,7 @@ void BallJoint::mount(IslandPlan& plan, const Mounting& at) const {
     pin(plan, at, middle, source);
     if (!cone || *cone >= core::pi) return;
     const dvec3 end = middle + at.size * glm::normalize(at.at.rotation * axis);
+    expectAxes(*this, at, end, " with cone_deg");
     leash(plan, at, end, end, 2.0 * at.size * core::sine(0.5 * *cone), source);
 }
 
@@ -71,6 +83,7 @@ void HingeJoint::mount(IslandPlan& plan, const Mounting& at) const {
     const dvec3& middle = at.at.position;
     const dvec3 along = glm::normalize(at.at.rotation * axis), across = core::acrossOf(along);
     const dvec3 half = (0.5 * at.size) * along, arm = at.size * across;
+    expectAxes(*this, at, middle + half, "");
     pin(plan, at, middle - half, source);
     pin(plan, at, middle + half, source);
     if (limits && limits->y - limits->x < 2.0 * core::pi) {

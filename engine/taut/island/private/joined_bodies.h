@@ -6,11 +6,13 @@
 //
 // In turns a pin would move one point of little mass, and its body by that share alone: chains and heavy loads do not
 // settle so. Here the impulses p of all pairs solve one symmetric system, A p = x_b - x_a, by conjugate gradients. It
-// is the linear part of the motion, so a few solves follow each other. Points get p over their own mass, from which
-// their bodies find theirs. No body gains momentum by it.
+// is the linear part of the motion, so a few solves follow each other. What keeps one place of two bodies together
+// keeps the distance of any other place from it: the second pin of a hinge holds across the axle only. Points get p
+// over their own mass, from which their bodies find theirs. No body gains momentum by it.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <span>
 #include <vector>
@@ -54,6 +56,7 @@ class JoinedBodies {
   private:
     bool solveTaut(std::span<const glm::dvec3> at, std::span<const double> inverseMass,
                    std::span<const glm::dvec3> values, bool arePlaces, double settled);
+    void findGiven(std::span<const glm::dvec3> at, std::span<const double> inverseMass);
     glm::dvec3 held(std::size_t pair, const glm::dvec3& difference) const;
     void respond(std::span<const glm::dvec3> at, std::span<const double> inverseMass);
 
@@ -63,6 +66,7 @@ class JoinedBodies {
     std::vector<glm::dvec3> p_, left_, way_, moved_;  // (pairs) impulse, what is left, direction, A times it
     std::vector<glm::dvec3> best_;                    // (pairs) the impulses that left least
     std::vector<glm::dvec3> along_;                   // (pairs) unit, of a rod; 0
+    std::vector<std::array<glm::dvec3, 2>> given_;    // (pairs) unit, to earlier pairs of the same bodies; 0
     std::vector<bool> isSlack_;                       // (pairs) of a leash: it does not count
     std::vector<double> ease_;                        // (pairs) [1/kg] about what an impulse of 1 does
     std::vector<glm::dvec3> sum_, turn_;              // (bodies) of impulses, and of their moments

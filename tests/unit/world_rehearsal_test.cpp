@@ -117,7 +117,7 @@ TEST(Rehearsal, WarnsOfEnergyThatComesFromNowhere) {
     RopeSpec rope;
     rope.name = "line";
     rope.end = {0.6, 0.0, 0.0};
-    rope.segments = 15;
+    rope.segments = 8;
     rope.radius = 0.02;
     rope.mass = 0.5;
     rope.dampingTime = rope.drag = 0.0;

@@ -9,7 +9,7 @@
 namespace taut::game {
 namespace {
 
-// What a study has as text and pictures.
+// The results of a study.
 struct Written {
     std::string heading, summary, csv, json;
     std::vector<study::NamedChart> charts;

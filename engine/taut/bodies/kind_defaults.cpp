@@ -1,4 +1,4 @@
-// What kinds of bodies share unless they have their own.
+// Default behaviour of kinds of bodies.
 #include "taut/body/body.h"
 #include "taut/body/private/solid_places.h"
 #include "taut/drawing/drawing.h"

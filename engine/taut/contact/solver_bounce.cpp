@@ -38,9 +38,8 @@ bool ContactSolver::isRigid(const Row& row) const {
 // Bounces: one impact after the other, the fastest first, gives back its share of the speeds with which its rows close,
 // until none closes faster than restSpeed. So momentum goes through a row of balls as from one to the next, and a box
 // that lands on a face leaves it without turning. Normal impulses of an impact that each give their row its speed take
-// Σ λ (1 - e) c / 2 of the energy. Friction comes after them, against the slip that they leave: against that before it
-// would be answered with energy of its own, where the impact turns a body. The impulses are added to those that the
-// rows get.
+// Σ λ (1 - e) c / 2 of the energy. Friction comes after them and acts against the slip that they leave: against the
+// slip before, it could add energy where the impact turns a body. The sweeps add their impulses to these.
 //
 //       the gap closes      now         Rigid bodies that close by c meet s before the end of the step. Until then they
 //     |-------- h - s ------|--- s ---| use up the gap, then they part by e c. Forces, which change u to v by d along

@@ -124,7 +124,7 @@ bool JoinedBodies::solve(std::span<const dvec3> at, std::span<const double> inve
 
 bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> inverseMass,
                              std::span<const dvec3> values, bool arePlaces, double settled) {
-    // What is redundant, as rods can be, agrees only to the second order: a solve goes no further.
+    // Redundant constraints, such as some rods, agree to second order only. Solves end there.
     constexpr double exactly = 1e-4;
     // Of what pairs respond to each alone. n links in a row, of which only the ends are held, have 1/n².
     constexpr double leastResponse = 1e-6;

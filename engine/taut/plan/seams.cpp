@@ -184,7 +184,7 @@ void markSeamCorners(const ScenePoints& scene, const Couplings& coupled) {
         return found->second[static_cast<std::size_t>(p.point)];
     };
     const auto turns = [&](PointRef p) {
-        constexpr double most = 0.5;  // the cosine of what a curve may turn by
+        constexpr double most = 0.5;  // cosine of the largest turn of a curve
         const std::vector<int>& ends = beside(p);
         if (ends.size() != 2) return true;
         const dvec3 in = scene.position(p) - scene.position({p.body, ends[0]}),

@@ -191,7 +191,7 @@ class GltfMeshReader {
         });
     }
 
-    // Drawn vertices are those that differ in place, normal or texture coordinates.
+    // Corners with the same place, normal and texture coordinates share a drawn vertex.
     void addPiece(int material, const std::vector<std::array<std::size_t, 3>>& triangles,
                   const std::vector<int>& vertexOf, const GltfNumbers& normals, const GltfNumbers& uv) {
         figure::Piece piece;

@@ -1,4 +1,4 @@
-// What contact tells of the bodies that sleep or may fall asleep: who presses whom, and where.
+// Reports to sleep: who presses whom, and where. Wakes bodies that are reached.
 #include "taut/world/private/contact_stage.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What touches: the surfaces, masses and solids that the stage gives to the ContactGroup.
+// Makes the surfaces, masses and solids for the ContactGroup.
 #include "taut/world/private/contact_stage.h"
 
 #include <algorithm>
@@ -178,7 +178,8 @@ void ContactStage::addPiece(const Body& body, contact::ContactSurface& surface, 
     rigid_.addSolid({number, piece, marks, body.model.parts[part].thickness});
 }
 
-// Faces of rigid bodies would keep apart the points that joints hold together, and colliders those that they carry.
+// Excludes pairs of rigid bodies that a joint holds together, and of bodies and the colliders that carry them: contact
+// would work against the joint.
 // offsets: (surfaces) of their island's points.
 void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched) {
     std::vector<std::vector<int>> rigidAt(x1_.size());  // (points) bodies, by their first surface
@@ -259,7 +260,7 @@ void ContactStage::takeDamage() {
     drop();
 }
 
-// What is still has no inverse mass. Surfaces that sleep, or have slept until now, are told apart.
+// Points of islands that are still have no inverse mass. Marks the surfaces that sleep or have just woken.
 void ContactStage::takeMasses() {
     for (const Part& part : parts_) {
         const IslandPlan& plan = part.island->plan();

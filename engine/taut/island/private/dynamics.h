@@ -129,10 +129,9 @@ class Dynamics {
     virtual ode::Work work() const = 0;  // since the island was made or read
 
     // velocities(): as the method stores them. velocitiesAt(): at t [s], which may cost an evaluation. synchronise():
-    // stores those at t. Contacts with colliders at t cancel, point by point, what forces have added since the stored
-    // velocities. What other bodies press on keeps still in velocitiesAt(), which is for reports. synchronise() leaves
-    // that to the impulses of the next step, which push both sides alike: only one of the two islands may change its
-    // step.
+    // stores those at t. Contacts with colliders at t remove, point by point, the velocity into the collider that
+    // forces have added since. velocitiesAt(), for reports, also adds the pressure of other bodies. synchronise() does
+    // not: its island may be the only one of the two, and impulses conserve momentum only if both sides get them.
     virtual std::vector<dvec3> velocities() const = 0;
     virtual void velocities(std::span<dvec3> v) const = 0;
     virtual std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts,

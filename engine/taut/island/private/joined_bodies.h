@@ -6,8 +6,8 @@
 //
 // In turns a pin would move one point of little mass, and its body by that share alone: chains and heavy loads do not
 // settle so. Here the impulses p of all pairs solve one symmetric system, A p = x_b - x_a, by conjugate gradients. It
-// is the linear part of the motion, so a few solves follow each other. What keeps one place of two bodies together
-// keeps the distance of any other place from it: the second pin of a hinge holds across the axle only. Points get p
+// is the linear part of the motion, so a few solves follow each other. A pin of two bodies already fixes the
+// distance of any other place from it, so the second pin of a hinge acts across the axle only. Points get p
 // over their own mass, from which their bodies find theirs. No body gains momentum by it.
 #pragma once
 

@@ -137,7 +137,7 @@ void ContactGroup::step(const Step& step) {
     moved_.clear();
     if (!hasRows()) return;
     solveActive(step);
-    result_.impulses = std::max(result_.impulses, countImpulses());
+    result_.impulses = std::max(result_.impulses, solver_.countImpulses());
     if (options_.untangles && !crossings_.empty()) changeAsBodies(step.x0, u_, v_, [&] { untangle(); });
     handOver(step, applyVelocities(step));
     makeAscending(moved_);
@@ -225,13 +225,6 @@ void ContactGroup::solveActive(const Step& step) {
         load(step);
         solver_.step(step.x0, start_, u_, v_);
     }
-}
-
-int ContactGroup::countImpulses() const {
-    int count = 0;
-    forEachPressing([&](const ContactConstraint&, double, const dvec3&) { ++count; });
-    forEachOnCollider([&](std::size_t k, double, const dvec3&) { count += block_.kinematic[k].isWhole ? 1 : 0; });
-    return count;
 }
 
 // Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw

@@ -159,8 +159,7 @@ class ContactGroup {
     void beginRows();                    // active_ -> rows of solver_
     void load(const Step& step);         // -> u0_, u_, start_
     void solveActive(const Step& step);  // -> u_, v_
-    int countImpulses() const;
-    bool findSqueezed();  // active_ -> squeezed_
+    bool findSqueezed();                 // active_ -> squeezed_
     int rankOf(const ContactConstraint& pair) const;
     bool isLetThrough(const ContactConstraint& pair) const;
     void untangle();                                           // crossings_ -> u_, v_
@@ -185,7 +184,8 @@ class ContactGroup {
     ContactConstraint constraintOf(const Measured& measured, const NarrowPhaseScratch& scratch,
                                    std::span<const dvec3> x0) const;
     double convexity(const ContactConstraint& pair, std::int64_t where, std::span<const dvec3> x) const;
-    bool meetInside(const ContactConstraint& pair, std::int64_t where) const;
+    bool meetInside(const CandidatePair& pair, bool isPoint, const std::array<double, 4>& weights,
+                    std::int64_t where) const;
     bool isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const;
     bool isTangled(const ContactConstraint& pair) const;
     static double slackOf(const ContactConstraint& pair, const dvec3& way, std::span<const dvec3> x1);

@@ -133,8 +133,9 @@ int projectedGaussSeidel(std::span<Row> rows, int sweeps, double tolerance, std:
     return taken;
 }
 
-RowPacks::RowPacks(std::span<const Row> rows, std::span<const double> gaps, std::size_t slotCount, const Levers& levers)
-    : rowCount_(static_cast<int>(rows.size())) {
+void RowPacks::take(std::span<const Row> rows, std::span<const double> gaps, std::size_t slotCount,
+                    const Levers& levers) {
+    rowCount_ = static_cast<int>(rows.size());
     thread_local Scratch scratch;
     packInto(packs_, rows, gaps, slotCount, levers, scratch);
 }

@@ -137,7 +137,7 @@ struct Sweeps {
 class RowPacks {
   public:
     // gaps (rows) [m]: a row may close by the rest of its gap, in addition to `closing`.
-    RowPacks(std::span<const Row> rows, std::span<const double> gaps, std::size_t slotCount, const Levers& levers);
+    void take(std::span<const Row> rows, std::span<const double> gaps, std::size_t slotCount, const Levers& levers);
     // One step of h [s]. As projectedGaussSeidel(), from the impulses of the step before. gone (slots) [m]: since the
     // gaps were measured.
     void sweep(int sweeps, double tolerance, double h, std::span<Four> velocities, std::span<const Four> gone,
@@ -148,7 +148,7 @@ class RowPacks {
   private:
     std::vector<Pack> packs_;
     std::vector<double> perRow_;
-    int rowCount_;
+    int rowCount_ = 0;
 };
 
 }  // namespace taut::contact

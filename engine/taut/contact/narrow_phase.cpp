@@ -162,15 +162,16 @@ double ContactGroup::convexity(const ContactConstraint& pair, std::int64_t where
 
 // Whether the closest places of two edges are inside both edges. Pairs of points and triangles handle the ends of a
 // triangle's edges. The ends of lines push here too, because two ropes have no triangles.
-bool ContactGroup::meetInside(const ContactConstraint& pair, std::int64_t where) const {
-    if (pair.isPoint || where != 0) return true;
+bool ContactGroup::meetInside(const CandidatePair& pair, bool isPoint, const std::array<double, 4>& weights,
+                              std::int64_t where) const {
+    if (isPoint || where != 0) return true;
     const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],
                &second = elements_.edges()[static_cast<std::size_t>(pair.b)];
     const bool isRigidFirst = elements_.isRigid(first.surface), isRigidSecond = elements_.isRigid(second.surface);
     if (!isRigidFirst && !isRigidSecond) return first.isLine || second.isLine;
     // The ends of a rigid edge meet triangles as corners. The ends of a soft line meet the collider's faces elsewhere.
     const Edge& soft = isRigidFirst ? second : first;
-    const double share = isRigidFirst ? -pair.weights[3] : pair.weights[1];
+    const double share = isRigidFirst ? -weights[3] : weights[1];
     return soft.isLine && share > 0 && share < 1;
 }
 
@@ -205,24 +206,29 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     // The leaves do not move enough in this block to close the gap.
     const double motion = (1 + rounding) * list.relativeMotion;
     if (gap > std::max(activeShare * candidate.thickness, motion)) return;
-    if (!mayPress && distance > motion + watchShare * candidate.thickness) return;
 
     // Active pairs are closed or closing along the normal, on a feature of their own, and do not pass by. Cheap tests
     // come first.
-    ContactConstraint pair = constraintOf(measured, scratch, x0);
+    const bool needsCertificate = distance <= motion + watchShare * candidate.thickness;
     const std::int64_t where = batch.where(measured.slot);
+    const std::array<double, 4> weights = batch.weights(measured.slot);
+    const bool mayPush = mayPress && meetInside(candidate, isPoint, weights, where);
+    if (!mayPush && !needsCertificate) return;
     dvec3 way(0.0);
     for (std::size_t k = 0; k < 4; ++k) {
-        const auto i = static_cast<std::size_t>(pair.points[k]);
-        way += pair.weights[k] * (x1[i] - x0[i]);
+        const auto i = static_cast<std::size_t>(candidate.points[k]);
+        way += weights[k] * (x1[i] - x0[i]);
     }
-    const bool isClosed = gap < activeShare * pair.thickness;
-    const double closing = (block_.steps > 1 ? openWay : 1.0) * -glm::dot(pair.normal, way);
-    const bool mayPush = mayPress && meetInside(pair, where) && (isClosed || gap < closing);
-    if (mayPush) pair.recovery = convexity(pair, where, x0);
-    pair.isActive = mayPush && pair.recovery >= 0 && (isClosed || !misses(pair, x0, x1, 1.0 - activeShare));
-
-    if (!pair.isActive && distance > motion + watchShare * pair.thickness) return;
+    const bool isClosed = gap < activeShare * candidate.thickness;
+    const auto closing = [&](const dvec3& normal) {
+        return (block_.steps > 1 ? openWay : 1.0) * -glm::dot(normal, way);
+    };
+    if (!needsCertificate && !isClosed && !(gap < closing(batch.separation(measured.slot) / distance))) return;
+    ContactConstraint pair = constraintOf(measured, scratch, x0);
+    const bool pushes = mayPush && (isClosed || gap < closing(pair.normal));
+    if (pushes) pair.recovery = convexity(pair, where, x0);
+    pair.isActive = pushes && pair.recovery >= 0 && (isClosed || !misses(pair, x0, x1, 1.0 - activeShare));
+    if (!pair.isActive && !needsCertificate) return;
     if (!crossings_.empty() && isTangled(pair)) return;
     const ContactSurface &a = elements_.surface(elements_.surfaceOf(pair.points[0])),
                          &b = elements_.surface(elements_.surfaceOf(pair.points[3]));

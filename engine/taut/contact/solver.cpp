@@ -418,7 +418,8 @@ void ContactSolver::remember() {
     std::sort(last_.begin(), last_.end(), [](const LastImpulse& a, const LastImpulse& b) { return a.key < b.key; });
 }
 
-void ContactSolver::tellImpulses() {
+void ContactSolver::tellImpulses() const {
+    if (std::exchange(areTold_, true)) return;
     impulses_.assign(block_.pairs.size() + block_.kinematic.size(), 0.0);
     frictions_.assign(impulses_.size(), dvec3(0.0));
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -429,6 +430,13 @@ void ContactSolver::tellImpulses() {
         impulses_[source] += row.impulse.of[3];
         frictions_[source] = vectorOf(row.impulse);
     }
+}
+
+int ContactSolver::countImpulses() const {
+    int count = 0;
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        count += isLikePair(rows_[r]) && rows_[r].impulse.of[3] + bounces_[r] > 0 ? 1 : 0;
+    return count;
 }
 
 void ContactSolver::begin(const SolverBlock& block) {
@@ -463,7 +471,7 @@ void ContactSolver::step(std::span<const dvec3> x, std::span<const dvec3> start,
     before_ = u_;
     forEachCluster([&](Cluster& cluster) { sweep(cluster); });
     store(x, u, v);
-    tellImpulses();
+    areTold_ = false;
     ++step_;
 }
 

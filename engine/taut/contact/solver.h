@@ -45,6 +45,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -132,6 +133,7 @@ class ContactSolver {
     void clear() {
         impulses_.clear();
         frictions_.clear();
+        areTold_ = true;
     }
 
     // After begin().
@@ -139,8 +141,15 @@ class ContactSolver {
     int clusters() const { return static_cast<int>(clusters_.size()); }
     // After step().
     // (pairs, then contacts with colliders) [N s] along the normal, and tangential, on the first side or the point.
-    std::span<const double> impulses() const { return impulses_; }
-    std::span<const dvec3> frictions() const { return frictions_; }
+    std::span<const double> impulses() const {
+        tellImpulses();
+        return impulses_;
+    }
+    std::span<const dvec3> frictions() const {
+        tellImpulses();
+        return frictions_;
+    }
+    int countImpulses() const;  // of pairs, and of contacts of whole bodies with colliders
     bool hasBounced() const {
         return std::any_of(
             bounces_.begin(), bounces_.end(), [](double size) { return size > 0; });
@@ -156,7 +165,7 @@ class ContactSolver {
         std::size_t first, last;         // of rows_
         double tolerance;                // [m/s] smaller changes end the sweeps
         std::vector<RigidSlots> solids;  // ascending by slot
-        std::optional<RowPacks> packs;   // of one without solids
+        RowPacks* packs = nullptr;       // of one without solids
     };
     struct LastImpulse {
         std::uint64_t key;
@@ -202,7 +211,7 @@ class ContactSolver {
     void correctPositions(const Cluster& cluster);
     template <class Each>
     void forEachCluster(const Each& each);
-    void tellImpulses();
+    void tellImpulses() const;
     void remember();
     int root(int point);
     std::span<Row> rowsOf(const Cluster& cluster) {
@@ -216,9 +225,10 @@ class ContactSolver {
     std::vector<std::uint64_t> keys_;   // (rows) the same for the same contact in every block
     std::vector<double> gaps_, bases_;  // (rows) [m] as the block began; [m/s] closing without them
     std::vector<Cluster> clusters_;
-    std::vector<int> parent_;   // (points) union-find; -1: in no pair
-    std::vector<int> touched_;  // points that move those of pairs, ascending
-    std::vector<int> slots_;    // (points) of those touched that move
+    std::deque<RowPacks> packs_;  // (clusters) they keep their memory from block to block
+    std::vector<int> parent_;     // (points) union-find; -1: in no pair
+    std::vector<int> touched_;    // points that move those of pairs, ascending
+    std::vector<int> slots_;      // (points) of those touched that move
     std::vector<std::pair<int, int>> moving_,
         fixed_;                                  // slot and point, of what moves and is of no solid; that does not
     std::vector<std::pair<int, dvec3>> driven_;  // slot and velocity of colliders
@@ -249,10 +259,12 @@ class ContactSolver {
     std::vector<std::uint64_t> taken_;        // (slots) scratch: colours
     std::vector<LastImpulse> last_;           // ascending by key
     bool anyBounces_ = false;
-    std::vector<double> bounces_;   // (rows) [N s]
-    std::vector<double> impulses_;  // (pairs, contacts with colliders)
-    std::vector<dvec3> frictions_;  // likewise
-    int step_ = 0;                  // of the block
+    std::vector<double> bounces_;  // (rows) [N s]
+    // (pairs, contacts with colliders) Of the last step; found when somebody asks.
+    mutable std::vector<double> impulses_;
+    mutable std::vector<dvec3> frictions_;
+    mutable bool areTold_ = true;
+    int step_ = 0;  // of the block
 };
 
 }  // namespace taut::contact

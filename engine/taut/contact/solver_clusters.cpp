@@ -129,10 +129,13 @@ void ContactSolver::findClusters() {
             {bodies_[s].slot, own.mass, glm::inverse(own.inverseInertia)});
     }
     for (Cluster& cluster : clusters_)
-        if (cluster.solids.empty())
-            cluster.packs.emplace(rowsOf(cluster),
-                                  std::span(gaps_).subspan(cluster.first, cluster.last - cluster.first), u_.size(),
-                                  levers());
+        if (cluster.solids.empty()) {
+            const auto number = static_cast<std::size_t>(&cluster - clusters_.data());
+            while (packs_.size() <= number) packs_.emplace_back();
+            cluster.packs = &packs_[number];
+            cluster.packs->take(rowsOf(cluster), std::span(gaps_).subspan(cluster.first, cluster.last - cluster.first),
+                                u_.size(), levers());
+        }
     v_.resize(u_.size());
     gone_.assign(u_.size(), Four{});
 }

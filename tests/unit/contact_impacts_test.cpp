@@ -14,7 +14,8 @@ void solveOnce(ContactSolver& solver, SolverBlock block, std::span<dvec3> u, std
     block.x = x;
     solver.begin(block);
     solver.step(x, std::vector<dvec3>(u.begin(), u.end()), u, v);
-    solver.end(x, shift);
+    solver.findShift(shift);
+    solver.end();
 }
 
 // A point of m1 against the middle of a triangle of m2 in three equal corners: what counts of the triangle there is m2.

@@ -58,15 +58,15 @@ void ContactGroup::drop() {
     isCertified_ = false;
 }
 
-void ContactGroup::rewind(std::span<const dvec3> from, std::span<const dvec3> to) {
+void ContactGroup::rewind(std::span<const dvec3> from, std::span<const dvec3> to, std::span<const KeptForce> kept) {
     broadPhase_.advance(from, to);
-    solver_.forget();
+    solver_.startFrom(kept);
     isCertified_ = crossings_.empty();
     xCertified_.assign(to.begin(), to.end());
 }
 
-void ContactGroup::begin(std::span<const dvec3> x) {
-    solver_.forget();
+void ContactGroup::begin(std::span<const dvec3> x, std::span<const KeptForce> kept) {
+    solver_.startFrom(kept);
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) marks_[static_cast<std::size_t>(i)] = unmarked;
     if (isCertified_ && std::equal(x.begin(), x.end(), xCertified_.begin(), xCertified_.end()))
@@ -127,10 +127,13 @@ bool ContactGroup::hasRows() const {
 }
 
 void ContactGroup::beginRows() {
+    for (const int i : solver_.points()) shift_[static_cast<std::size_t>(i)] = dvec3(0.0);
     solver_.clear();
     SolverBlock own{active_, block_.kinematic, block_.inverseMass, block_.x0, block_.h, block_.steps, options_.solver};
     own.options.restSpeed = std::max(own.options.restSpeed, block_.restSpeed);
     solver_.begin(own);
+    solver_.findShift(shift_);
+    for (const int i : solver_.points()) shift_[static_cast<std::size_t>(i)] /= block_.steps;
 }
 
 void ContactGroup::step(const Step& step) {
@@ -145,12 +148,10 @@ void ContactGroup::step(const Step& step) {
 }
 
 bool ContactGroup::close(std::span<dvec3> x, std::span<dvec3> v) {
-    const Step whole{block_.x0, x, v, {}};
     moved_ = result_.moved;
     if (!hasRows()) return certify(x, v);
-    const std::vector<int> corrected = correctPositions(whole);
-    handOver(whole, corrected);
-    return certify(x, v) || !corrected.empty();
+    solver_.end();
+    return certify(x, v);
 }
 
 // Points are not where they were expected. Rounds until every pair has a certificate: the first use slide apart, the
@@ -228,7 +229,7 @@ void ContactGroup::solveActive(const Step& step) {
 }
 
 // Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw
-// it out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others
+// it out. Of squeezed points only the driven surface of the lowest rank kept on, if there are several; the others
 // may go through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster
 // than its softness explains. Returns whether any is, beyond those known.
 bool ContactGroup::findSqueezed() {
@@ -296,8 +297,8 @@ std::vector<int> ContactGroup::applyVelocities(const Step& step) const {
     const auto apply = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         if (!(block_.inverseMass[k] > 0)) return;
-        if (u_[k] == u0_[k] && v_[k] == step.v[k]) return;
-        step.x1[k] += block_.h * (u_[k] - u0_[k]);
+        if (u_[k] == u0_[k] && v_[k] == step.v[k] && shift_[k] == dvec3(0.0)) return;
+        step.x1[k] += block_.h * (u_[k] - u0_[k]) + shift_[k];
         step.v[k] = v_[k];
         moved.push_back(i);
     };
@@ -311,21 +312,6 @@ std::vector<int> ContactGroup::applyVelocities(const Step& step) const {
     for (const Solid& solid : solids_) points.insert(points.end(), solid.points.begin(), solid.points.end());
     makeAscending(points);
     for (int i : points) apply(i);
-    return moved;
-}
-
-// Takes overlap back -> x1; the moved points.
-std::vector<int> ContactGroup::correctPositions(const Step& step) {
-    const auto clear = [&](int i) { shift_[static_cast<std::size_t>(i)] = dvec3(0.0); };
-    for (const int i : solver_.points()) clear(i);
-    solver_.end(step.x1, shift_);
-    std::vector<int> moved;
-    for (const int i : solver_.points()) {
-        const auto k = static_cast<std::size_t>(i);
-        if (!(block_.inverseMass[k] > 0) || shift_[k] == dvec3(0.0)) continue;
-        step.x1[k] += shift_[k];
-        moved.push_back(i);
-    }
     return moved;
 }
 

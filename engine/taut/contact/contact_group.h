@@ -1,9 +1,9 @@
 // A block of steps of contact: it keeps surfaces from going through themselves and each other while they move.
 //
 //     open()                                     step(), in each step                  close()
-//     where points are, and where they may       impulses that let no row close        position correction;
-//     come to: broad and narrow phase find       more than its gap, before the         certificate for all pairs
-//     the pairs that may meet --> rows           points have gone anywhere             that came into reach
+//     where points are, and where they may       impulses that let no row close        certificate for all pairs
+//     come to: broad and narrow phase find       more than its gap, before the         that came into reach
+//     the pairs that may meet --> rows           points have gone anywhere
 //       |________________________________________|____|____|____|____|____|________________|
 //                                  rows are frozen: pair, weights, normal
 //
@@ -17,10 +17,10 @@
 // by the rest of their gap in one step, and no root of a cubic is sought (compare Bridson, Fedkiw and Anderson 2002,
 // which finds the time of impact).
 //
-// No memory beyond a tick. The solver starts from the impulses of the last block of the same tick, and a tick's first
-// block from 0: begin() forgets them. The broad phase keeps lists from block to block, but a list only
-// selects pairs to measure, and never leaves out a pair in reach (broad_phase.h). So the result of a tick depends on
-// its start alone. A restored world that has no lists yet goes on with the same bits.
+// Memory. The solver starts from the forces of the last block, and a tick's first block from those that begin() is
+// given: they are part of the state. The broad phase keeps lists from block to block, but a list only selects pairs to
+// measure, and never leaves out a pair in reach (broad_phase.h). So the result of a tick depends on its start alone. A
+// restored world that has no lists yet goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
 // in the block (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as
@@ -105,19 +105,22 @@ class ContactGroup {
     // Forgets all lists. Call it when points have jumped, or elements were removed.
     void drop();
     // Call it before the tick is repeated: the points went back from `from` to `to`, without contact.
-    void rewind(std::span<const dvec3> from, std::span<const dvec3> to);
+    void rewind(std::span<const dvec3> from, std::span<const dvec3> to, std::span<const KeptForce> kept = {});
     // Call it before the blocks of a tick. It finds the edges that pierce triangles; their pairs are untangled in
     // this tick, not solved. Where the last tick began without any and was certified, there are none while the points
     // are where it left them.
-    void begin(std::span<const dvec3> x);
+    void begin(std::span<const dvec3> x, std::span<const KeptForce> kept = {});
+    std::span<const KeptForce> keptForces() const {
+        return solver_.keptForces();
+    }  // at the end of the last block, for begin()
     // A block, see above. A block without rows needs no step().
     // Returns the number of steps of the block, from one to the requested number.
     int open(const Block& block);
     bool hasRows() const;
     void step(const Step& step);
     bool hasBounced() const { return solver_.hasBounced(); }  // in the last step
-    // The whole block, from its x0: takes overlap back, and gives all pairs a certificate. certify() does the latter
-    // again, where something else has moved points since. Both return whether they moved any.
+    // The whole block, from its x0: gives all pairs a certificate. certify() does so again, where something else has
+    // moved points since. Both return whether they moved any.
     bool close(std::span<dvec3> x, std::span<dvec3> v);
     bool certify(std::span<dvec3> x, std::span<dvec3> v);
     // After both: the lists of pairs live on.
@@ -144,7 +147,7 @@ class ContactGroup {
             if (solver_.impulses()[p] > 0) each(p - active_.size(), solver_.impulses()[p], solver_.frictions()[p]);
     }
     // Points that parts of driven surfaces closed upon in the last block, ascending; with them the rank that still
-    // presses.
+    // kept.
     const std::map<int, int>& squeezed() const { return squeezed_; }
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
     std::size_t activeCount() const { return active_.size(); }  // pairs that went to the solver
@@ -164,7 +167,6 @@ class ContactGroup {
     bool isLetThrough(const ContactConstraint& pair) const;
     void untangle();                                           // crossings_ -> u_, v_
     std::vector<int> applyVelocities(const Step& step) const;  // u_, v_ -> x1, v; the moved points
-    std::vector<int> correctPositions(const Step& step);
     std::vector<int> changeAsBodies(std::span<const dvec3> x, std::span<dvec3> a, std::span<dvec3> b,
                                     const std::function<void()>& change) const;
     std::vector<int> movedBy(std::span<const int> points) const;
@@ -213,7 +215,7 @@ class ContactGroup {
         int lowest = 1 << 30, highest = -1;  // rank
     };
     std::vector<Pressed> pressed_;  // (points) scratch, as new between uses
-    std::map<int, int> squeezed_;   // points; the rank of the driven surface that still presses, -1: none
+    std::map<int, int> squeezed_;   // points; the rank of the driven surface that still kept, -1: none
     Block block_;
     // (points) [m/s] mean velocity in the step before and after the solver; [m/s] velocity at its start; [m/s] stored
     // velocity after it; [m] position correction. Set where active pairs or crossings have points.

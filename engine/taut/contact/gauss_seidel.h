@@ -93,7 +93,6 @@ struct Row {
 
 // Meaning of the initial impulses of rows: a guess, applied to the velocities, or those of the step before.
 enum class Start { guessed, applied, kept };
-inline constexpr double keptShare = 0.95;  // of the impulses of the step before
 
 // Changes the velocities (slots) [m/s], last 0, by the impulses. It ends after `sweeps`, or when a sweep changes no
 // velocity by `tolerance` [m/s]. Returns the number of sweeps.

@@ -221,7 +221,7 @@ inline double slope(const Sweeps& batch, double share) {
     return sumOf(batch);
 }
 
-// Begins a step: what is left of the gaps, and a share of the impulses of the step before.
+// Begins a step: what is left of the gaps, and the impulses of the step before.
 inline void startStep(const Sweeps& batch) {
     const Lanes none{};
     for (int p = 0; p < batch.packCount; ++p) {
@@ -229,10 +229,7 @@ inline void startStep(const Sweeps& batch) {
         const Lanes gap = load(pack.gap) + dot(load(pack.normal), relativeVelocity(pack, batch, batch.gone));
         store(pack.closing, load(pack.base) + (gap > none ? batch.perSecond * gap : none));
         Lanes impulse[4];
-        for (int k = 0; k < 4; ++k) {
-            impulse[k] = keptShare * load(pack.impulse[k]);
-            store(pack.impulse[k], impulse[k]);
-        }
+        for (int k = 0; k < 4; ++k) impulse[k] = load(pack.impulse[k]);
         apply(pack, impulse, batch);
     }
 }

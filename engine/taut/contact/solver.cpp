@@ -14,6 +14,7 @@ namespace {
 using glm::dmat3;
 
 constexpr double fastestOut = 1.0;        // [m/s] limit of the position correction
+constexpr double slopShare = 0.2;         // of the thickness: by which pairs of deformable bodies may overlap
 constexpr std::size_t parallelRows = 64;  // fewer rows are solved on one thread, which is faster
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
 constexpr int sweepsOfSolids = 60;       // of a step
@@ -328,14 +329,15 @@ void ContactSolver::addRow(int source) {
     gaps_.push_back(gap);
     bases_.push_back(row.closing);
     const auto last = std::lower_bound(last_.begin(), last_.end(), key,
-                                       [](const LastImpulse& l, std::uint64_t wanted) { return l.key < wanted; });
-    if (last == last_.end() || last->key != key) return;
+                                       [](const KeptForce& l, std::uint64_t wanted) { return l.key < wanted; });
+    if (last == last_.end() || last->key != key || (beginsTick_ && !solidTerms_.empty())) return;
     // Friction turns with the plane of the contact.
     const dvec3 normal = vectorOf(row.normal);
-    dvec3 friction = vectorOf(last->impulse);
-    friction = withinCone(friction - glm::dot(friction, normal) * normal, row.friction * last->impulse.of[3]);
-    row.impulse = {{friction.x, friction.y, friction.z, last->impulse.of[3]}};
-    if (row.roll >= 0) rolls_.back().impulse = last->twist;
+    const double impulse = block_.h * last->force.of[3];
+    dvec3 friction = block_.h * vectorOf(last->force);
+    friction = withinCone(friction - glm::dot(friction, normal) * normal, row.friction * impulse);
+    row.impulse = {{friction.x, friction.y, friction.z, impulse}};
+    if (row.roll >= 0) rolls_.back().impulse = four(block_.h * vectorOf(last->torque));
 }
 
 // [m] The gap of a row before this step.
@@ -352,8 +354,7 @@ double ContactSolver::openGap(std::size_t row) const {
 
 void ContactSolver::sweep(Cluster& cluster) {
     if (!cluster.packs) return sweepSolids(cluster);
-    const int most = step_ == 0 ? block_.options.sweeps : block_.options.moreSweeps;
-    cluster.packs->sweep(most, cluster.tolerance, block_.h, u_, gone_, levers());
+    cluster.packs->sweep(block_.options.sweeps, cluster.tolerance, block_.h, u_, gone_, levers());
     cluster.packs->read(rowsOf(cluster));
 }
 
@@ -375,8 +376,8 @@ void ContactSolver::sweepSolids(const Cluster& cluster) {
     projectedGaussSeidel(rows, sweepsOfSolids, tolerance, u_, levers(), Start::applied);
 }
 
-// Solves 0 <= multiplier  ⊥  n·shift - target >= 0, for the pairs that overlap or have an impulse. Pairs that do not
-// overlap have the target 0, so that a correction does not press them together, nor into colliders.
+// Solves 0 <= multiplier  ⊥  n·shift - target >= 0, for the pairs that overlap, press or nearly touch. Pairs that do
+// not overlap have the target 0, so that a correction does not press them together, nor into colliders.
 void ContactSolver::correctPositions(const Cluster& cluster) {
     thread_local std::vector<Row> rows;
     rows.clear();
@@ -385,16 +386,20 @@ void ContactSolver::correctPositions(const Cluster& cluster) {
         const Row& row = rows_[r];
         double target = 0;
         if (isLikePair(row)) {
-            const auto source = static_cast<std::size_t>(row.source);
-            const bool isPair = source < block_.pairs.size();
-            const double gap = gapNow(r), share = isPair ? block_.pairs[source].recovery : 1.0;
-            // A bounce takes sides apart by itself, and without damping nothing takes up the work of a shift.
+            const auto source = static_cast<std::size_t>(row.source), pairCount = block_.pairs.size();
+            const bool isPair = source < pairCount;
+            const double thickness =
+                isPair ? block_.pairs[source].thickness : block_.kinematic[source - pairCount].thickness;
+            const double slop = slopShare * thickness;
+            if (gaps_[r] > slop && !(row.impulse.of[3] > 0)) continue;
             const double restitution =
-                isPair ? block_.pairs[source].restitution : block_.kinematic[source - block_.pairs.size()].restitution;
-            if (gap < 0)
-                target =
-                    std::min(-block_.options.recovery * (1 - restitution) * share * gap, fastestOut * block_.seconds());
-            if (!(target > 0) && !(row.impulse.of[3] > 0)) continue;
+                isPair ? block_.pairs[source].restitution : block_.kinematic[source - pairCount].restitution;
+            const double share = isPair ? block_.pairs[source].recovery : 1.0;
+            const double overlap = -gaps_[r] - (isPair && cluster.packs != nullptr ? slop : 0.0);
+            // A bounce takes sides apart by itself, and without damping nothing takes up the work of a shift.
+            if (overlap > 0)
+                target = std::min(block_.options.recovery * (1 - restitution) * share * overlap,
+                                  fastestOut * block_.seconds());
         }
         overlaps = overlaps || target > 0;
         Row& own = rows.emplace_back(row);
@@ -408,14 +413,19 @@ void ContactSolver::correctPositions(const Cluster& cluster) {
                              levers());
 }
 
-// Keeps the impulses for the next block -> last_.
-void ContactSolver::remember() {
+// Keeps the impulses for the next block, as forces -> last_.
+void ContactSolver::end() {
+    beginsTick_ = false;
     last_.clear();
+    const auto forceOf = [&](Four impulse) {
+        for (double& part : impulse.of) part /= block_.h;
+        return impulse;
+    };
     for (std::size_t r = 0; r < rows_.size(); ++r)
         if (const Row& row = rows_[r]; row.impulse.of[3] > 0)
-            last_.push_back(
-                {keys_[r], row.impulse, row.roll >= 0 ? rolls_[static_cast<std::size_t>(row.roll)].impulse : Four{}});
-    std::sort(last_.begin(), last_.end(), [](const LastImpulse& a, const LastImpulse& b) { return a.key < b.key; });
+            last_.push_back({keys_[r], forceOf(row.impulse),
+                             row.roll >= 0 ? forceOf(rolls_[static_cast<std::size_t>(row.roll)].impulse) : Four{}});
+    std::sort(last_.begin(), last_.end(), [](const KeptForce& a, const KeptForce& b) { return a.key < b.key; });
 }
 
 void ContactSolver::tellImpulses() const {
@@ -441,7 +451,6 @@ int ContactSolver::countImpulses() const {
 
 void ContactSolver::begin(const SolverBlock& block) {
     block_ = block;
-    step_ = 0;
     findClusters();
     const auto bounces = [](const auto& contact) { return contact.restitution > 0; };
     anyBounces_ = std::any_of(block.pairs.begin(), block.pairs.end(), bounces) ||
@@ -472,16 +481,14 @@ void ContactSolver::step(std::span<const dvec3> x, std::span<const dvec3> start,
     forEachCluster([&](Cluster& cluster) { sweep(cluster); });
     store(x, u, v);
     areTold_ = false;
-    ++step_;
 }
 
-void ContactSolver::end(std::span<const dvec3> x, std::span<dvec3> shift) {
-    load(x, shift, shift);
+void ContactSolver::findShift(std::span<dvec3> shift) {
+    load(block_.x, shift, shift);
     v_.assign(v_.size(), Four{});
     forEachCluster([&](const Cluster& cluster) { correctPositions(cluster); });
     before_ = u_;
-    store(x, shift, shift);
-    remember();
+    store(block_.x, shift, shift);
 }
 
 }  // namespace taut::contact

@@ -14,13 +14,14 @@
 // integrator stores, and the impulses are one more force of the step's kick: nothing is pumped into springs, however
 // stiff. For other methods the stored velocity is changed as u is.
 //
-// Deformable bodies need few sweeps per step, because each step starts from 0.95 of the impulses of the last one. The
-// full impulses would oscillate: two sheets at rest then jitter by 50 um, and by 15 um with 0.95. This start may raise
-// E for one step. Solids have no springs that absorb the rest, so they are swept until nothing changes. Several near
-// rest are solved at once (rigid_step.h).
+// Deformable bodies need two sweeps per step, because each step starts from the impulses of the last one, also across
+// ticks. This start may raise E for one step. Solids have no springs that absorb the rest, so they are swept until
+// nothing changes. Several near rest are solved at once (rigid_step.h).
 //
-// Position correction, once a block. A pair that overlaps (g < 0) is moved apart by a share of the overlap, as a shift
-// of places. The shift is no velocity, so it adds no energy of motion (split impulses, as in Bullet).
+// Position correction. A pair that overlaps (g < 0) is moved apart by a share of the overlap in a block, as a shift of
+// places, in equal parts in all its steps. The shift is no velocity, so it adds no energy of motion (split impulses, as
+// in Bullet). In one part it would strain springs at once. Deformable bodies may overlap by a fifth of their thickness:
+// a heap of towels that is moved until its layers barely touch never rests (2e-4 J in place of 5e-6 J).
 //
 // Clusters are sets of pairs that share movable points. They are solved in parallel, each in the order of its pairs:
 // the bits do not depend on threads. Large clusters are coloured: rows of one colour share no velocity
@@ -38,8 +39,10 @@
 // Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft:
 // they yield by a hundredth of the velocity that they take, which the position correction makes up for.
 //
-// The impulses of the last block are where the next one starts, as most contacts last longer than a block. They are
-// forgotten as a tick begins, so only the state of the islands outlives a tick.
+// The forces of the last block are where the next one starts, as most contacts last longer than a block. Those of
+// deformable bodies outlive a tick: from 0, every tick would begin with a small fall, and what lies would sink by 2 um a
+// tick. With them two sheets on the ground come to rest to the last bit. Solids are swept until they settle, and begin a
+// tick from 0.
 #pragma once
 
 #include <algorithm>
@@ -62,8 +65,7 @@
 namespace taut::contact {
 
 struct SolverOptions {
-    int sweeps = 20;         // of the first step of a block, at most; without solids
-    int moreSweeps = 4;      // of each of the other steps
+    int sweeps = 2;          // of a step, at most; without solids
     double settled = 1e-5;   // sweeps end when they change less than this share of the thickness per step [-]
     double recovery = 0.2;   // share of an overlap that is corrected in a block [-]
     double restSpeed = 0.0;  // [m/s] slower rows do not bounce
@@ -102,6 +104,12 @@ struct KinematicContact {
     }
 };
 
+// With which a contact pressed in the last step of a block.
+struct KeptForce {
+    std::uint64_t key = 0;   // of the contact
+    Four force{}, torque{};  // [N], [N m] as Row::impulse and Roll::impulse
+};
+
 // A block of steps as it begins. Its spans have to last until it ends.
 struct SolverBlock {
     std::span<const ContactConstraint> pairs;
@@ -121,15 +129,20 @@ class ContactSolver {
     // Changes u and v (points) [m/s] of a step that starts at x (points) [m] by the impulses. start (points) [m/s]: the
     // velocities at its start.
     void step(std::span<const dvec3> x, std::span<const dvec3> start, std::span<dvec3> u, std::span<dvec3> v);
-    // Ends the block, where points are at x. shift (points) [m] gets the position correction; expects 0.
-    void end(std::span<const dvec3> x, std::span<dvec3> shift);
+    // shift (points) [m] gets the position correction of the block; expects 0.
+    void findShift(std::span<dvec3> shift);
+    void end();
     // Which points keep their distances. Keeps the span.
     void setSolids(std::span<const Solid> solids, std::size_t pointCount);
     // Which go with others. u, v and shift of these stay: their movers' change. Keeps a reference.
     void setCarried(const CarriedPoints& carried) { carried_ = &carried; }
-    // The next block does not follow on the last.
-    void forget() { last_.clear(); }
-    // Nothing presses.
+    // Where the next block starts, and where the last one ended.
+    void startFrom(std::span<const KeptForce> kept) {
+        last_.assign(kept.begin(), kept.end());
+        beginsTick_ = true;
+    }
+    std::span<const KeptForce> keptForces() const { return last_; }
+    // Nothing kept.
     void clear() {
         impulses_.clear();
         frictions_.clear();
@@ -166,10 +179,6 @@ class ContactSolver {
         double tolerance;                // [m/s] smaller changes end the sweeps
         std::vector<RigidSlots> solids;  // ascending by slot
         RowPacks* packs = nullptr;       // of one without solids
-    };
-    struct LastImpulse {
-        std::uint64_t key;
-        Four impulse, twist;
     };
     const Solid* solidOf(int point) const;  // that moves; null: none
     bool isTouched(const Solid& solid) const;
@@ -212,7 +221,6 @@ class ContactSolver {
     template <class Each>
     void forEachCluster(const Each& each);
     void tellImpulses() const;
-    void remember();
     int root(int point);
     std::span<Row> rowsOf(const Cluster& cluster) {
         return {rows_.data() + cluster.first, cluster.last - cluster.first};
@@ -257,14 +265,14 @@ class ContactSolver {
     std::vector<SolidTerm> solidTerms_;
     std::vector<std::pair<int, int>> order_;  // cluster, source
     std::vector<std::uint64_t> taken_;        // (slots) scratch: colours
-    std::vector<LastImpulse> last_;           // ascending by key
+    std::vector<KeptForce> last_;             // ascending by key
+    bool beginsTick_ = true;
     bool anyBounces_ = false;
     std::vector<double> bounces_;  // (rows) [N s]
     // (pairs, contacts with colliders) Of the last step; found when somebody asks.
     mutable std::vector<double> impulses_;
     mutable std::vector<dvec3> frictions_;
     mutable bool areTold_ = true;
-    int step_ = 0;  // of the block
 };
 
 }  // namespace taut::contact

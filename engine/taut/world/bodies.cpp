@@ -45,6 +45,7 @@ void addIsland(WorldImpl& w, IslandPlan plan, const ForceList& current, const En
     w.islands.push_back(std::make_unique<Island>(std::move(plan), current, envelope, w.ticksPerSecond, w.seconds(),
                                                  w.keepsSteps, parts));
     w.contactStage.reset();
+    w.keptForces.clear();  // contacts get other keys
     for (Body* body : members) body->island = w.islands.back().get();
 }
 
@@ -123,6 +124,7 @@ void removeBody(WorldImpl& w, ecs::Entity entity) {
     const Island* island = &islandOf(body);
     TAUT_EXPECTS(island->plan().bodies.size() == 1);
     w.contactStage.reset();
+    w.keptForces.clear();  // contacts get other keys
     w.contactReport.forget(body);
     std::erase_if(
         w.islands, [&](const auto& other) { return other.get() == island; });

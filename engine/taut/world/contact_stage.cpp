@@ -162,7 +162,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
 
     // Crossings, and the number of steps. An island that keeps its step needs the largest number from the first tick.
     const auto start = Clock::now();
-    group_->begin(x1_);
+    group_->begin(x1_, keptForces_);
     if (anySleeps()) wakeCrossed(time);
     if (islands_.front()->keepsStep())
         takeSteps(time, mostSteps());
@@ -205,13 +205,14 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
         readAll();
         colliders_.place(0.0, x1_);
-        group_->rewind(xStart_, x1_);
+        group_->rewind(xStart_, x1_, keptForces_);
         if (!reached_.empty()) wake(time, reached_);
         if (!islands_.front()->keepsStep()) chooseSteps(time);
     }
 
     // Ends the tick.
     for (Island* island : islands_) island->endTick(time);
+    keptForces_.assign(group_->keptForces().begin(), group_->keptForces().end());
     reportAccelerations();
     pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostSteps() : room_);
     total_.detections += blocks_;

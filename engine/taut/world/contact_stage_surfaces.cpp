@@ -89,9 +89,13 @@ void carry(const CarriedSurface& own, const std::function<int(int)>& numberOf, c
 }
 
 ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec,
-                           const TickTime& now, StepFollowing& pace,
+                           const TickTime& now, StepFollowing& pace, std::vector<contact::KeptForce>& kept,
                            const std::function<std::vector<TouchedCollider>()>& colliders)
-    : spec_(spec), tickSeconds_(1.0 / now.ticksPerSecond), fewest_(fewestSteps(tickSeconds_)), pace_(pace) {
+    : spec_(spec),
+      tickSeconds_(1.0 / now.ticksPerSecond),
+      fewest_(fewestSteps(tickSeconds_)),
+      pace_(pace),
+      keptForces_(kept) {
     std::vector<contact::ContactSurface> surfaces;
     std::vector<dvec3> rest;
     std::vector<int> offsets;  // (bodies) of their island's points

@@ -180,6 +180,11 @@ void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied)
     if (touchesAny(w)) {
         w.contactPace.visit([&](auto& number) { bytes(number); });
         bytes.require(w.contactPace.isSound());
+        bytes.each(w.keptForces, [&](contact::KeptForce& own) {
+            bytes(own.key);
+            for (double* part : {own.force.of, own.torque.of})
+                for (int k = 0; k < 4; ++k) bytes(part[k]);
+        });
     }
     auto count = static_cast<std::uint64_t>(w.islands.size());
     bytes(count);

@@ -99,7 +99,7 @@ void makeContactStage(WorldImpl& w) {
     }
     if (w.contactStage && ties.value() == w.contactTies) return;
     w.contactTies = ties.value();
-    w.contactStage = std::make_unique<ContactStage>(w.islands, w.spec.contact, w.now(), w.contactPace,
+    w.contactStage = std::make_unique<ContactStage>(w.islands, w.spec.contact, w.now(), w.contactPace, w.keptForces,
                                                     [&w] { return touchedColliders(w); });
 }
 

@@ -23,9 +23,9 @@
 // block depends only on its places and velocities (contact_group.h). Clocks, threads and the age of lists have no
 // influence; wall time is measured for reports only.
 //
-// Restorable. All that outlives a tick is saved by its owner: the states of the islands, and the pace, which is the
-// number of substeps that divides all islands' substeps. The stage itself saves nothing. It is made anew when a body
-// comes or goes or a world is restored, and goes on with the same bits.
+// Restorable. All that outlives a tick is saved by its owner: the states of the islands, the forces of contacts, and
+// the pace, which is the number of substeps that divides all islands' substeps. The stage itself saves nothing. It is
+// made anew when a body comes or goes or a world is restored, and goes on with the same bits.
 #pragma once
 
 #include <functional>
@@ -62,11 +62,13 @@ void carry(const CarriedSurface& own, const std::function<int(int)>& numberOf, c
 
 class ContactStage {
   public:
-    // Takes the islands with bodies that may touch. Keeps references to them and to `pace`. The pace follows the number
-    // of steps needed, and each island's substeps are a multiple of it. Calls `colliders` if any body touches
+    // Takes the islands with bodies that may touch. Keeps references to them, to `pace` and to `kept`. The pace follows
+    // the number of steps needed, and each island's substeps are a multiple of it. The kept forces are those with which
+    // contacts pressed as the last tick ended. Calls `colliders` if any body touches
     // colliders.
     ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, const TickTime& now,
-                 StepFollowing& pace, const std::function<std::vector<TouchedCollider>()>& colliders);
+                 StepFollowing& pace, std::vector<contact::KeptForce>& kept,
+                 const std::function<std::vector<TouchedCollider>()>& colliders);
 
     bool isEmpty() const { return islands_.empty(); }
     std::span<Island* const> islands() const { return islands_; }
@@ -189,6 +191,7 @@ class ContactStage {
     double tickSeconds_;
     int fewest_;  // fewestSteps()
     StepFollowing& pace_;
+    std::vector<contact::KeptForce>& keptForces_;
     std::vector<Island*> islands_;
     std::vector<Part> parts_;               // (islands)
     std::vector<const Body*> bodies_;       // (surfaces)

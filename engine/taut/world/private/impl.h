@@ -67,6 +67,7 @@ struct WorldImpl {
     std::unique_ptr<ContactStage> contactStage;  // of bodies that touch; null: to be made anew
     std::uint64_t contactTies = 0;               // of bared faces and what holds, when the stage was made
     StepFollowing contactPace;                   // pace of the contact stage; saved
+    std::vector<contact::KeptForce> keptForces;  // of its contacts as the last tick ended; saved
     ContactReport contactReport;
 
     std::vector<Hand> hands;        // in the order of grabbing

@@ -250,7 +250,7 @@ class Growing {
 
     void addJoint(const Own& a, const Own& b) {
         if (isSolid(a) && choices_.oneIn(2)) {
-            addMounted(a.name, b.name, isSolid(b));
+            addMounted(a.name, isSolid(b) ? b.name : b.name + "@#0", isSolid(b));
             return;
         }
         const auto isCloth = [](const Own& own) { return own.name.starts_with("cloth"); };

@@ -250,7 +250,7 @@ class Growing {
 
     void addJoint(const Own& a, const Own& b) {
         if (isSolid(a) && choices_.oneIn(2)) {
-            addMounted(a.name, b.name, isSolid(b));
+            addMounted(a.name, isSolid(b) ? b.name : b.name + "@#0", isSolid(b));
             return;
         }
         const auto isCloth = [](const Own& own) { return own.name.starts_with("cloth"); };
@@ -260,8 +260,11 @@ class Growing {
             return;
         }
         const std::string kind = choices_.of({"spring", "weld", "rod"});
-        add({"[[joint]]\na = \"{}@{}\"\nb = \"{}@{}\"\nkind = \"{}\"\n", a.name, choices_.of(a.selectors), b.name,
-             choices_.of(b.selectors), kind});
+        const auto endOf = [&](const Own& own) {
+            return own.name + "@" + (isSolid(own) && choices_.oneIn(2) ? "centre" : choices_.of(own.selectors));
+        };
+        const std::string end = endOf(a);
+        add({"[[joint]]\na = \"{}\"\nb = \"{}\"\nkind = \"{}\"\n", end, endOf(b), kind});
         if (kind == "spring") add({"stiffness_N_per_m = {:.6g}\n", choices_.magnitude(1, 1e5)});
         if (kind == "weld") add({"reach_m = 2\n"});
     }

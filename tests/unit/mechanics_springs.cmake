@@ -5,6 +5,7 @@ list(APPEND TAUT_UNIT_TESTS
   mechanics_grid_friction_test.cpp
   mechanics_implicit_products_test.cpp
   mechanics_mass_spring_system_test.cpp
+  mechanics_place_springs_test.cpp
   mechanics_spring_kernel_test.cpp
   mechanics_spring_network_test.cpp
   mechanics_spring_watch_test.cpp

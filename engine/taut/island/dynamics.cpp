@@ -16,6 +16,8 @@
 #include "taut/mechanics/private/element_bending.h"
 #include "taut/mechanics/private/grid_bending.h"
 #include "taut/mechanics/private/grid_friction.h"
+#include "taut/mechanics/private/place_springs.h"
+#include "taut/plan/private/tie_ends.h"
 #include "taut/plan/private/ties.h"
 
 namespace taut::world {
@@ -104,6 +106,7 @@ class DynamicsOf final : public Dynamics {
             system_.add(std::move(generator));
         }
         if (forces.size() < 2) addInnerForces();
+        addPulls();
         firstGrip_ = system_.generators().size();
         addGrips();
     }
@@ -352,6 +355,32 @@ class DynamicsOf final : public Dynamics {
                               }
                           }});
         }
+    }
+
+    // Springs of constraints, whose places on colliders move with these.
+    void addPulls() {
+        std::vector<mechanics::PlaceSpring> springs;
+        for (const auto& constraint : plan_.constraints) {
+            const std::span<const int> points = constraint->points();
+            for (const Constraint::Pull& pull : constraint->pulls()) {
+                mechanics::PlaceSpring& spring = springs.emplace_back();
+                spring.stiffness = pull.stiffness;
+                spring.damping = pull.damping;
+                spring.length = pull.length;
+                for (const auto& [number, weight] : TieEnds::difference(pull.a, pull.b)) {
+                    const auto own = static_cast<std::size_t>(number);
+                    if (own < points.size())
+                        spring.shares.push_back({points[own], weight});
+                    else
+                        spring.second = [this, place = constraint->places()[own - points.size()]](double t) {
+                            const mechanics::PosePath::Frame frame = pathOf(plan_, place.collider).at(t);
+                            const dvec3 arm = frame.arm(place.offset);
+                            return mechanics::PlaceSpring::Place{frame.place + arm, frame.velocityOf(arm)};
+                        };
+                }
+            }
+        }
+        if (!springs.empty()) system_.add(std::make_unique<mechanics::PlaceSprings<Real>>(std::move(springs)));
     }
 
     // Adds the anchors of the other grips, as the last of the generators.

@@ -425,8 +425,11 @@ void Island::carry(const TickTime& time, const std::string& collider, const mech
         if (!goesOn(plan_.grips[g].path, path, time.start())) open(time);
         setPath(g, path);
     }
-    for (Carrier& carrier : plan_.carriers)
-        if (carrier.collider == collider) carrier.path = path;
+    for (Carrier& carrier : plan_.carriers) {
+        if (carrier.collider != collider) continue;
+        if (isAsleep() && !goesOn(carrier.path, path, time.start())) open(time);
+        carrier.path = path;
+    }
 }
 
 void Island::release(const TickTime& time, const std::function<bool(const JointTie&)>& wanted) {

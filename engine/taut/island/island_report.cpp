@@ -146,7 +146,8 @@ IslandInfo infoOf(const Island& island, const TickTime& time) {
     info.heldPoints = static_cast<int>(std::count(isHeld.begin(), isHeld.end(), true));
     info.points = static_cast<int>(plan.points.size());
     info.springs = static_cast<int>(plan.springs.size());
-    for (const auto& constraint : plan.constraints) info.constraints += constraint->count();
+    for (const auto& constraint : plan.constraints)
+        (constraint->pulls().empty() ? info.constraints : info.springs) += constraint->count();
     dynamics.describe(info);
     info.method = plan.solver.integrator;
     info.omegaBound = choice.anywhere.omega;

@@ -1,5 +1,6 @@
 // How an island comes to rest, sleeps, and what wakes it. Which islands sleep together is the world's to say.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -13,10 +14,6 @@ namespace {
 
 constexpr double stillShare = 0.01;    // of the error: how far a point may go in a window that friction holds
 constexpr double holdingShare = 0.98;  // of Coulomb's limit: up to there all friction of a solid holds it
-
-bool isOneSolid(const IslandPlan& plan) {
-    return plan.solids.size() == 1 && plan.solids[0].size() == plan.bodies.size() && plan.constraints.size() == 1;
-}
 
 // (points) The places of those that constraints hold in one place with others, as weighted sums of the remaining
 // points; empty if constraints do anything else.
@@ -39,25 +36,94 @@ std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t
     return leaders;
 }
 
-// Whether a rigid body stays: what presses it at places that are not on one line, or resists rolling, keeps it from
-// tipping, and all its friction from sliding. Their spread across the line is held against the size of the body.
-bool holdRigidly(std::span<const Island::Foothold> footholds, std::span<const dvec3> x) {
+// Whether a rigid body stays: the places where it is pressed or pinned are not on one line, or what presses it resists
+// rolling, which keeps it from tipping; and two pins that are apart, or all its friction, keep it from sliding.
+// Distances are held against the size of the body, x (its points) [m].
+bool staysPut(std::span<const Island::Foothold> footholds, std::span<const dvec3> pins, std::span<const dvec3> x) {
     constexpr double leastShare = 0.05;
-    double size = 0, length = 0, width = 0, friction = 0, limit = 0;
+    double size = 0, friction = 0, limit = 0;
     for (const dvec3& p : x) size = std::max(size, glm::distance(p, x[0]));
-    dvec3 line(0.0);  // from the first
+    std::vector<dvec3> places(pins.begin(), pins.end());
+    bool resistsRolling = false;
     for (const Island::Foothold& own : footholds) {
-        const dvec3 way = own.place - footholds[0].place;
-        if (glm::length(way) > length) length = glm::length(way), line = way / length;
+        places.push_back(own.place);
         friction += own.friction;
         limit += own.limit;
+        resistsRolling = resistsRolling || own.resistsRolling;
     }
-    for (const Island::Foothold& own : footholds)
-        width = std::max(width, glm::length(glm::cross(line, own.place - footholds[0].place)));
-    const bool staysUpright =
-        width > leastShare * size ||
-        std::any_of(footholds.begin(), footholds.end(), [](const Island::Foothold& own) { return own.resistsRolling; });
-    return staysUpright && limit > 0 && friction <= holdingShare * limit;
+    const auto lengthAndWidth = [](std::span<const dvec3> of) {
+        double length = 0, width = 0;
+        dvec3 line(0.0);  // from the first
+        for (const dvec3& place : of)
+            if (const dvec3 way = place - of[0]; glm::length(way) > length)
+                length = glm::length(way), line = way / length;
+        for (const dvec3& place : of) width = std::max(width, glm::length(glm::cross(line, place - of[0])));
+        return std::pair(length, width);
+    };
+    const bool isUpright = resistsRolling || lengthAndWidth(places).second > leastShare * size;
+    return isUpright &&
+           (lengthAndWidth(pins).first > leastShare * size || (limit > 0 && friction <= holdingShare * limit));
+}
+
+// Whether all bodies of an island are solids that stay: each is pressed, or pinned to a place that stays, where it has
+// to be. x (points) [m].
+bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Foothold> footholds,
+                std::span<const dvec3> x) {
+    constexpr double tautFrom = 1.0 - 1e-9;  // of the length of a leash
+    const std::vector<bool> isHeld = heldPointsOf(plan);
+    std::vector<int> solidOf(plan.points.size(), -1);
+    std::vector<std::vector<dvec3>> points(plan.solids.size()), heldAt = points;
+    for (std::size_t s = 0; s < plan.solids.size(); ++s)
+        for (const Body* body : plan.solids[s])
+            for (const int point : body->pointOf) {
+                solidOf[static_cast<std::size_t>(point)] = static_cast<int>(s);
+                points[s].push_back(x[static_cast<std::size_t>(point)]);
+                if (isHeld[static_cast<std::size_t>(point)]) heldAt[s].push_back(points[s].back());
+            }
+    if (std::count(solidOf.begin(), solidOf.end(), -1) > 0) return false;
+    // Pairs that are one, or as far apart as they may be: the solid at either end, none for a collider.
+    struct Pin {
+        std::array<int, 2> solids;
+        dvec3 place;
+    };
+    std::vector<Pin> pins;
+    for (const auto& constraint : plan.constraints) {
+        const std::span<const int> own = constraint->points();
+        std::vector<dvec3> at;  // as in Constraint::Moment
+        for (const int point : own) at.push_back(x[static_cast<std::size_t>(point)]);
+        for (const Constraint::Place& place : constraint->places()) {
+            const mechanics::PosePath::Frame frame = pathOf(plan, place.collider).at(t);
+            at.push_back(frame.place + frame.arm(place.offset));
+        }
+        const auto solidAt = [&](const Spot& end) {
+            const auto number = static_cast<std::size_t>(end.nearest());
+            return number < own.size() ? solidOf[static_cast<std::size_t>(own[number])] : -1;
+        };
+        for (const Constraint::Pair& pair : constraint->copy()->pairs(t))
+            if (pair.length == 0 ||
+                (pair.isMost && glm::distance(pair.a.of(at), pair.b.of(at)) > tautFrom * pair.length))
+                pins.push_back({{solidAt(pair.a), solidAt(pair.b)}, pair.a.of(at)});
+    }
+    std::vector<bool> stays(plan.solids.size(), false);
+    for (bool isAny = true; isAny;) {
+        isAny = false;
+        for (std::size_t s = 0; s < stays.size(); ++s) {
+            if (stays[s]) continue;
+            std::vector<Island::Foothold> pressed;
+            for (const Island::Foothold& foothold : footholds)
+                if (std::count(plan.solids[s].begin(), plan.solids[s].end(), foothold.body) > 0)
+                    pressed.push_back(foothold);
+            std::vector<dvec3> held = heldAt[s];
+            for (const auto& [ends, place] : pins)
+                for (const std::size_t own : {std::size_t{0}, std::size_t{1}})
+                    if (const int other = ends[1 - own];
+                        ends[own] == static_cast<int>(s) && (other < 0 || stays[static_cast<std::size_t>(other)]))
+                        held.push_back(place);
+            stays[s] = staysPut(pressed, held, points[s]);
+            isAny = isAny || stays[s];
+        }
+    }
+    return std::count(stays.begin(), stays.end(), false) == 0;
 }
 
 }  // namespace
@@ -75,21 +141,22 @@ void Island::watchRest(bool isMiddle) {
 
 // What a hand or a collider moves stays awake.
 bool Island::isCalm() {
-    const auto moves = [](const Grip& grip) { return grip.path.moves(); };
+    const auto moves = [](const auto& holder) { return holder.path.moves(); };
     return rest_.isCalm() && now_.inside.empty() && !isOpen_ &&
-           std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) && dynamics_->isSteady(forces_);
+           std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) &&
+           std::none_of(plan_.carriers.begin(), plan_.carriers.end(), moves) && dynamics_->isSteady(forces_);
 }
 
 // Points that constraints hold in one place move as one. What they hold otherwise has no stiffness, so it stays awake,
-// but for a solid by itself.
+// but for solids that stay where they are.
 bool Island::rests(double t, double seconds, std::vector<Support> supports, std::span<const Foothold> footholds) {
     const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
     const std::size_t n = plan_.points.size();
     dynamics_->positions(x_);
-    if (isOneSolid(plan_)) {
+    if (!plan_.solids.empty()) {
         for (std::size_t i = 0; i < n; ++i)
             if (const dvec3 v = rest_.velocity(i, x_[i], seconds); !(glm::dot(v, v) <= still * still)) return false;
-        return holdRigidly(footholds, x_);
+        return allStayPut(plan_, t, footholds, x_);
     }
     const auto leaders = leadersOf(plan_, t);
     if (leaders.empty()) return false;

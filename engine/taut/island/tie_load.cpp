@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/plan/constraint.h"
+#include "taut/plan/private/tie_ends.h"
+
 namespace taut::world {
 namespace {
 
@@ -24,6 +27,26 @@ dvec3 pullOf(const Grip& grip, const Dynamics& dynamics, double t) {
     return sum;
 }
 
+// [N] of a spring between places at t [s], as of one between points.
+double pullOf(const Constraint& constraint, int tie, const IslandPlan& plan, const Dynamics& dynamics, double t) {
+    const std::vector<Constraint::Pull> pulls = constraint.pulls();
+    if (pulls.empty()) return 0.0;
+    const std::span<const int> points = constraint.points();
+    dvec3 d(0.0);
+    const Constraint::Pull& pull = pulls[static_cast<std::size_t>(tie)];
+    for (const auto& [number, weight] : TieEnds::difference(pull.a, pull.b)) {
+        const auto own = static_cast<std::size_t>(number);
+        if (own < points.size()) {
+            d += weight * dynamics.position(points[own]);
+            continue;
+        }
+        const Constraint::Place& place = constraint.places()[own - points.size()];
+        const mechanics::PosePath::Frame frame = pathOf(plan, place.collider).at(t);
+        d += weight * (frame.place + frame.arm(place.offset));
+    }
+    return pull.stiffness * (std::sqrt(glm::dot(d, d)) - pull.length);
+}
+
 }  // namespace
 
 void TieLoad::begin(const IslandPlan& plan) {
@@ -39,6 +62,9 @@ void TieLoad::add(const IslandPlan& plan, const Dynamics& dynamics, double t) {
     for (std::size_t w = 0; w < watched_.size(); ++w) {
         const JointTie& tie = plan.ties[watched_[w]];
         for (const int s : tie.springs) sum_[w].x += pullOf(plan.springs[static_cast<std::size_t>(s)], dynamics);
+        for (const JointTie::Part& part : tie.parts)
+            sum_[w].x +=
+                pullOf(*plan.constraints[static_cast<std::size_t>(part.constraint)], part.tie, plan, dynamics, t);
         if (!tie.isGrip) continue;
         for (const Grip& grip : plan.grips)
             if (grip.tie == static_cast<int>(watched_[w])) sum_[w] += pullOf(grip, dynamics, t);

@@ -20,7 +20,6 @@ struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
     std::string_view title() const override { return "a weld"; }
     double reach() const override { return furthest; }
     bool isWeld() const override { return true; }
-    bool tiesPlaces() const override { return true; }
     void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
     void carry(IslandPlan& plan, const Spot& end, Grip grip) const override;
 };
@@ -42,7 +41,6 @@ struct RodJoint final : SpecOf<RodJoint, JointSpec> {
     static constexpr std::string_view kindName = "rod";
     std::string_view title() const override { return "a rod"; }
     bool tiesWithin() const override { return true; }
-    bool tiesPlaces() const override { return true; }
     void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const override;
     void carry(IslandPlan& plan, const Spot& end, Grip grip) const override;
 };

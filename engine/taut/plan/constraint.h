@@ -63,6 +63,12 @@ class Constraint {
         double speed = 0, most = 0;  // [rad/s] of b against a that a motor seeks, [N m] its largest torque; 0: none
     };
     virtual std::vector<Drive> drives() const { return {}; }
+    // A spring between two places, a force that holds nothing.
+    struct Pull {
+        Spot a, b;                                      // numbers as in Moment
+        double stiffness = 0, damping = 0, length = 0;  // [N/m], [kg/s], [m]; no stiffness: it has let go
+    };
+    virtual std::vector<Pull> pulls() const { return {}; }  // (ties), or none
     // The motion of its points, if they are one body that moves. The arrays as in Moment.
     virtual std::optional<core::RigidMotion> bodyAt(std::span<const dvec3> /*x*/, std::span<const dvec3> /*v*/,
                                                     std::span<const double> /*inverseMass*/) const {
@@ -78,7 +84,7 @@ class Constraint {
     };
     virtual std::vector<Pair> pairs(double /*t*/) { return {}; }
     // Its pairs, if from t [s] on all that it does is to hold each a, a point, in the place of b: in such an order that
-    // no b is the a of a later pair.
+    // no b is the a of a later pair. None if it holds nothing.
     virtual std::optional<std::vector<Pair>> joinedFrom(double /*t*/) const { return std::nullopt; }
 
     // Number of its ties, with those that have let go. They are numbered from 0.

@@ -81,6 +81,11 @@ void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::Pos
     if (!isThere) plan.carriers.push_back({collider, path});
 }
 
+const mechanics::PosePath& pathOf(const IslandPlan& plan, const std::string& collider) {
+    const auto isIt = [&](const Carrier& carrier) { return carrier.collider == collider; };
+    return std::find_if(plan.carriers.begin(), plan.carriers.end(), isIt)->path;
+}
+
 void takeSpringsFromModels(IslandPlan& plan) {
     for (std::size_t s = 0; s < plan.springs.size(); ++s) {
         const SpringOrigin& origin = plan.origins[s];

@@ -122,6 +122,8 @@ bool letGo(IslandPlan& plan, std::size_t tie);
 
 // Records that a place of a constraint is fixed to this collider, which moves on this path.
 void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::PosePath& path);
+// Its path. Expects that a place of a constraint is fixed to it.
+const mechanics::PosePath& pathOf(const IslandPlan& plan, const std::string& collider);
 
 // Takes stiffness, damping and drag from the models of the bodies again, for instance after a change.
 void takeSpringsFromModels(IslandPlan& plan);

@@ -66,10 +66,6 @@ std::vector<JointEnd> endsOf(const JointSide& side, const JointSpec& joint, cons
                         : std::nullopt)
                 found.push_back({scene.spotOf(number, *named), number, *named});
     }
-    if (!found.empty() && !joint.tiesPlaces() && !joint.isMounted())
-        throw Error(ErrorKind::badContent, at(joint.source) + std::string(joint.title()) +
-                                               " ties points of bodies, and \"" + side.text() +
-                                               "\" is a place between them; name points, such as a corner");
     if (found.empty())
         for (const PointRef& p : scene.named(side, joint.source))
             found.push_back({scene.global(p), p.body, scene.position(p)});
@@ -99,7 +95,9 @@ void addMounted(const JointSpec& joint, int ofScene, const ScenePoints& scene, C
         coupled.pairs.push_back({a.spot, b.spot, &joint, ofScene, 0.0});
         const bool isRigid = scene.body(other.body).spec->isRigid();
         const dvec3 there = isRigid ? other.place : scene.position(scene.refOf(other.spot.nearest()));
-        report.jump = std::max(report.jump, std::sqrt(glm::dot(there - place, there - place)));
+        const double away = glm::distance(there, place);
+        if (isRigid) expectAtPlace(joint, side, away);
+        report.jump = std::max(report.jump, away);
     }
 }
 

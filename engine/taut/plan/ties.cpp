@@ -22,6 +22,10 @@ void expectHolder(const std::string& collider, const Holders& holders, const Sou
         fail(source, "there is no " + collider + " to tie points to; add a table [" + collider + "]");
 }
 
+dvec3 placeOn(const collision::Pose& pose, const dvec3& offset) {
+    return pose.position + mechanics::PosePath::rotated(pose.rotation, offset);
+}
+
 // Points of the body's model, each once.
 std::vector<int> namedPoints(const JointSide& side, const Body& body) {
     std::vector<int> points;
@@ -35,7 +39,7 @@ std::vector<int> namedPoints(const JointSide& side, const Body& body) {
 
 // Whether a body ends at the place of a joint, and not at points of its own.
 bool endsAtPlace(const JointSpec& joint, const Body& body) {
-    return joint.place && (joint.tiesPlaces() || joint.isMounted()) && body.spec->isRigid() && isWhole(pointsOf(joint));
+    return joint.place && body.spec->isRigid() && isWhole(pointsOf(joint));
 }
 
 // The ties of the scene to colliders, for one plan.
@@ -73,9 +77,6 @@ class Tying {
         const std::string& collider = colliderOf(joint);
         sort(points);
         expectHolder(collider, holders_, joint.source);
-        if (!ends.empty() && !joint.tiesPlaces() && !joint.isMounted())
-            fail(joint.source, std::string(joint.title()) + " ties points of bodies, and \"" + pointsOf(joint).text() +
-                                   "\" is a place between them; name points, such as a corner");
         if (joint.isWeld() && joint.place) moveToPlace(joint, points);
         if (joint.isWeld() && !joint.hasOwnTies() && ends.empty())
             return lead(collider, std::move(points), joint.source);
@@ -162,7 +163,7 @@ class Tying {
         for (const int point : points) {
             dvec3& x = plan_.positions[static_cast<std::size_t>(point)];
             const collision::Pose pose = *holders_.poseOf(holders_.nearest(colliderOf(joint), x));
-            const dvec3 place = pose.position + mechanics::PosePath::rotated(pose.rotation, *joint.place);
+            const dvec3 place = placeOn(pose, *joint.place);
             if (const double away = glm::distance(x, place); away > joint.reach())
                 fail(joint.source, "place is " + std::to_string(away) + " m from " + nameOf(point) +
                                        ", further than a weld reaches, " + std::to_string(joint.reach()) +
@@ -243,6 +244,13 @@ const JointSide& pointsOf(const JointSpec& joint) {
     return isCollider(joint.a) ? joint.b : joint.a;
 }
 
+void expectAtPlace(const JointSpec& joint, const JointSide& side, double away) {
+    if (away > weldReach)
+        fail(joint.source, std::string(joint.title()) + " holds its sides at one place, and \"" + side.text() +
+                               "\" is " + std::to_string(away) +
+                               " m from it: move them together, or name the whole body");
+}
+
 bool isWhole(const JointSide& side) {
     return std::all_of(
         side.targets.begin(), side.targets.end(),
@@ -285,11 +293,56 @@ void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const Holde
         expectHolder(colliderOf(joint), holders, joint.source);
         for (const std::string& target : pointsOf(joint).targets) {
             const JointSide one(target);
+            for (const Body* body : bodies)
+                if (joint.isMounted() && joint.place && names(one, *body) && body->spec->isRigid() && !isWhole(one)) {
+                    const collision::Pose pose =
+                        *holders.poseOf(holders.nearest(colliderOf(joint), body->axes.position));
+                    const std::optional<dvec3> named = placeNamed(*body, parseTarget(target).selector);
+                    for (const int i : namedPoints(one, *body))
+                        expectAtPlace(joint, one,
+                                      glm::distance(body->model.positions[static_cast<std::size_t>(i)],
+                                                    placeOn(pose, *joint.place)));
+                    if (named) expectAtPlace(joint, one, glm::distance(*named, placeOn(pose, *joint.place)));
+                }
             if (std::all_of(bodies.begin(), bodies.end(),
                             [&](const Body* body) { return countTied(joint, one, *body) == 0; }))
                 fail(joint.source, "\"" + target + "\" names no point");
         }
     }
+}
+
+void expectClosable(const IslandPlan& plan, const SceneSpec& spec, const Holders& holders) {
+    const auto isHeld = [&](int point) {
+        const Body* body = authored(plan, point).first;
+        const bool isSolid = body != nullptr && body->spec->isRigid();
+        return plan.points[static_cast<std::size_t>(point)].held ||
+               (isSolid &&
+                (!body->carried.empty() || std::count(body->model.held.begin(), body->model.held.end(), true) > 0));
+    };
+    for (const JointTie& tie : plan.ties)
+        for (const JointTie::Part& part : tie.parts) {
+            const auto constraint = plan.constraints[static_cast<std::size_t>(part.constraint)]->copy();
+            const std::span<const int> points = constraint->points();
+            std::vector<dvec3> x;
+            for (const int point : points) x.push_back(plan.positions[static_cast<std::size_t>(point)]);
+            for (const Constraint::Place& place : constraint->places()) {
+                const collision::Pose pose = *holders.poseOf(place.collider);
+                x.push_back(placeOn(pose, place.offset));
+            }
+            for (const Constraint::Pair& pair : constraint->pairs(0.0)) {
+                const auto stays = [&](const Spot& end) {
+                    const auto number = static_cast<std::size_t>(end.nearest());
+                    return number >= points.size() || isHeld(points[number]);
+                };
+                const double gap = lengthOf(pair.a.of(x) - pair.b.of(x));
+                if (pair.tie != part.tie || pair.length > 0 || !(gap > weldReach) || !stays(pair.a) || !stays(pair.b))
+                    continue;
+                const JointSpec& joint = spec.joints[static_cast<std::size_t>(tie.joint)];
+                fail(joint.source, "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" is open by " +
+                                       std::to_string(gap) +
+                                       " m, and its sides are held: move them together, or leave `hold` out of one");
+            }
+        }
 }
 
 std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std::span<const int> points,

@@ -81,15 +81,12 @@ struct JointSpec {
     // Whether both sides are rows of edges, whose points are paired by their share of the length, all of them, and
     // whose cells beside it do not touch each other.
     virtual bool isSeam() const { return false; }
-    // Whether its ties may end between points: at `place` on a rigid body, or at a place by name. Those of a seam
-    // always may.
-    virtual bool tiesPlaces() const { return false; }
     // Whether it is one tie at `place` between two bodies, or a body and a collider, which mount() makes and not tie()
     // and carry().
     virtual bool isMounted() const { return false; }
     virtual void mount(IslandPlan& /*plan*/, const Mounting& /*at*/) const {}
-    // Adds to the plan springs or constraints that tie two places on its bodies, `distance` [m] apart: points, if it
-    // does not say otherwise.
+    // Adds to the plan springs or constraints that tie two places on its bodies, `distance` [m] apart. A place is a
+    // point, or between points if it is `place` on a rigid body, has a name, or is on a seam.
     virtual void tie(IslandPlan& plan, const Spot& a, const Spot& b, double distance) const = 0;
     // The same between a place on a body and a collider. The rigid grip has the point nearest to it, the present pose
     // of the collider, and the place there: `place`, or that of the point.

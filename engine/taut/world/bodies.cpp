@@ -39,6 +39,7 @@ void addIsland(WorldImpl& w, IslandPlan plan, const ForceList& current, const En
     plan.solver.precision = w.spec.solver.precision;
     addTies(plan, w.spec, holdersOf(w));
     for (const auto& constraint : plan.constraints) constraint->check();
+    expectClosable(plan, w.spec, holdersOf(w));
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
     const int parts = touches(plan) ? fewestSteps(1.0 / w.ticksPerSecond) : 1;

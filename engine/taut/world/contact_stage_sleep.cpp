@@ -93,17 +93,18 @@ void ContactStage::addFootholds() {
                 const auto own = static_cast<std::size_t>(k);
                 place += std::abs(pair.weights[own]) * x1_[static_cast<std::size_t>(pair.points[own])];
             }
-            footholds_[bodyOf(surface).island].push_back({pair.places ? (*pair.places)[from == 0 ? 0 : 1] : place,
-                                                          glm::length(friction), pair.friction * normal,
-                                                          pair.turnFriction.rolling > 0, false});
+            footholds_[bodyOf(surface).island].push_back(
+                {&bodyOf(surface), pair.places ? (*pair.places)[from == 0 ? 0 : 1] : place, glm::length(friction),
+                 pair.friction * normal, pair.turnFriction.rolling > 0, false});
         }
     });
     group_->forEachOnCollider([&](std::size_t k, double normal, const dvec3& friction) {
         const contact::KinematicContact& contact = kinematic_[k];
         if (!contact.isWhole || !(normal > 0)) return;
         const dvec3 place = x1_[static_cast<std::size_t>(contact.point())] + contact.arm;
-        footholds_[bodyOf(elements().surfaceOf(contact.point())).island].push_back(
-            {place, glm::length(friction), contact.friction * normal, contact.turnFriction.rolling > 0, true});
+        const Body& body = bodyOf(elements().surfaceOf(contact.point()));
+        footholds_[body.island].push_back(
+            {&body, place, glm::length(friction), contact.friction * normal, contact.turnFriction.rolling > 0, true});
     });
 }
 

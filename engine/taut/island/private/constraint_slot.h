@@ -223,17 +223,11 @@ class ConstraintSlot {
             v_[i] = planar_.at(velocities, points_[i]);
         }
         for (std::size_t k = 0; k < places_.size(); ++k) {
-            const mechanics::PosePath::Frame frame = pathOf(places_[k].collider).at(t);
+            const mechanics::PosePath::Frame frame = pathOf(plan_, places_[k].collider).at(t);
             const dvec3 arm = frame.arm(places_[k].offset);
             x_[points_.size() + k] = frame.place + arm;
             v_[points_.size() + k] = frame.velocityOf(arm);
         }
-    }
-    const mechanics::PosePath& pathOf(const std::string& collider) const {
-        return std::find_if(
-                   plan_.carriers.begin(), plan_.carriers.end(),
-                   [&](const Carrier& carrier) { return carrier.collider == collider; })
-            ->path;
     }
     void store(Planes& planes, const std::vector<dvec3>& values) {
         for (std::size_t i = 0; i < points_.size(); ++i) planar_.set(planes, points_[i], values[i]);

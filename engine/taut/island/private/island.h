@@ -137,12 +137,13 @@ class Island {
     // At the end of a window that lasted `seconds`: whether it was calm, and what acts on the points is steady.
     bool isCalm();
     // Whether no point of a calm island could go further than the error allows. supports (points; empty: none): by
-    // other bodies, with those of colliders to come. footholds: where a solid is pressed. t [s]: now.
+    // other bodies, with those of colliders to come. footholds: where solids are pressed. t [s]: now.
     struct Support {
         dvec3 push{0.0};        // what presses the point, as a direction; 0: nothing
         bool mayStick = false;  // friction could hold it by a margin
     };
     struct Foothold {
+        const Body* body;
         dvec3 place;             // [m]
         double friction, limit;  // [N s] and by Coulomb's law at most
         bool resistsRolling;

@@ -39,6 +39,10 @@ void addTies(IslandPlan& plan, const SceneSpec& spec, const Holders& holders);
 // Checks that each joint with a collider names one collider and points of some body. Throws core::Error(badContent).
 void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const Holders& holders);
 
+// Throws core::Error(badContent) if a joint of a plan with all its ties is open further than a weld reaches, and both
+// sides are held, so that nothing closes it.
+void expectClosable(const IslandPlan& plan, const SceneSpec& spec, const Holders& holders);
+
 // Ties points (ascending) to the collider at their present positions x (all points of the plan) [m]: one grip for each
 // holder. Expects that the collider is there and that none is tied yet.
 std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std::span<const int> points,
@@ -47,6 +51,9 @@ std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std
 const Grip* carrierOf(const IslandPlan& plan, int point);
 // Frees the points from the grips of colliders. Returns whether any was tied.
 bool untie(IslandPlan& plan, std::span<const int> points);
+// Throws core::Error(badContent) if a side of a joint that mount() makes names a place of a rigid body that is `away`
+// [m] from the joint's.
+void expectAtPlace(const JointSpec& joint, const JointSide& side, double away);
 // Whether a side names bodies as a whole, without points.
 bool isWhole(const JointSide& side);
 // Whether a side of a joint names points of the body, and how many of its points or places the joint ties.

@@ -60,7 +60,6 @@ int oscillatorAtlas(const AtlasFlags& flags) {
     const std::vector<study::PhasePath> paths = study::phasePaths(flags.methods);
     const pipeline::Machine machine = pipeline::machine();
     output.write("stability-map.csv", study::boundariesCsv(map));
-    output.write("stability-map.json", study::stabilityJson(map, machineFacts(machine)));
     output.write("stability-growth.csv", study::growthCsv(map));
     output.write("phase-plane.csv", study::phasePlaneCsv(paths));
     printResult("{}", study::stabilitySummary(map));

@@ -116,10 +116,9 @@ int chartStudy(const ChartStudy& study, const ChartFlags& flags) {
     if (!flags.methods.empty() || !flags.overrides.empty() || flags.precision != unset.precision ||
         flags.seconds != unset.seconds || flags.budget != unset.budget)
         failUsage("{} compares {}: it takes --output and --quiet only", study.name, study.compares);
-    const pipeline::Machine machine = pipeline::machine();
     const std::filesystem::path folder =
         flags.output.empty() ? std::filesystem::path("out/charts") / study.name : std::filesystem::path(flags.output);
-    return study.chart(folder, machineFacts(machine), machineNote(machine), flags.quiet);
+    return study.chart(folder, machineNote(pipeline::machine()), flags.quiet);
 }
 
 int chart(const ChartFlags& flags) {

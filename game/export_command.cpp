@@ -34,7 +34,7 @@ namespace taut::game {
 namespace {
 
 struct ExportFlags {
-    std::string scene, output, points, web, live, viewer, engine, frames, isa;
+    std::string scene, output, points, web, live, viewer, engine, frames;
     std::vector<std::string> only, of, sliders;  // as they are given
     std::vector<std::string> overrides;
     std::int64_t every = 1;
@@ -414,7 +414,6 @@ Action declareExport(Options& options, const Formats& formats) {
         .within(1, 9);
     options.flag("--quiet", flags->quiet, "Print no progress; only warnings and errors");
     addThreadsFlag(options, flags->threads);
-    addInstructionSetFlag(options, flags->isa);
     addOverrideFlag(options, flags->overrides);
     addConfinedFlag(options, flags->isConfined);
     options.footer(

@@ -34,17 +34,16 @@ std::string nameOf(const PartRecord& record) {
 }
 
 // Each against the one that knows most states: what agrees with it agrees with the others.
-void expectOneRun(const image::FramePattern& pattern, const std::vector<PartRecord>& records, bool takesAnyRenderer) {
+void expectOneRun(const image::FramePattern& pattern, const std::vector<PartRecord>& records) {
     const auto longest = std::max_element(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
         return a.hashes.size() < b.hashes.size();
     });
     for (const PartRecord& record : records) {
         if (&record == &*longest) continue;
-        const std::string difference = pipeline::differenceOf(record, *longest, !takesAnyRenderer);
-        if (difference.empty()) continue;
-        const bool isDrawer = pipeline::differenceOf(record, *longest, false).empty();
-        refuse(pattern, fmt::format("{} and {} are not parts of one run: {}{}", nameOf(record), nameOf(*longest),
-                                    difference, isDrawer ? "; --any-renderer joins them nevertheless" : ""));
+        const std::string difference = pipeline::differenceOf(record, *longest);
+        if (!difference.empty())
+            refuse(pattern,
+                   fmt::format("{} and {} are not parts of one run: {}", nameOf(record), nameOf(*longest), difference));
     }
 }
 
@@ -168,8 +167,7 @@ void leaveOutFailed(std::vector<PartRecord>& records) {
 
 }  // namespace
 
-FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
-                       bool takesAnyRenderer) {
+FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted) {
     std::error_code ignored;
     if (!std::filesystem::is_directory(pattern.folder().empty() ? "." : pattern.folder(), ignored))
         refuse(pattern, "there is no such folder");
@@ -178,7 +176,7 @@ FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<F
         if (!record.fault.empty()) throw core::Error(core::ErrorKind::badContent, record.fault);
     if (join.records.empty()) refuseWithoutRecord(pattern);
     leaveOutFailed(join.records);
-    expectOneRun(pattern, join.records, takesAnyRenderer);
+    expectOneRun(pattern, join.records);
     const std::int64_t count = join.records.front().count;
     const FrameRange range = wanted.value_or(FrameRange{});
     join.frames = {range.first, range.last.value_or(count - 1)};

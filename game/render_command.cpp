@@ -176,8 +176,8 @@ Drawing makeDrawing(const RenderFlags& flags, const world::World& world, const w
     Drawing drawing;
     drawing.layers = layersOf(flags.layers, world);
     if (flags.noPictures) return drawing;
-    drawing.renderers = makeRenderers(picture, flags.threads, flags.gl, drawing.layers,
-                                      drawersFor(flags.drawThreads, flags.threads, picture, options));
+    drawing.renderers =
+        makeRenderers(picture, flags.threads, flags.gl, drawing.layers, drawersFor(flags.threads, picture, options));
     drawing.info = drawing.renderers.front()->info();
     std::vector<pipeline::Draw> draws;
     for (const auto& each : drawing.renderers)

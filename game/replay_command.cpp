@@ -28,7 +28,7 @@ namespace taut::game {
 namespace {
 
 struct ReplayFlags {
-    std::string tape, other, scene, isa;
+    std::string tape, other, scene;
     int threads = 0;
     bool verify = false, quiet = false;
 };
@@ -147,7 +147,6 @@ Action declareReplay(Options& options) {
             .mayBeBare();
     options.value("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
     addThreadsFlag(options, flags->threads);
-    addInstructionSetFlag(options, flags->isa);
     options.flag("--quiet", flags->quiet, "Print no progress");
     return [flags, verify] {
         flags->verify = verify.isGiven();

@@ -190,7 +190,6 @@ Action declareTest(Options& options) {
     options.value("--why", flags->why, "Reason for an update, kept in the manifest").typeName("TEXT");
     addRendererFlag(options, flags->gl);
     addThreadsFlag(options, flags->threads);
-    addInstructionSetFlag(options, flags->isa);
     options.flag("--calibrate", flags->calibrate,
                  "Measure noise and deliberate errors against the thresholds of pictures");
     options.flag("--require-goldens", flags->requireGoldens,

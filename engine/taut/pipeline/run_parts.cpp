@@ -157,7 +157,7 @@ std::vector<PartRecord> partRecords(const image::FramePattern& pattern) {
     return records;
 }
 
-std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesDrawers) {
+std::string differenceOf(const PartRecord& a, const PartRecord& b) {
     if (a.bits != b.bits) return fmt::format("results of bits {} and {}", a.bits, b.bits);
     if (a.size != b.size) return fmt::format("{} and {} pixels", a.size, b.size);
     if (a.fps != b.fps) return fmt::format("{} and {} pictures a second", a.fps, b.fps);
@@ -165,9 +165,8 @@ std::string differenceOf(const PartRecord& a, const PartRecord& b, bool compares
     if (a.key.empty() || a.key != b.key)
         return a.scene == b.scene ? "other settings of scene, timeline or look"
                                   : fmt::format("scenes {} and {}", a.scene, b.scene);
-    if (comparesDrawers && a.program != b.program) return fmt::format("drawn by {} and by {}", a.program, b.program);
-    if (comparesDrawers && a.renderer != b.renderer)
-        return fmt::format("drawn by {} and by {}", a.renderer, b.renderer);
+    if (a.program != b.program) return fmt::format("drawn by {} and by {}", a.program, b.program);
+    if (a.renderer != b.renderer) return fmt::format("drawn by {} and by {}", a.renderer, b.renderer);
     const auto [x, y] = std::mismatch(
         a.hashes.begin(), a.hashes.begin() + static_cast<std::ptrdiff_t>(std::min(a.hashes.size(), b.hashes.size())),
         b.hashes.begin());

@@ -123,33 +123,6 @@ std::string growthCsv(const StabilityMap& map) {
     return report::csv(table);
 }
 
-std::string stabilityJson(const StabilityMap& map, const MachineFacts& machine) {
-    Json json;
-    json["title"] = "growth per step on the damped oscillator";
-    for (const auto& [name, value] : machine) json["machine"][name] = value;
-    json["map"] = {{"columns", map.columns},
-                   {"rows", map.rows},
-                   {"zeta_most", map.mostZeta},
-                   {"omega_h_most", map.mostZ},
-                   {"steps", map.steps}};
-    json["boundary"] = {
-        {"steps", limitSteps}, {"growth_that_counts", growthTolerance}, {"omega_h_most", map.mostMeasured}};
-    json["methods"] = Json::array();
-    for (const StabilityPanel& panel : map.panels) {
-        Json boundaries = Json::array();
-        for (const Boundary& b : panel.boundaries)
-            boundaries.push_back({{"zeta", rounded(b.zeta)}, {"predicted", b.predicted}, {"measured", b.measured}});
-        json["methods"].push_back({{"method", panel.method},
-                                   {"damping", dampingName(panel.damping)},
-                                   {"no_limit", panel.isWithoutLimit},
-                                   {"largest_gap", panel.largestGap},
-                                   {"largest_gap_at_zeta", panel.gapZeta},
-                                   {"boundaries", std::move(boundaries)}});
-    }
-    json["interrupted"] = map.isInterrupted;
-    return json.dump(2) + "\n";
-}
-
 std::string stabilitySummary(const StabilityMap& map) {
     report::TextTable table;
     table.columns = {"method", "damping", "ζ = 0", "ζ = 0.5", "ζ = 1", "ζ = 2", "largest gap", "at ζ"};

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -83,14 +82,6 @@ study::StudySettings studySettings(const ChartFlags& flags) {
     return settings;
 }
 
-study::WorkPrecision play(const study::Subject& subject, study::StudySettings settings, bool isQuiet,
-                          const std::atomic<bool>& stop) {
-    LabProgress line(subject.name(), isQuiet, stop);
-    settings.stop = &stop;
-    settings.progress = [&](const study::StudyProgress& progress) { line.show(progress.done, progress.doing); };
-    return studyWorkPrecision(subject, settings);
-}
-
 // Its two equations have a table of their own.
 bool isOfTheSlides(const study::Subject& subject) {
     return subject.name() == "growth" || subject.name() == "quotient";
@@ -134,7 +125,9 @@ int chart(const ChartFlags& flags) {
                                                               : std::filesystem::path(flags.output);
     const Interruption interruption;
     const LabFolder output(folder, flags.quiet);
-    const study::WorkPrecision result = play(*subject, studySettings(flags), flags.quiet, interruption.flag());
+    const study::WorkPrecision result =
+        followed(subject->name(), flags.quiet, interruption, studySettings(flags),
+                 [&](const study::StudySettings& settings) { return studyWorkPrecision(*subject, settings); });
     std::vector<study::StepsRow> steps;
     if (isOfTheSlides(*subject) && !result.isInterrupted) steps = study::stepsTable(*subject, 1e-6, flags.methods);
     const pipeline::Machine machine = pipeline::machine();

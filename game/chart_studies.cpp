@@ -15,18 +15,13 @@ struct Written {
     std::vector<study::NamedChart> charts;
 };
 
-// studyWith(settings) and written(result): of a study whose settings have stop and progress.
+// studyWith(settings) and written(result): of a study whose settings have a listener.
 template <class Settings, class Study, class Text>
 int chartStudy(const char* name, const std::filesystem::path& folder, bool isQuiet, Settings settings,
                const Study& studyWith, const Text& written) {
     const Interruption interruption;
     const LabFolder output(folder, isQuiet);
-    const auto result = [&] {
-        LabProgress line(name, isQuiet, interruption.flag());
-        settings.stop = &interruption.flag();
-        settings.progress = [&](double done, const std::string& doing) { line.show(done, doing); };
-        return studyWith(settings);
-    }();
+    const auto result = followed(name, isQuiet, interruption, std::move(settings), studyWith);
     if (result.runs.empty()) return output.abandon(interruption);
     const Written all = written(result);
     output.write(std::string(name) + ".csv", all.csv);

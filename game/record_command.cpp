@@ -8,7 +8,6 @@
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/flags.h"
-#include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/messages.h"

@@ -1,6 +1,5 @@
 #include "game/renderers.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -153,7 +153,7 @@ ImageSize RadianceFile::size(std::int64_t maxPixels) {
 }
 
 void RadianceFile::skim(ImageSize size) {
-    std::vector<Rgbe> line(static_cast<std::size_t>(size.width));
+    std::vector<Rgbe> line(size.width);
     for (int y = 0; y < size.height; ++y) readScanline(line);
 }
 
@@ -163,8 +163,7 @@ LightImage RadianceFile::read(std::int64_t maxPixels) {
     const std::size_t width = static_cast<std::size_t>(image.width);
     std::array<float, 256> units{};
     for (int e = 1; e < 256; ++e)
-        units[static_cast<std::size_t>(e)] =
-            static_cast<float>(std::clamp(std::ldexp(1.0, e - 136) / exposure_, 0.0, double{brightest}));
+        units[e] = static_cast<float>(std::clamp(std::ldexp(1.0, e - 136) / exposure_, 0.0, double{brightest}));
     std::vector<Rgbe> line(width);
     image.rgb.reserve(3 * width * static_cast<std::size_t>(image.height));
     for (int y = 0; y < image.height; ++y) {

@@ -118,7 +118,7 @@ std::string growthCsv(const StabilityMap& map) {
         for (int row = 0; row < map.rows; ++row)
             for (int column = 0; column < map.columns; ++column)
                 table.rows.push_back({panel.method, damping, rounded(map.zetaAt(column)), rounded(map.zAt(row)),
-                                      rounded(panel.growth[static_cast<std::size_t>(row * map.columns + column)])});
+                                      rounded(panel.growth[row * map.columns + column])});
     }
     return report::csv(table);
 }

@@ -89,9 +89,6 @@ std::vector<NamedChart> contactCharts(const ContactStudy& study, const std::vect
     chart.panelHeight = 280;
     chart.pngScale = 1.5;
     chart.notes = notes;
-    const auto addLabel = [](report::Panel& panel, double y, const std::string& text) {
-        panel.labels.push_back({0.03, y, text, "#303030", report::Align::left, 0, 0, 10.5, true, true});
-    };
     std::size_t series = 0;
     forEachSeries(study, [&](const ContactProblem& problem, int steps, std::span<const ContactRun> runs) {
         if (chart.panels.empty() || chart.panels.back().title != problem.title) {
@@ -102,8 +99,8 @@ std::vector<NamedChart> contactCharts(const ContactStudy& study, const std::vect
             for (const int n : {1, 2, 4, 8, 16, 32, 64})
                 panel.x.ticks.push_back({static_cast<double>(n), std::to_string(n), false});
             panel.y = errorAxis(chart.panels.size() % 3 == 1);
-            addLabel(panel, 0.95, problem.about);
-            addLabel(panel, 0.87, fmt::format("fewest: {} steps a tick", steps));
+            panel.note(0.03, 0.95, problem.about);
+            panel.note(0.03, 0.87, fmt::format("fewest: {} steps a tick", steps));
         }
         report::Curve& curve = chart.panels.back().curves.emplace_back();
         curve.style = styleOfSeries(series);

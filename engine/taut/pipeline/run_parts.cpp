@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -73,7 +72,7 @@ PartRecord recordIn(const Json& json, const std::filesystem::path& path) {
     return record;
 }
 
-// What a file of that name records; none for other names. All of a run has no frames in its name.
+// The frames that a file of that name records; none for other names. All of a run has no frames in its name.
 bool isRecordName(const std::string& name) {
     if (name == "run.json") return true;
     if (!name.starts_with("run_") || !name.ends_with(".json")) return false;
@@ -117,7 +116,7 @@ PartRecord readPartRecord(const std::filesystem::path& path) {
 
 namespace {
 
-// Those of pictures, and those that cannot be read.
+// The records of pictures, and unreadable ones.
 std::vector<PartRecord> recordsIn(const std::filesystem::path& folder) {
     std::vector<PartRecord> records;
     std::error_code ignored;  // a missing folder has none

@@ -1,7 +1,6 @@
-// How an island comes to rest, sleeps, and what wakes it. Which islands sleep together is the world's to say.
+// How an island comes to rest, sleeps and wakes. The world decides which islands sleep together.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island.h"
@@ -18,7 +17,7 @@ bool isOneSolid(const IslandPlan& plan) {
     return plan.solids.size() == 1 && plan.solids[0].size() == plan.bodies.size() && plan.constraints.size() == 1;
 }
 
-// (points) The places of those that constraints hold in one place with others, as weighted sums of the remaining
+// (points) The places of points that constraints hold in one place with others, as weighted sums of the remaining
 // points; empty if constraints do anything else.
 std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t) {
     std::vector<std::vector<Spot::Share>> leaders;
@@ -26,9 +25,7 @@ std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t
     for (const auto& constraint : plan.constraints) {
         const auto pairs = constraint->joinedFrom(t);
         if (!pairs) return {};
-        const auto numberOf = [&](int end) {
-            return static_cast<std::size_t>(constraint->points()[static_cast<std::size_t>(end)]);
-        };
+        const auto numberOf = [&](int end) { return static_cast<std::size_t>(constraint->points()[end]); };
         for (const Constraint::Pair& pair : *pairs) {
             std::vector<Spot::Share> sum;
             for (const auto& [b, weight] : pair.b.shares())
@@ -39,8 +36,8 @@ std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t
     return leaders;
 }
 
-// Whether a rigid body stays: what presses it at places that are not on one line, or resists rolling, keeps it from
-// tipping, and all its friction from sliding. Their spread across the line is held against the size of the body.
+// Whether a rigid body stays. Contacts at places that are not on one line, or that resist rolling, keep it from
+// tipping; the sum of friction keeps it from sliding. The spread of the places is compared with the size of the body.
 bool holdRigidly(std::span<const Island::Foothold> footholds, std::span<const dvec3> x) {
     constexpr double leastShare = 0.05;
     double size = 0, length = 0, width = 0, friction = 0, limit = 0;
@@ -73,15 +70,15 @@ void Island::watchRest(bool isMiddle) {
     rest_.look(x_, plan_.solver.sleepError / 3, isMiddle);
 }
 
-// What a hand or a collider moves stays awake.
+// Islands moved by a hand or a collider stay awake.
 bool Island::isCalm() {
     const auto moves = [](const Grip& grip) { return grip.path.moves(); };
     return rest_.isCalm() && now_.inside.empty() && !isOpen_ &&
            std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) && dynamics_->isSteady(forces_);
 }
 
-// Points that constraints hold in one place move as one. What they hold otherwise has no stiffness, so it stays awake,
-// but for a solid by itself.
+// Points that constraints hold in one place move as one. Other constraints have no stiffness, so their points stay
+// awake, except those of a single solid.
 bool Island::rests(double t, double seconds, std::vector<Support> supports, std::span<const Foothold> footholds) {
     const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
     const std::size_t n = plan_.points.size();
@@ -95,7 +92,7 @@ bool Island::rests(double t, double seconds, std::vector<Support> supports, std:
     if (leaders.empty()) return false;
     supports.resize(n);
     for (const collision::Contact& contact : now_.contacts) {
-        Support& support = supports[static_cast<std::size_t>(contact.point)];
+        Support& support = supports[contact.point];
         support.mayStick = (support.push == dvec3(0.0) || support.mayStick) && contact.friction > 0;
         support.push = contact.normal;
     }
@@ -128,12 +125,12 @@ bool Island::rests(double t, double seconds, std::vector<Support> supports, std:
     const auto ofLeaders = [&](std::span<const dvec3> in, std::span<dvec3> sum) {
         for (std::size_t i = 0; i < n; ++i) {
             ways[i] = dvec3(0.0);
-            for (const auto& [leader, weight] : leaders[i]) ways[i] += weight * in[static_cast<std::size_t>(leader)];
+            for (const auto& [leader, weight] : leaders[i]) ways[i] += weight * in[leader];
         }
         std::fill(forces.begin(), forces.end(), dvec3(0.0));
         stiffness(ways, forces);
         for (std::size_t i = 0; i < n; ++i)
-            for (const auto& [leader, weight] : leaders[i]) sum[static_cast<std::size_t>(leader)] += weight * forces[i];
+            for (const auto& [leader, weight] : leaders[i]) sum[leader] += weight * forces[i];
     };
     return restBound(inverseMasses, normals, v, r, still, ofLeaders) <= error / 3;
 }

@@ -38,7 +38,7 @@ void TieLoad::add(const IslandPlan& plan, const Dynamics& dynamics, double t) {
     ++steps_;
     for (std::size_t w = 0; w < watched_.size(); ++w) {
         const JointTie& tie = plan.ties[watched_[w]];
-        for (const int s : tie.springs) sum_[w].x += pullOf(plan.springs[static_cast<std::size_t>(s)], dynamics);
+        for (const int s : tie.springs) sum_[w].x += pullOf(plan.springs[s], dynamics);
         if (!tie.isGrip) continue;
         for (const Grip& grip : plan.grips)
             if (grip.tie == static_cast<int>(watched_[w])) sum_[w] += pullOf(grip, dynamics, t);

@@ -91,7 +91,7 @@ TEST_F(Shards, AreWhatIsSaidToWhoAsksForJobs) {
     EXPECT_EQ(folder_.entryCount(), 1);
 }
 
-TEST_F(Shards, WhatIsMissingIsNamed) {
+TEST_F(Shards, MissingFramesAreNamed) {
     drawShards(3);
     std::filesystem::remove(folder_ / "shards/frame_000004.png");
     std::filesystem::remove(folder_ / "shards/run_0-2.json");

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "game/chart_studies.h"
 #include "image_support.h"
@@ -116,8 +115,8 @@ TEST(Refinement, OfABeamComesToRestAndConverges) {
 TEST(Refinement, StopsWhenAskedAndTellsItsProgress) {
     std::atomic<bool> stop = false;
     double last = -1.0;
-    RefinementSettings settings{.bodies = {"rope-taut", "rope-hanging"}, .stop = &stop};
-    settings.progress = [&](double done, const std::string& doing) {
+    RefinementSettings settings{.bodies = {"rope-taut", "rope-hanging"}, .listener = {.stop = &stop}};
+    settings.listener.progress = [&](double done, const std::string& doing) {
         EXPECT_GE(done, last);
         last = done;
         if (doing.starts_with("rope-hanging")) stop = true;

@@ -353,7 +353,7 @@ TEST(Places, LooseEndsComeToASolid) {
     EXPECT_LT(lengthOf(joined.points("net.n").v[0]), 1e-9);
 }
 
-TEST(Places, WhatCannotBeIsRefused) {
+TEST(Places, ImpossiblePlacesAreRefused) {
     const std::string box =
         "[solid.box]\nshape = \"box\"\nsize = [0.2, 0.4, 0.6]\nposition = [1, 2, 3]\n"
         "[net.n]\npoints = [{ name = \"p\", position = [1, 5, 3] }]\n";

@@ -20,7 +20,7 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;  // red, green, blue over 256 · 2^(128 - last)
 
-// Reads a Radiance file from front to back; whatever is not as the format has it is an error.
+// Reads a Radiance file from front to back; any deviation from the format is an error.
 class RadianceFile {
   public:
     RadianceFile(const std::filesystem::path& path, std::string_view content) : path_(path), content_(content) {}
@@ -63,7 +63,7 @@ bool isRadiance(std::string_view content) {
     return first == "#?RADIANCE" || first == "#?RGBE";
 }
 
-// Lines up to an empty one, and then the size. Those that are not known change nothing that is needed here.
+// Lines up to an empty one, and then the size. Unknown ones change nothing that is needed here.
 void RadianceFile::readHead() {
     constexpr std::string_view format = "FORMAT=", exposure = "EXPOSURE=";
     line();

@@ -91,7 +91,7 @@ VideoWriter::VideoWriter(std::filesystem::path path, VideoOptions options)
 
 VideoWriter::~VideoWriter() = default;
 
-// Not every ffmpeg is built with those that few need.
+// Not every ffmpeg is built with rarely needed encoders.
 void VideoWriter::expectEncoder() const {
     const bool isWebm = containerOf(path_) == "webm";
     if (!isWebm && !options_.alpha) return;

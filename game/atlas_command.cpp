@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,22 +44,15 @@ int oscillatorAtlas(const AtlasFlags& flags) {
     if (!flags.overrides.empty() || flags.seconds > 0.0) failUsage("--set and --seconds apply to scenes: name one");
     const Interruption interruption;
     const LabFolder output = folderOf(flags, "out/atlas");
-    study::StabilityMap map;
-    {
-        LabProgress line("atlas", flags.quiet, interruption.flag());
-        study::StabilityMapSettings settings;
-        settings.methods = flags.methods;
-        settings.columns = flags.cells;
-        settings.boundaries = std::min(settings.boundaries, flags.cells);
-        settings.stop = &interruption.flag();
-        settings.progress = [&](const study::AtlasProgress& progress) { line.show(progress.done, progress.doing); };
-        map = study::measureStability(settings);
-    }
+    study::StabilityMapSettings settings;
+    settings.methods = flags.methods;
+    settings.columns = flags.cells;
+    settings.boundaries = std::min(settings.boundaries, flags.cells);
+    const study::StabilityMap map = followed("atlas", flags.quiet, interruption, settings, study::measureStability);
     if (map.isInterrupted) return output.abandon(interruption);  // half a map says nothing
     const std::vector<study::PhasePath> paths = study::phasePaths(flags.methods);
     const pipeline::Machine machine = pipeline::machine();
     output.write("stability-map.csv", study::boundariesCsv(map));
-    output.write("stability-map.json", study::stabilityJson(map, machineFacts(machine)));
     output.write("stability-growth.csv", study::growthCsv(map));
     output.write("phase-plane.csv", study::phasePlaneCsv(paths));
     printResult("{}", study::stabilitySummary(map));
@@ -85,16 +77,10 @@ int sceneAtlas(const AtlasFlags& flags) {
     const world::SceneSpec spec = chosenScene(flags, name);
     const Interruption interruption;
     const LabFolder output = folderOf(flags, "out/atlas/" + name);
-    study::SceneThresholds thresholds;
-    {
-        LabProgress line("atlas", flags.quiet, interruption.flag());
-        study::ThresholdSettings settings;
-        settings.methods = flags.methods;
-        settings.seconds = flags.seconds;
-        settings.stop = &interruption.flag();
-        settings.progress = [&](const study::AtlasProgress& progress) { line.show(progress.done, progress.doing); };
-        thresholds = study::findThresholds(spec, name, settings);
-    }
+    const study::SceneThresholds thresholds =
+        followed("atlas", flags.quiet, interruption,
+                 study::ThresholdSettings{.methods = flags.methods, .seconds = flags.seconds},
+                 [&](const study::ThresholdSettings& settings) { return findThresholds(spec, name, settings); });
     if (thresholds.isInterrupted) return output.abandon(interruption);
     const pipeline::Machine machine = pipeline::machine();
     output.write(name + "-thresholds.csv", study::thresholdsCsv(thresholds));

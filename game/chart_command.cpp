@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -83,14 +82,6 @@ study::StudySettings studySettings(const ChartFlags& flags) {
     return settings;
 }
 
-study::WorkPrecision play(const study::Subject& subject, study::StudySettings settings, bool isQuiet,
-                          const std::atomic<bool>& stop) {
-    LabProgress line(subject.name(), isQuiet, stop);
-    settings.stop = &stop;
-    settings.progress = [&](const study::StudyProgress& progress) { line.show(progress.done, progress.doing); };
-    return studyWorkPrecision(subject, settings);
-}
-
 // Its two equations have a table of their own.
 bool isOfTheSlides(const study::Subject& subject) {
     return subject.name() == "growth" || subject.name() == "quotient";
@@ -116,10 +107,9 @@ int chartStudy(const ChartStudy& study, const ChartFlags& flags) {
     if (!flags.methods.empty() || !flags.overrides.empty() || flags.precision != unset.precision ||
         flags.seconds != unset.seconds || flags.budget != unset.budget)
         failUsage("{} compares {}: it takes --output and --quiet only", study.name, study.compares);
-    const pipeline::Machine machine = pipeline::machine();
     const std::filesystem::path folder =
         flags.output.empty() ? std::filesystem::path("out/charts") / study.name : std::filesystem::path(flags.output);
-    return study.chart(folder, machineFacts(machine), machineNote(machine), flags.quiet);
+    return study.chart(folder, machineNote(pipeline::machine()), flags.quiet);
 }
 
 int chart(const ChartFlags& flags) {
@@ -135,7 +125,9 @@ int chart(const ChartFlags& flags) {
                                                               : std::filesystem::path(flags.output);
     const Interruption interruption;
     const LabFolder output(folder, flags.quiet);
-    const study::WorkPrecision result = play(*subject, studySettings(flags), flags.quiet, interruption.flag());
+    const study::WorkPrecision result =
+        followed(subject->name(), flags.quiet, interruption, studySettings(flags),
+                 [&](const study::StudySettings& settings) { return studyWorkPrecision(*subject, settings); });
     std::vector<study::StepsRow> steps;
     if (isOfTheSlides(*subject) && !result.isInterrupted) steps = study::stepsTable(*subject, 1e-6, flags.methods);
     const pipeline::Machine machine = pipeline::machine();

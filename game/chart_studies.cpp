@@ -11,26 +11,20 @@ namespace {
 
 // The results of a study.
 struct Written {
-    std::string heading, summary, csv, json;
+    std::string heading, summary, csv;
     std::vector<study::NamedChart> charts;
 };
 
-// studyWith(settings) and written(result): of a study whose settings have stop and progress.
+// studyWith(settings) and written(result): of a study whose settings have a listener.
 template <class Settings, class Study, class Text>
 int chartStudy(const char* name, const std::filesystem::path& folder, bool isQuiet, Settings settings,
                const Study& studyWith, const Text& written) {
     const Interruption interruption;
     const LabFolder output(folder, isQuiet);
-    const auto result = [&] {
-        LabProgress line(name, isQuiet, interruption.flag());
-        settings.stop = &interruption.flag();
-        settings.progress = [&](double done, const std::string& doing) { line.show(done, doing); };
-        return studyWith(settings);
-    }();
+    const auto result = followed(name, isQuiet, interruption, std::move(settings), studyWith);
     if (result.runs.empty()) return output.abandon(interruption);
     const Written all = written(result);
     output.write(std::string(name) + ".csv", all.csv);
-    output.write(std::string(name) + ".json", all.json);
     printResult("{}\n\n{}", all.heading, all.summary);
     for (const study::NamedChart& drawn : all.charts) output.draw(std::string(name) + "-" + drawn.name, drawn.chart);
     return output.finish(interruption);
@@ -38,25 +32,25 @@ int chartStudy(const char* name, const std::filesystem::path& folder, bool isQui
 
 }  // namespace
 
-int chartRefinement(const std::filesystem::path& folder, const study::MachineFacts& machine, const std::string& note,
-                    bool isQuiet, study::RefinementSettings settings) {
+int chartRefinement(const std::filesystem::path& folder, const std::string& note, bool isQuiet,
+                    study::RefinementSettings settings) {
     return chartStudy(
         "refinement", folder, isQuiet, std::move(settings), study::studyRefinement,
         [&](const study::RefinementStudy& result) {
             return Written{"Sag or stretch at rest against theory, by cells along the longest side",
                            study::refinementSummary(result), study::refinementCsv(result),
-                           study::refinementJson(result, machine), study::refinementCharts(result, {note})};
+                           study::refinementCharts(result, {note})};
         });
 }
 
-int chartContact(const std::filesystem::path& folder, const study::MachineFacts& machine, const std::string& note,
-                 bool isQuiet, study::ContactSettings settings) {
+int chartContact(const std::filesystem::path& folder, const std::string& note, bool isQuiet,
+                 study::ContactSettings settings) {
     return chartStudy(
         "contact", folder, isQuiet, std::move(settings), study::studyContact,
         [&](const study::ContactStudy& result) {
             return Written{"Error of contact, by steps and detections of a tick of 1/60 s",
                            study::contactSummary(result), study::contactCsv(result),
-                           study::contactJson(result, machine), study::contactCharts(result, {note})};
+                           study::contactCharts(result, {note})};
         });
 }
 
@@ -64,15 +58,11 @@ std::span<const ChartStudy> chartStudies() {
     static constexpr ChartStudy all[] = {
         {"refinement", "error against resolution",
          "ropes, cloths and blocks at rest, at four resolutions, against theory", "bodies at rest",
-         [](const auto& folder, const auto& machine, const auto& note, bool isQuiet) {
-             return chartRefinement(folder, machine, note, isQuiet);
-         }},
+         [](const auto& folder, const auto& note, bool isQuiet) { return chartRefinement(folder, note, isQuiet); }},
         {"contact", "error against detections and steps",
          "a ball that bounces, one that rolls, a box on a slope, a sheet on another, a rope that strikes itself",
          "numbers of detections and steps",
-         [](const auto& folder, const auto& machine, const auto& note, bool isQuiet) {
-             return chartContact(folder, machine, note, isQuiet);
-         }}};
+         [](const auto& folder, const auto& note, bool isQuiet) { return chartContact(folder, note, isQuiet); }}};
     return all;
 }
 

@@ -38,7 +38,7 @@ struct Verdict {
     std::vector<core::Finding> warnings;  // of the loader and the rehearsal
     std::vector<std::string> notes;       // of its figures
     std::vector<std::string> advice;
-    std::string large;  // what so many pictures take
+    std::string large;  // the cost of so many pictures
     ExitCode code = ExitCode::ok;
 };
 

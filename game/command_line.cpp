@@ -21,7 +21,7 @@ std::vector<std::string> commandNames(const CLI::App& app) {
     return names;
 }
 
-// All but those that are gone.
+// All except the removed ones.
 std::vector<const CLI::Option*> optionsOf(const CLI::App& command) {
     return command.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
 }
@@ -35,7 +35,7 @@ std::vector<std::string> flagNames(const CLI::App& command) {
     return names;
 }
 
-// What stood on the command line and means nothing, with what may have been meant.
+// The unknown words of the command line, with suggestions.
 std::string unknownWord(const CLI::App& app) {
     const std::vector<std::string> words = app.remaining(true);
     const std::string word = words.empty() ? "" : words.front();

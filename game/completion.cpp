@@ -12,7 +12,7 @@
 namespace taut::game {
 namespace {
 
-// How a value is completed: a case of the script for bash, and what those for zsh and fish say; {} are its words.
+// How a value is completed: a case of the script for bash, and the text for zsh and fish; {} are its words.
 struct Way {
     const char *bash, *zsh, *fish;
 };

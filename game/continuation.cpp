@@ -10,7 +10,6 @@
 #include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/core/private/hash.h"
-#include "taut/core/whole_file.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/pipeline/checkpoint.h"
 #include "taut/world/world.h"
@@ -31,7 +30,7 @@ std::int64_t firstMissing(const PicturesThere& pictures, const pipeline::RunOpti
     return first;
 }
 
-// What a state of this world may take, with room for what comes and tears on the way.
+// The largest size of a state of this world, with room for spawned bodies and tears.
 std::uint64_t mostBytes(const world::World& world) {
     return 8 * world.save().size() + (std::uint64_t{64} << 20U);
 }

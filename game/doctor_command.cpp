@@ -32,7 +32,7 @@ void printFact(const std::string& name, const std::string& fact) {
     printResult("{:<12}{}\n", name, fact);
 }
 
-// What is missing, by the Debian packages that hold it.
+// Missing parts, by their Debian packages.
 struct Packages {
     std::vector<std::string> names;
     void add(const std::string& name) {
@@ -40,7 +40,7 @@ struct Packages {
     }
 };
 
-// `loss` says what does not work without it.
+// `loss`: the functions that need it.
 void printMissing(const std::string& name, const std::string& loss, const std::string& package, Packages& packages) {
     printFact(name, fmt::format("MISSING: {}; it is in the package {}", loss, package));
     packages.add(package);

@@ -34,7 +34,7 @@ namespace taut::game {
 namespace {
 
 struct ExportFlags {
-    std::string scene, output, points, web, live, viewer, engine, frames, isa;
+    std::string scene, output, points, web, live, viewer, engine, frames;
     std::vector<std::string> only, of, sliders;  // as they are given
     std::vector<std::string> overrides;
     std::int64_t every = 1;
@@ -56,7 +56,7 @@ struct Destination {
     const Format* format;
 };
 
-// What stands between commas, but for those of places such as cloth.flag@(0.5,0.5); each once.
+// The words between commas, except for commas in places such as cloth.flag@(0.5,0.5); each once.
 std::vector<std::string> targetsIn(const std::vector<std::string>& texts) {
     std::vector<std::string> targets;
     for (const std::string& text : texts) {
@@ -85,7 +85,7 @@ std::string oneOf(const std::vector<std::string>& texts, const char* last = " or
     return all;
 }
 
-// Of each format that holds that and is wanted: what `text` says of it.
+// The `text` of each wanted format that holds that.
 std::vector<std::string> ofEach(const Formats& formats, Holds what,
                                 const std::function<std::string(const Format&)>& text,
                                 const std::function<bool(const Format&)>& isWanted = {}) {
@@ -124,7 +124,7 @@ std::string allKindsOfFiles(const Formats& formats, const Format& page) {
     return oneOf(kinds, ", or ");
 }
 
-// What is asked for, and whether flags fit it.
+// The request, and whether the flags fit it.
 std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats& formats, const Format& page) {
     std::vector<Destination> all;
     const auto add = [&](const std::string& file, const Format* format, const auto& fault) {
@@ -171,7 +171,7 @@ bool namesACopy(const std::string& target, const world::BodySpec& body) {
     return false;
 }
 
-// Why --only names nothing in the scene, with what there is; empty if it does.
+// Why --only names nothing in the scene, with the names there; empty if it does.
 std::string onlyFault(const world::SceneSpec& spec, const std::string& target) {
     constexpr std::size_t mostNames = 12;
     std::vector<std::string> names;
@@ -268,7 +268,7 @@ void noteTooManyKeys(std::int64_t keys, const pipeline::GeometryRun& run, const 
               most, (run.lastFrame - run.firstFrame) / most + 1);
 }
 
-// A page needs no run: what is in it is the scene.
+// A page needs no run: it contains the scene.
 int exportLive(const ExportFlags& flags) {
     if (!(flags.output + flags.web + flags.points).empty())
         failUsage("--live writes a page that simulates the scene; -o, --web and --points are separate exports");
@@ -286,7 +286,7 @@ int exportLive(const ExportFlags& flags) {
     return static_cast<int>(ExitCode::ok);
 }
 
-// Over 60 lines: what an export does, from its flags to its files, stands in one list.
+// Over 60 lines: the steps of an export, from its flags to its files, are one list.
 int exportScene(const ExportFlags& flags, const Formats& formats) {
     if (!flags.live.empty()) return exportLive(flags);
     if (!flags.engine.empty() || !flags.sliders.empty() || flags.edits)
@@ -414,7 +414,6 @@ Action declareExport(Options& options, const Formats& formats) {
         .within(1, 9);
     options.flag("--quiet", flags->quiet, "Print no progress; only warnings and errors");
     addThreadsFlag(options, flags->threads);
-    addInstructionSetFlag(options, flags->isa);
     addOverrideFlag(options, flags->overrides);
     addConfinedFlag(options, flags->isConfined);
     options.footer(

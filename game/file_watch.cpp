@@ -12,7 +12,7 @@ void FileWatch::watch(std::vector<std::string> files) {
     known_ = last_ = look();
     for (std::size_t i = 0; i < files_.size(); ++i)
         if (const auto old = std::find(files.begin(), files.end(), files_[i]); old != files.end())
-            known_[i] = before[static_cast<std::size_t>(old - files.begin())];
+            known_[i] = before[old - files.begin()];
 }
 
 bool FileWatch::hasChanged() {

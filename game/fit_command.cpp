@@ -29,7 +29,7 @@ study::Fit search(const SearchedScene& scene, const FitFlags& flags, const std::
     study::FitSettings settings;
     settings.most = flags.trials;
     settings.stop = &stop;
-    // A trial is what --set makes of the file.
+    // A trial is the file with --set of its values.
     settings.scene = [&](const std::vector<double>& values) {
         std::vector<std::string> overrides = flags.overrides;
         for (std::size_t i = 0; i < values.size(); ++i)

@@ -105,24 +105,6 @@ std::function<int()> withThreads(Options& options, std::function<int()> action) 
     };
 }
 
-void addInstructionSetFlag(Options& options, std::string& isa) {
-    const std::string name = "--isa";
-    options
-        .value(name, isa,
-               "Vector instructions: sse2, avx2, avx512, or auto: the fastest here, by a short trial; the bits are the "
-               "same")
-        .typeName("SET")
-        .suggests({"auto", "sse2", "avx2", "avx512"})
-        .check([name](const std::string& text) -> std::string {
-            try {
-                core::chooseInstructionSet(text, name);
-            } catch (const core::Error& error) {
-                return std::string(error.what()).substr(name.size() + 1);  // the flag is named before it
-            }
-            return "";
-        });
-}
-
 std::function<std::string(const std::string&)> numberWithin(double least, double most) {
     return [least, most](const std::string& text) -> std::string {
         double value = 0.0;

@@ -48,9 +48,6 @@ void addThreadsFlag(Options& options, int& threads);
 // Adds --threads; the returned action does the same as this one, on so many threads.
 std::function<int()> withThreads(Options& options, std::function<int()> action);
 
-// --isa, which sets the instruction set of the kernels before anything asks for it. `isa` holds the given value.
-void addInstructionSetFlag(Options& options, std::string& isa);
-
 // --fps and --seconds, which override the run of the scene; 0: not given.
 void addRunFlags(Options& options, double& fps, double& seconds);
 // An override that a flag stands for; messages about it name the flag.

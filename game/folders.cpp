@@ -29,7 +29,7 @@ std::filesystem::path wishedOrInstalled(const char* variable, const char* name) 
     return installedOr(name, name);
 }
 
-// The names, without the extension and sorted, of what has this extension there.
+// The names of files with this extension there, without the extension and sorted.
 std::vector<std::string> namesIn(const std::filesystem::path& folder, const char* extension) {
     std::vector<std::string> names;
     std::error_code error;

@@ -33,22 +33,21 @@ std::string nameOf(const PartRecord& record) {
     return record.path.filename().string();
 }
 
-// Each against the one that knows most states: what agrees with it agrees with the others.
-void expectOneRun(const image::FramePattern& pattern, const std::vector<PartRecord>& records, bool takesAnyRenderer) {
+// Compares each with the one that has most states: if it agrees with that, it agrees with the others.
+void expectOneRun(const image::FramePattern& pattern, const std::vector<PartRecord>& records) {
     const auto longest = std::max_element(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
         return a.hashes.size() < b.hashes.size();
     });
     for (const PartRecord& record : records) {
         if (&record == &*longest) continue;
-        const std::string difference = pipeline::differenceOf(record, *longest, !takesAnyRenderer);
-        if (difference.empty()) continue;
-        const bool isDrawer = pipeline::differenceOf(record, *longest, false).empty();
-        refuse(pattern, fmt::format("{} and {} are not parts of one run: {}{}", nameOf(record), nameOf(*longest),
-                                    difference, isDrawer ? "; --any-renderer joins them nevertheless" : ""));
+        const std::string difference = pipeline::differenceOf(record, *longest);
+        if (!difference.empty())
+            refuse(pattern,
+                   fmt::format("{} and {} are not parts of one run: {}", nameOf(record), nameOf(*longest), difference));
     }
 }
 
-// What has no record, and why as far as records tell.
+// The frames without a record, and the reason if the records have it.
 std::string withoutRecord(const std::vector<PartRecord>& records, const std::vector<FrameSpan>& spans) {
     std::string text = fmt::format("\n  {}: no record of a part that has drawn them", pipeline::inWords(spans));
     for (const PartRecord& record : records) {
@@ -89,7 +88,7 @@ void expectUnchanged(const FrameJoin& join) {
         image::checksumsOf(join.pattern.with(join.records.front().besides), join.frames.first, join.frames.last);
     std::vector<std::string> names;
     for (std::int64_t frame = join.frames.first; frame <= join.frames.last; ++frame) {
-        const auto sum = sums[static_cast<std::size_t>(frame - join.frames.first)];
+        const auto sum = sums[frame - join.frames.first];
         if (std::none_of(join.records.begin(), join.records.end(),
                          [&](const PartRecord& record) { return sum && record.pictureOf(frame) == sum; }))
             names.push_back(join.pattern.pathOf(frame).filename().string());
@@ -145,7 +144,7 @@ class Reading {
     std::mutex mutex_;
     std::exception_ptr failure_;
     std::int64_t failed_ = std::numeric_limits<std::int64_t>::max();
-    std::vector<std::jthread> workers_;  // last: they end before what they use
+    std::vector<std::jthread> workers_;  // last: they end before the data they use
 };
 
 // Another run that has failed before its first picture has left none of the parts.
@@ -168,8 +167,7 @@ void leaveOutFailed(std::vector<PartRecord>& records) {
 
 }  // namespace
 
-FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
-                       bool takesAnyRenderer) {
+FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted) {
     std::error_code ignored;
     if (!std::filesystem::is_directory(pattern.folder().empty() ? "." : pattern.folder(), ignored))
         refuse(pattern, "there is no such folder");
@@ -178,7 +176,7 @@ FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<F
         if (!record.fault.empty()) throw core::Error(core::ErrorKind::badContent, record.fault);
     if (join.records.empty()) refuseWithoutRecord(pattern);
     leaveOutFailed(join.records);
-    expectOneRun(pattern, join.records, takesAnyRenderer);
+    expectOneRun(pattern, join.records);
     const std::int64_t count = join.records.front().count;
     const FrameRange range = wanted.value_or(FrameRange{});
     join.frames = {range.first, range.last.value_or(count - 1)};

@@ -24,10 +24,9 @@ struct FrameJoin {
 };
 
 // All frames of the run, or the wanted ones. Throws core::Error(inputOutput) if records are not of one run: by their
-// keys, their state hashes, or their renderers and versions of the program, unless any will do. Also if frames or
-// records are missing, with a list of them, or if checksums of frames differ from the records.
-FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
-                       bool takesAnyRenderer);
+// keys, their state hashes, or their renderers and versions of the program. Also if frames or records are missing,
+// with a list of them, or if checksums of frames differ from the records.
+FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted);
 
 struct JoinedMetrics {
     std::string text;

@@ -43,14 +43,14 @@ struct InfoFlags {
 // Of processor time, all threads together [s].
 struct TickCost {
     double spent = 0.0;                          // on the ticks that were played
-    std::int64_t ticks = 0, from = 0;            // how many; the first of those that stand for what is to come
+    std::int64_t ticks = 0, from = 0;            // how many; the first of the ones that represent the rest
     double least = 0.0, mean = 0.0, most = 0.0;  // of these; between the outer two eight of ten lie
     double asleep = 0.0;                         // share of points that slept, mean over the ticks that were played
     double ofAll(std::int64_t all) const { return spent + mean * static_cast<double>(all - ticks); }
 };
 
-// Plays the scene for some seconds and looks at the clock. What is to come goes as the later half of that time, for
-// bodies meet that were apart.
+// Plays the scene for some seconds and looks at the clock. The rest is assumed to run as the later half of that time,
+// for bodies meet that were apart.
 TickCost measuredCost(world::World& world, std::int64_t ticks) {
     constexpr double enough = 3.0;  // [s]
     std::vector<double> costs;
@@ -70,8 +70,7 @@ TickCost measuredCost(world::World& world, std::int64_t ticks) {
     if (costs.empty()) return cost;
     cost.asleep /= static_cast<double>(cost.ticks);
     double late = 0.0;
-    for (cost.from = cost.ticks; cost.from > 0 && late < 0.5 * cost.spent;)
-        late += costs[static_cast<std::size_t>(--cost.from)];
+    for (cost.from = cost.ticks; cost.from > 0 && late < 0.5 * cost.spent;) late += costs[--cost.from];
     if (cost.from == cost.ticks) cost.from = 0;  // finer than the clock
     costs.erase(costs.begin(), costs.begin() + cost.from);
     std::sort(costs.begin(), costs.end());
@@ -216,7 +215,7 @@ void printJson(const Facts& facts) {
     printResult("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
 }
 
-// What each material is as a continuum, of the first cloth made of it.
+// Each material as a continuum, of the first cloth made of it.
 void printMaterials(const world::SceneSpec& spec) {
     std::vector<std::string> known;
     for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
@@ -423,7 +422,7 @@ void printPoints(const world::Body& body) {
             if (numbers.size() < shown) numbers.push_back(fmt::format("#{}", i));
         const bool isOne = points.size() == 1;
         printResult("  @{:<24} {}{}\n", name, fmt::join(numbers, " "),
-                    isOne                   ? "  " + textOf(body.model.positions[static_cast<std::size_t>(points[0])])
+                    isOne                   ? "  " + textOf(body.model.positions[points[0]])
                     : points.size() > shown ? fmt::format(" … {} in all", points.size())
                                             : "");
     }

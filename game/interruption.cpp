@@ -8,7 +8,7 @@
 namespace taut::game {
 namespace {
 
-// A signal handler reaches nothing but what is static.
+// A signal handler can reach static data only.
 std::atomic<bool> asked{false};
 volatile std::sig_atomic_t received = 0;
 std::atomic<std::int64_t> receivedAt{0};

@@ -26,7 +26,7 @@ namespace {
 struct JoinFlags {
     std::string place, output, frames, junit;
     OverwriteFlags overwrite;
-    bool anyRenderer = false, quiet = false;
+    bool quiet = false;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -46,7 +46,7 @@ int joinFrames(const JoinFlags& flags) {
         failUsage("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output);
     const std::optional<FrameRange> wanted =
         flags.frames.empty() ? std::nullopt : std::optional(frameRange(flags.frames));
-    const FrameJoin join = provedFrames(image::FramePattern(flags.place), wanted, flags.anyRenderer);
+    const FrameJoin join = provedFrames(image::FramePattern(flags.place), wanted);
     const std::string proved = fmt::format("frames {}-{} of one run, in {} part{}", join.frames.first, join.frames.last,
                                            join.records.size(), join.records.size() == 1 ? "" : "s");
     if (flags.output.empty()) {
@@ -68,8 +68,7 @@ int joinFrames(const JoinFlags& flags) {
 
 // The report of all shards, with the exit code that taut test has for it.
 int joinTests(const JoinFlags& flags) {
-    if (!flags.frames.empty() || flags.anyRenderer)
-        failUsage("--frames and --any-renderer apply to frames; this folder has shards of taut test");
+    if (!flags.frames.empty()) failUsage("--frames applies to frames; this folder has shards of taut test");
     const std::filesystem::path folder = flags.output.empty() ? flags.place : flags.output;
     if (image::isVideoPath(folder))
         failUsage("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are", flags.output);
@@ -98,7 +97,6 @@ Action declareJoin(Options& options) {
                   "Video to make (.mp4 .mov .mkv .webm .gif), default none; of tests the folder of the report");
     options.value("--junit", flags->junit, "Of tests: also write the results as JUnit XML").typeName("FILE");
     options.value("--frames", flags->frames, "Frames to join: 0-119, 60, or 60-").typeName("A-B");
-    options.flag("--any-renderer", flags->anyRenderer, "Join pictures of different renderers or versions of taut");
     addOverwriteFlags(options, flags->overwrite);
     options.flag("--quiet", flags->quiet, "Print no progress");
     options.footer(

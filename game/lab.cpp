@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <system_error>
 
 #include "game/messages.h"
@@ -48,7 +47,7 @@ void LabProgress::show(double done, const std::string& doing) {
 
 LabFolder::LabFolder(std::filesystem::path folder, bool isQuiet)
     : folder_(std::move(folder)), draws_(!report::gnuplotVersion().empty()), isQuiet_(isQuiet) {
-    std::error_code ignored;  // what cannot be looked at is reported when the folder is made
+    std::error_code ignored;  // an unreadable folder is reported when it is made
     const std::string ending = folder_.extension().string();
     for (const char* ofOne : {".csv", ".json", ".svg", ".png", ".html"})
         if (ending == ofOne && !std::filesystem::is_directory(folder_, ignored))

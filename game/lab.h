@@ -39,6 +39,16 @@ class LabProgress {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Runs a study with these settings, with progress and until an interruption.
+template <class Settings, class Study>
+auto followed(const std::string& name, bool isQuiet, const Interruption& interruption, Settings settings,
+              const Study& study) {
+    LabProgress line(name, isQuiet, interruption.flag());
+    settings.listener = {&interruption.flag(),
+                         [&line](double done, const std::string& doing) { line.show(done, doing); }};
+    return study(settings);
+}
+
 // The folder for results. Without gnuplot it holds tables only, and says so.
 class LabFolder {
   public:

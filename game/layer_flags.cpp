@@ -1,7 +1,5 @@
 #include "game/layer_flags.h"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <filesystem>
 #include <utility>

@@ -1,6 +1,5 @@
 #include "game/live_line.h"
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 

@@ -60,7 +60,7 @@ void LivePlay::makeLevels() {
     const std::ptrdiff_t wanted = adaptation_ ? adaptation_->level() : first - levels_.begin();
     const auto begin = std::min(wanted, std::ssize(levels_) - 1);
     adaptation_.emplace(std::move(costs), static_cast<int>(begin), longestTurn);
-    const DrawingLevel& level = levels_[static_cast<std::size_t>(begin)];
+    const DrawingLevel& level = levels_[begin];
     world::PictureSpec picture = scene;
     picture.size = {level.pixels(width_), level.pixels(height_)};
     picture.samples = level.samples;
@@ -108,7 +108,7 @@ void LivePlay::adopt(std::unique_ptr<live::Session> session, scene::StateKeys ke
     pace_ = live::Pace(session_->world().tickSeconds());
     session_->showMarks(showsMarks_);
     shownCamera_ = session_->now().camera;
-    saidDivergence_ = false;
+    hasReportedDivergence_ = false;
     printed_ = session_->deeds().size();
     steps_ = 0;
     hasChanged_ = true;
@@ -191,7 +191,7 @@ void LivePlay::drawPicture(const view::FrameView& view, double wall) {
 // Draws finer or coarser from the next picture on, as there is time.
 void LivePlay::adapt(double drawing, double turn) {
     if (!adaptation_->add(drawing, turn)) return;
-    const DrawingLevel& level = levels_[static_cast<std::size_t>(adaptation_->level())];
+    const DrawingLevel& level = levels_[adaptation_->level()];
     render::RendererOptions options;
     options.width = level.pixels(width_);
     options.height = level.pixels(height_);
@@ -203,7 +203,7 @@ void LivePlay::adapt(double drawing, double turn) {
 }
 
 std::string LivePlay::qualityText() const {
-    const std::string& name = levels_[static_cast<std::size_t>(adaptation_->level())].name;
+    const std::string& name = levels_[adaptation_->level()].name;
     return levels_.size() > 1 ? name + " (auto)" : name;
 }
 
@@ -258,15 +258,15 @@ void LivePlay::say(const std::string& text) {
     if (!settings_.isQuiet) printNote("{}\n", text);
 }
 
-// What the ticks just done brought to light.
+// The findings of the last ticks.
 void LivePlay::report() {
     for (const std::string& fault : session_->takeFaults()) say(fault.substr(0, fault.find('\n')));
     const auto& deeds = session_->deeds();
     for (; printed_ < deeds.size(); ++printed_)
         if (settings_.isVerbose)
             printNote("{}\n", live::actionText(deeds[printed_], deeds[printed_].t, world::builtInActions()));
-    if (!session_->divergence() || saidDivergence_) return;
-    saidDivergence_ = true;
+    if (!session_->divergence() || hasReportedDivergence_) return;
+    hasReportedDivergence_ = true;
     printNote("{}\n", session_->divergence()->message);
     screen_.say(
         fmt::format("Diverged at {:.3f} s: backspace restarts, + halves the step", session_->divergence()->time), 1e6);

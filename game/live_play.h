@@ -117,7 +117,7 @@ class LivePlay {
     bool hasChanged_ = true;  // since the last picture
     int steps_ = 0;           // single ticks that are asked for
     int slowness_ = 0;        // motion is slower by 2 to the power of this
-    bool saidDivergence_ = false;
+    bool hasReportedDivergence_ = false;
     std::size_t printed_ = 0;  // number of deeds printed
     std::int64_t pictures_ = 0, ticks_ = 0;
     double rate_ = 0.0;     // [pictures/s] lately

@@ -1,12 +1,9 @@
-// What keys and the mouse do.
+// The actions of keys and the mouse.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <system_error>
 
-#include "game/folders.h"
 #include "game/live_play.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
@@ -102,7 +99,7 @@ void LivePlay::drag(const WindowEvent& event) {
         orbit_.turn(turnPerWidth * by.x, turnPerWidth * by.y * settings_.height / settings_.width, camera());
 }
 
-// The mouse leads what it holds in the plane parallel to the picture, also when it rests and the camera moves.
+// The mouse leads the held point in the plane parallel to the picture, also when it rests and the camera moves.
 void LivePlay::lead() {
     if (dragging_ != Dragging::point) return;
     const live::Ray ray = live::rayThrough(camera(), mouse_, 1.0 * settings_.width / settings_.height);
@@ -111,7 +108,7 @@ void LivePlay::lead() {
     session_->hand().leadTo(place);
 }
 
-// What is under the mouse now, held points too.
+// The point under the mouse now, also a held one.
 void LivePlay::findName() {
     named_.reset();
     if (!showsNames_ || dragging_ == Dragging::view) return;

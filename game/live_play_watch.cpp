@@ -26,7 +26,7 @@ void LivePlay::reload() {
         const std::string said = follow(std::move(scene));
         screen_.showFault("");
         watchFiles(false);
-        makeLevels();  // what is drawn with may be another, and textures have to be read again
+        makeLevels();  // the renderer may be another, and textures have to be read again
         say(said);
     } catch (const core::Error& error) {
         watchFiles(true);
@@ -43,12 +43,12 @@ std::unique_ptr<live::Session> LivePlay::goingOn(const scene::Loaded& scene) con
     try {
         return std::make_unique<live::Session>(scene.spec, settings_.threads, *session_);
     } catch (const core::Error&) {
-        return nullptr;  // what happens later asks for other steps
+        return nullptr;  // later actions require other steps
     }
 }
 
 // To the moment that is shown, by simulating from the start where nothing else leads there, as far as there is time.
-// Returns what to say of it.
+// Returns the message about it.
 std::string LivePlay::follow(scene::Loaded scene) {
     const double moment = session_->world().time();
     if (std::unique_ptr<live::Session> next = goingOn(scene)) {

@@ -6,7 +6,7 @@
 
 int main(int argc, char** argv) {
 #ifdef __GLIBC__
-    // What a picture takes is taken again by the next. Given back in between, each of its pages would cost a fault.
+    // The memory of a picture is used again by the next. Given back in between, each of its pages would cost a fault.
     ::mallopt(M_TRIM_THRESHOLD, 512 << 20);
     ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
 #endif

@@ -33,7 +33,8 @@ Folder of the shaders.
 A TrueType file for labels and figures.
 .TP
 .B TAUT_SIMD
-Default of \fB\-\-isa\fR.
+Vector instructions: sse2, avx2, avx512, or auto, the default: the fastest in a short trial. The
+bits are the same.
 .TP
 .B LP_NUM_THREADS
 Number of threads that draw without a graphics card.

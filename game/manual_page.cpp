@@ -11,7 +11,7 @@
 namespace taut::game {
 namespace {
 
-// One word or line as it is: what means something to the formatter does not, and all of it is ASCII.
+// One word or line as it is: characters of the formatter are escaped, and all of it is ASCII.
 std::string asWritten(std::string_view text) {
     std::string out;
     while (!text.empty()) {

@@ -8,7 +8,6 @@
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
-#include "game/folders.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "game/usage.h"

@@ -26,7 +26,7 @@ struct NewFlags {
     bool yes = false;
 };
 
-// What a new scene may have. In the text {name} is the last part of a name, {x}, {left} and {right} are places along x.
+// The parts of a new scene. In the text {name} is the last part of a name, {x}, {left} and {right} are places along x.
 struct Piece {
     std::string_view word;
     std::string_view text;

@@ -31,18 +31,17 @@ study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const s
     const auto start = std::chrono::steady_clock::now();
     study::PlanSettings settings;
     settings.effort = 1e9 * flags.effort;
-    settings.stop = &stop;
-    settings.progress = [&](const study::StudyProgress& progress) {
-        if (!line.isDue(progress.done >= 1.0)) return;
+    settings.listener.stop = &stop;
+    settings.listener.progress = [&](double done, const std::string& doing) {
+        if (!line.isDue(done >= 1.0)) return;
         const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        const double left = spent * (1.0 / std::max(progress.done, 0.02) - 1.0);
-        line.show(
-            fmt::format("plan {:3.0f} %  about {} left  {}", 100 * progress.done, clockText(left), progress.doing));
+        const double left = spent * (1.0 / std::max(done, 0.02) - 1.0);
+        line.show(fmt::format("plan {:3.0f} %  about {} left  {}", 100 * done, clockText(left), doing));
     };
     return study::makePlan(spec, settings);
 }
 
-// What is like a body changes with it.
+// Bodies with `like` change with their model.
 void expectNoOtherChanges(const SearchedScene& scene, const study::Plan& plan, const std::string& changed) {
     const world::SceneSpec now = scene::loadSceneText(changed, scene.file.string(), loadOptions()).spec;
     for (const scene::Change& change : study::planChanges(scene.spec, now))

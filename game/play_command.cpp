@@ -18,7 +18,7 @@ namespace {
 
 struct PlayFlags {
     PlaySettings settings;
-    std::string size, record, isa;
+    std::string size, record;
 };
 
 int play(const PlayFlags& flags) {
@@ -67,7 +67,6 @@ Action declarePlay(Options& options) {
                  "Reload the scene when one of its files is written, with the same camera and time; errors are shown "
                  "over the picture");
     addThreadsFlag(options, settings.threads);
-    addInstructionSetFlag(options, flags->isa);
     addOverrideFlag(options, settings.overrides);
     const Option quiet = options.flag("--quiet", settings.isQuiet, "Print only warnings and errors");
     options.flag("--verbose", settings.isVerbose, "Print every action").excludes(quiet);

@@ -83,7 +83,7 @@ void paintName(Painting& painting, glm::vec2 size, float em, const NamedPoint& n
     painting.text(corner + glm::vec2(0.6F * em, 1.2F * em), Side::left, named.name, em, textInk);
 }
 
-// In lines of so many characters at most; what is broken off goes on in the next one.
+// In lines of so many characters at most; the rest goes on in the next one.
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
     std::vector<std::string> lines(1);
     std::size_t column = 0;

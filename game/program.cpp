@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <exception>
 #include <new>
 #include <string>
 #include <system_error>

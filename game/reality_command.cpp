@@ -13,7 +13,6 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "game/suggestion.h"
 #include "game/usage.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
@@ -34,7 +33,7 @@ struct RealityFlags {
 
 void printRows() {
     for (const reality::Row& row : reality::rows())
-        printResult("{:<4} {}{}\n", row.name, row.title, row.isDear ? " (with --long)" : "");
+        printResult("{:<4} {}{}\n", row.name, row.title, row.isLong ? " (with --long)" : "");
 }
 
 void checkRows(const std::vector<std::string>& wanted) {
@@ -56,15 +55,12 @@ int compareWithReality(const RealityFlags& flags) {
                              : reality::readPeers(core::fileContent(flags.beside), flags.beside);
     const Interruption interruption;
     const LabFolder output(flags.output, flags.quiet);
-    reality::Comparison comparison = [&] {
-        LabProgress line("reality", flags.quiet, interruption.flag());
-        return reality::compare({.rows = flags.rows,
-                                 .isLong = flags.isLong,
-                                 .cells = flags.cells,
-                                 .assetFolders = loadOptions().assetFolders,
-                                 .stop = &interruption.flag(),
-                                 .progress = [&](double done, const std::string& doing) { line.show(done, doing); }});
-    }();
+    reality::Comparison comparison = followed("reality", flags.quiet, interruption,
+                                              reality::Settings{.rows = flags.rows,
+                                                                .isLong = flags.isLong,
+                                                                .cells = flags.cells,
+                                                                .assetFolders = loadOptions().assetFolders},
+                                              reality::compare);
     if (comparison.isInterrupted && comparison.lines.empty()) return output.abandon(interruption);
     comparison.peers = peers;
     const pipeline::Machine machine = pipeline::machine();

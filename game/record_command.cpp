@@ -8,7 +8,6 @@
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/flags.h"
-#include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/messages.h"
@@ -25,7 +24,7 @@ namespace taut::game {
 namespace {
 
 struct RecordFlags {
-    std::string scene, output, isa;
+    std::string scene, output;
     std::vector<std::string> overrides;
     double seconds = 0.0;
     int threads = 0;
@@ -87,7 +86,6 @@ Action declareRecord(Options& options) {
     options.flag("--no-points", flags->noPoints, "Record hashes of bodies only: a smaller tape without points");
     options.value("--seconds", flags->seconds, "Length in scene time").check(numberWithin(leastSeconds, mostSeconds));
     addThreadsFlag(options, flags->threads);
-    addInstructionSetFlag(options, flags->isa);
     addOverrideFlag(options, flags->overrides);
     options.flag("--quiet", flags->quiet, "Print no progress");
     return [flags] { return record(*flags); };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -61,7 +60,7 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const RunPart& part, c
     return options;
 }
 
-// What --metrics-of asks for, or null.
+// The figures of --metrics-of, or null.
 std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::SceneSpec& spec) {
     if (text.empty()) return nullptr;
     const auto fail = [](const std::string& message) { failUsage("--metrics-of: {}", message); };
@@ -87,7 +86,7 @@ pipeline::FigureColumns columnsOf(const std::vector<std::string>& names) {
     return {names.size(), key.value()};
 }
 
-// The names of what is measured besides.
+// The names of the further measures.
 std::vector<std::string> addFigures(const std::string& text, const world::SceneSpec& spec,
                                     pipeline::RunOptions& options) {
     const std::shared_ptr<check::Figures> figures = figuresOf(text, spec);
@@ -150,7 +149,7 @@ pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunO
     return listener;
 }
 
-// What came out, in a line; the first `before` frames are those of an earlier run.
+// The result, in a line; the first `before` frames are those of an earlier run.
 void printSummary(const RenderFlags& flags, const pipeline::RunResult& result, std::size_t before) {
     std::size_t pictures = 0;
     for (std::size_t i = before; i < result.frames.size(); ++i) pictures += result.frames[i].pictured ? 1 : 0;
@@ -162,7 +161,7 @@ void printSummary(const RenderFlags& flags, const pipeline::RunResult& result, s
     printNote("{}, {:.1f} s{}\n", text, result.seconds, result.interrupted ? " (interrupted)" : "");
 }
 
-// The renderers of a run, and what draws with them.
+// The renderers of a run, and the functions that draw with them.
 struct Drawing {
     pipeline::PictureLayers layers;
     std::vector<std::unique_ptr<render::Renderer>> renderers;
@@ -176,8 +175,8 @@ Drawing makeDrawing(const RenderFlags& flags, const world::World& world, const w
     Drawing drawing;
     drawing.layers = layersOf(flags.layers, world);
     if (flags.noPictures) return drawing;
-    drawing.renderers = makeRenderers(picture, flags.threads, flags.gl, drawing.layers,
-                                      drawersFor(flags.drawThreads, flags.threads, picture, options));
+    drawing.renderers =
+        makeRenderers(picture, flags.threads, flags.gl, drawing.layers, drawersFor(flags.threads, picture, options));
     drawing.info = drawing.renderers.front()->info();
     std::vector<pipeline::Draw> draws;
     for (const auto& each : drawing.renderers)
@@ -187,7 +186,7 @@ Drawing makeDrawing(const RenderFlags& flags, const world::World& world, const w
     return drawing;
 }
 
-// What of the figures the frames before those that are simulated now have shown.
+// The figures of the frames before the simulated ones.
 void addOverlay(const world::World& world, const pipeline::RecordLog& before, pipeline::RunOptions& options,
                 Drawing& drawing) {
     drawing.overlay = std::make_unique<pipeline::Overlay>(fontFile(), pipeline::smallestStep(world));
@@ -199,7 +198,7 @@ void addOverlay(const world::World& world, const pipeline::RecordLog& before, pi
     };
 }
 
-// Shows progress meanwhile; `prepare` may add to what listens.
+// Shows progress meanwhile; `prepare` may add listeners.
 pipeline::RunResult playRun(const RenderFlags& flags, const pipeline::RunOptions& options, const Drawing& drawing,
                             image::FrameSink* sink, pipeline::RecordLog records, world::World& world, double fps,
                             const std::function<void(pipeline::RunListener&)>& prepare, const std::atomic<bool>& stop) {
@@ -216,7 +215,7 @@ pipeline::RunResult playRun(const RenderFlags& flags, const pipeline::RunOptions
     }
 }
 
-// What is said before anything is done.
+// The messages before the run.
 void noteWhatIsAhead(const RenderFlags& flags, const RunPart& part, const world::SceneSpec& spec) {
     if (flags.quiet) return;
     const std::string large =
@@ -225,7 +224,7 @@ void noteWhatIsAhead(const RenderFlags& flags, const RunPart& part, const world:
     notePreparation(spec);
 }
 
-// What came up on the way, such as a block squashed flat.
+// Warnings of the run, such as a block squashed flat.
 void warnOfNew(const std::vector<core::Finding>& foreseen, std::vector<core::Finding> met) {
     std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
     printWarnings(met);
@@ -245,7 +244,7 @@ void keepLastState(const RenderFlags& flags, const scene::Loaded& scene, const w
     core::writeWholeFile(flags.state, pipeline::toBytes(state));
 }
 
-// Over 60 lines: what a run does, from its flags to its files, stands in one list.
+// Over 60 lines: the steps of a run, from its flags to its files, are one list.
 int render(const RenderFlags& flags) {
     checkFlags(flags);
     if (!flags.at.empty()) return renderStills(flags);

@@ -183,11 +183,6 @@ void addMachineFlags(Options& options, RenderFlags& flags) {
     options.group("Machine");
     addRendererFlag(options, flags.gl);
     addThreadsFlag(options, flags.threads);
-    options
-        .value("--draw-threads", flags.drawThreads,
-               "Number of pictures drawn in parallel, with the same bytes; default by the machine")
-        .within(1, 64);
-    addInstructionSetFlag(options, flags.isa);
 }
 
 }  // namespace

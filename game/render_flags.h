@@ -16,10 +16,10 @@ struct RenderFlags {
     std::string scene;
     std::string output, video;
     std::string state;  // file for the state of the last frame; empty: it is not kept
-    std::string frames, shard, size, camera, gl, isa, hashEvery = "frame", metricsOf;
+    std::string frames, shard, size, camera, gl, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
-    int threads = 0, samples = 0, smooth = -1, drawThreads = 0;  // smooth: -1: not given
-    std::vector<std::string> at;                                 // [s] draws stills at these moments instead of a run
+    int threads = 0, samples = 0, smooth = -1;  // smooth: -1: not given
+    std::vector<std::string> at;                // [s] draws stills at these moments instead of a run
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     LayerFlags layers;

@@ -1,7 +1,5 @@
 #include "game/render_stills.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <memory>

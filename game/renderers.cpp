@@ -1,6 +1,5 @@
 #include "game/renderers.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -94,11 +93,10 @@ std::vector<std::unique_ptr<render::Renderer>> makeRenderers(const world::Pictur
     return renderers;
 }
 
-int drawersFor(int wanted, int threads, const world::PictureSpec& picture, const pipeline::RunOptions& options) {
+int drawersFor(int threads, const world::PictureSpec& picture, const pipeline::RunOptions& options) {
     constexpr int most = 4;  // the pixels of all are drawn by the same threads; more save their corners alone
     constexpr double bytesOfPixel = 100.0, bytesOfShadowTexel = 4.5, partOfMemory = 0.125;
     const std::int64_t pictures = options.lastFrame - options.firstFrame + 1;
-    if (wanted > 0) return static_cast<int>(std::min<std::int64_t>(wanted, pictures));
     const int processors = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const double bytes =
         bytesOfPixel * picture.size.x * picture.size.y + bytesOfShadowTexel * picture.shadowSize * picture.shadowSize;

@@ -40,8 +40,8 @@ std::vector<std::unique_ptr<render::Renderer>> makeRenderers(const world::Pictur
                                                              const std::string& gl,
                                                              const pipeline::PictureLayers& layers, int count);
 
-// A useful number of renderers: `wanted`, or if that is 0 one for each thread, at most four. Never more than there are
-// pictures, or than fit in an eighth of the memory.
-int drawersFor(int wanted, int threads, const world::PictureSpec& picture, const pipeline::RunOptions& options);
+// A useful number of renderers: one for each thread, at most four, the number of pictures, and as many as fit in an
+// eighth of the memory.
+int drawersFor(int threads, const world::PictureSpec& picture, const pipeline::RunOptions& options);
 
 }  // namespace taut::game

@@ -2,14 +2,11 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/flags.h"
-#include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/messages.h"
@@ -28,7 +25,7 @@ namespace taut::game {
 namespace {
 
 struct ReplayFlags {
-    std::string tape, other, scene, isa;
+    std::string tape, other, scene;
     int threads = 0;
     bool verify = false, quiet = false;
 };
@@ -51,7 +48,7 @@ void printFacts(const std::string& name, const regression::Tape& tape) {
                 origin.bits, tape.chain.back());
 }
 
-// What a tape was made from, or the scene that is to be held against it.
+// The scene of a tape, or the scene to compare with it.
 world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape) {
     const scene::LoadOptions options = loadOptions(tape.origin.overrides);
     if (!flags.scene.empty()) {
@@ -147,7 +144,6 @@ Action declareReplay(Options& options) {
             .mayBeBare();
     options.value("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
     addThreadsFlag(options, flags->threads);
-    addInstructionSetFlag(options, flags->isa);
     options.flag("--quiet", flags->quiet, "Print no progress");
     return [flags, verify] {
         flags->verify = verify.isGiven();

@@ -46,11 +46,11 @@ std::vector<std::int64_t> framesThere(const PartPlace& place, const pipeline::Fr
     return there;
 }
 
-// Those that are not as their record says: the part draws them again.
+// Frames that differ from their record: the part draws them again.
 void removeChanged(const PartPlace& place, const pipeline::PartRecord& own) {
     const auto there = image::checksumsOf(place.files(), own.first, own.lastDrawn());
     for (std::int64_t frame = own.first; frame <= own.lastDrawn(); ++frame) {
-        const auto sum = there[static_cast<std::size_t>(frame - own.first)];
+        const auto sum = there[frame - own.first];
         if (!sum || sum == own.pictureOf(frame).value_or(*sum)) continue;
         printNote("note: {} differs from its record: it is drawn again\n", place.pattern.pathOf(frame).string());
         removeFrames(place, {frame, frame});
@@ -64,7 +64,7 @@ bool isWhole(const RunPart& part, const PartPlace& place) {
     });
 }
 
-// A run that has the folder for itself: what others have said of the frames that it replaces is no longer so.
+// A run that has the folder for itself: records of others about the frames that it replaces are outdated.
 void takeAwayRecords(const RunPart& part, const std::vector<pipeline::PartRecord>& records) {
     for (const pipeline::PartRecord& record : records)
         if (record.fault.empty() && overlap(record, part.frames)) removeFile(record.path);

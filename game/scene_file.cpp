@@ -13,7 +13,6 @@
 #include "taut/image/private/light_image.h"
 #include "taut/pipeline/saved_state.h"
 #include "taut/scene/load.h"
-#include "taut/scene/private/merge.h"
 
 namespace taut::game {
 

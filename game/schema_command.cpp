@@ -5,7 +5,6 @@
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/messages.h"
-#include "taut/core/error.h"
 #include "taut/scene/load.h"
 
 namespace taut::game {

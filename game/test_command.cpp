@@ -45,7 +45,7 @@ report::TestReport blankReport(const TestRun& run) {
     return report;
 }
 
-// Goldens of scenarios that are gone; said when all of the folders' scenarios were looked for.
+// Goldens of removed scenarios; reported if all of the folders' scenarios were looked for.
 std::vector<std::string> orphans(const TestFlags& flags, const TestRun& run) {
     std::vector<std::string> notes;
     std::error_code ignored;
@@ -61,7 +61,7 @@ std::vector<std::string> orphans(const TestFlags& flags, const TestRun& run) {
     return notes;
 }
 
-// What had not ended when the run was interrupted has not passed.
+// Scenarios that had not ended at an interruption have not passed.
 void addUnplayed(const std::vector<regression::Scenario>& scenarios, report::TestReport& report) {
     for (const regression::Scenario& scenario : scenarios) {
         const bool isThere =
@@ -135,7 +135,7 @@ int test(const TestFlags& flags) {
     return interruption.exitCode() ? static_cast<int>(*interruption.exitCode()) : code;
 }
 
-// What became of a scenario that cannot be made a golden.
+// The outcome of a scenario that cannot become a golden.
 void refuseToUpdate(const regression::Scenario& scenario, const regression::Played& played) {
     if (played.divergence) throw core::Error(core::ErrorKind::diverged, played.divergence->message);
     for (const report::TestCheck& check : played.checks)
@@ -190,7 +190,6 @@ Action declareTest(Options& options) {
     options.value("--why", flags->why, "Reason for an update, kept in the manifest").typeName("TEXT");
     addRendererFlag(options, flags->gl);
     addThreadsFlag(options, flags->threads);
-    addInstructionSetFlag(options, flags->isa);
     options.flag("--calibrate", flags->calibrate,
                  "Measure noise and deliberate errors against the thresholds of pictures");
     options.flag("--require-goldens", flags->requireGoldens,

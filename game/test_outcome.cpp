@@ -16,7 +16,7 @@
 namespace taut::game {
 namespace {
 
-// The command that makes what scenarios do their goldens.
+// The command that records the results of scenarios as their goldens.
 std::string acceptCommand(const std::string& beginning, const std::vector<std::string>& names) {
     std::string command = beginning;
     for (const std::string& name : names) command += " --update " + shellWord(name);
@@ -92,7 +92,7 @@ int exitCodeOf(report::Verdict verdict) {
 }
 
 void showOutcome(const report::TestReport& report, const std::filesystem::path& folder) {
-    // First what a full disk cannot take away.
+    // First the output that a full disk cannot prevent.
     printResult("{}{}{}", report::testTable(report), report::testFailures(report), report::calibrationTable(report));
     for (const report::TestScenario& scenario : report.scenarios) writePictures(folder, scenario);
 }

@@ -95,7 +95,7 @@ std::vector<std::filesystem::path> shardFiles(const std::filesystem::path& folde
     return files;
 }
 
-// Adds what the text does not say yet.
+// Adds the parts that the text does not have yet.
 void addOnce(std::string& text, const std::string& more) {
     if (more.empty() || text.find(more) != std::string::npos) return;
     text += (text.empty() ? "" : "; ") + more;
@@ -145,7 +145,7 @@ void deal(const TestFlags& flags, TestRun& run) {
     std::vector<double> costs;
     for (const regression::Scenario& scenario : run.read.scenarios)
         costs.push_back(scene::sizeOf(scenario.spec).bytes() * scenario.spec.run.seconds);
-    costs.resize(run.names.size(), 0.0);  // what cannot be read costs nothing
+    costs.resize(run.names.size(), 0.0);  // unreadable files cost nothing
     const std::set<std::size_t> mine = turns(costs, piece);
     std::size_t at = 0;
     const auto isForeign = [&](const auto&) { return !mine.contains(at++); };

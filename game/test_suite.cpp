@@ -44,7 +44,7 @@ regression::GoldenFolder goldenFolder(const TestFlags& flags, const std::vector<
     return {(std::filesystem::is_directory(first, ignored) ? first : first.parent_path()) / "golden"};
 }
 
-// Keeps what --filter or --update names; throws core::Error(usage) for a name that fits nothing.
+// Keeps the scenarios that --filter or --update names; throws core::Error(usage) for a name that fits nothing.
 void choose(const TestFlags& flags, regression::ReadScenarios& read) {
     const bool updates = !flags.updates.empty();
     const std::vector<std::string>& wanted = updates ? flags.updates : flags.filters;
@@ -94,7 +94,7 @@ regression::DrawingOptions drawingOptions(const TestFlags& flags, int threads) {
     return options;
 }
 
-// What a scenario is held against lies in its folder, and nothing there leads elsewhere.
+// The goldens of a scenario are in its folder, and no link there leads elsewhere.
 void refuseLinks(const std::filesystem::path& goldens) {
     const auto refuseLink = [](const std::filesystem::path& path) {
         if (std::filesystem::is_symlink(path))

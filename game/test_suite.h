@@ -15,7 +15,7 @@ namespace taut::game {
 
 struct TestFlags {
     std::vector<std::string> paths, filters, updates;
-    std::string output = "out/test", goldens, junit, why, gl, isa, shard;
+    std::string output = "out/test", goldens, junit, why, gl, shard;
     int threads = 0;
     bool quiet = false, calibrate = false, requireGoldens = false, isConfined = false, resume = false;
 };

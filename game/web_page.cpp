@@ -68,7 +68,7 @@ std::filesystem::path viewerFolder() {
     return assetFolder() / "viewer";
 }
 
-// `page` of the viewer with its styles and scripts, before what it shows is put in.
+// `page` of the viewer with its styles and scripts, before its contents are put in.
 std::string pageWith(const char* page, std::initializer_list<const char*> styles,
                      std::initializer_list<const char*> ownScripts, const std::string& title, const std::string& scene,
                      const std::string& wish, const char* flag) {

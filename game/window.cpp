@@ -38,8 +38,8 @@ bool isOnWayland() {
     return driver != nullptr && std::strcmp(driver, "wayland") == 0;
 }
 
-// X11 counts pixels only: how many a common screen would have, from what the screen says of its size. What is no denser
-// than that of most portable computers is as it is.
+// X11 counts pixels only: how many a common screen would have, from the size that the screen reports. A screen that is
+// no denser than that of most portable computers is as it is.
 double densityOfScreen(int width, int height) {
     constexpr float common = 96.0F;  // [dots an inch]
     constexpr double least = 1.5, most = 3.0;
@@ -150,7 +150,7 @@ Window::Window(const std::string& title, int width, int height) : impl_(new Impl
     int pixels = 0;
     if (SDL_GetRendererOutputSize(impl_->renderer, &pixels, nullptr) == 0 && pixels > width)
         impl_->density = static_cast<double>(pixels) / width;
-    // Places of the mouse are told in pixels of the picture, whatever the size of the window.
+    // Places of the mouse are in pixels of the picture, for any size of the window.
     SDL_RenderSetLogicalSize(impl_->renderer, width, height);
 }
 Window::~Window() = default;

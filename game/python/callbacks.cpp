@@ -10,7 +10,7 @@ namespace py = pybind11;
 namespace taut::python {
 namespace {
 
-// Calls function(t, x, v, mass) and takes what it returns.
+// Calls function(t, x, v, mass) and takes its result.
 template <class Item>
 void ask(const Held& function, const std::string& what, Activity& activity, const world::CallbackPoints& points,
          std::span<Item> into) {

@@ -95,7 +95,7 @@ void LiveWorld::requireBodies(const std::string& target) const {
     if (const std::string fault = scene::targetFault(spec(), target, false); !fault.empty()) refuse(fault);
 }
 
-// With the lock let go; every 50 ms it is seen whether the user wants it to end.
+// Without the lock; checks every 50 ms for an interruption by the user.
 void LiveWorld::step(std::int64_t ticks) {
     using Clock = std::chrono::steady_clock;
     if (ticks < 0) refuse(fmt::format("a world cannot go {} ticks back; restore() the bytes of save()", -ticks));

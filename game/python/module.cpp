@@ -1,4 +1,4 @@
-// taut._taut: what `import taut` gives.
+// taut._taut: the module behind `import taut`.
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

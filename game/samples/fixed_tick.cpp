@@ -1,5 +1,5 @@
 // The loop of a game. The world ticks at a pace of its own; a picture comes when the machine is ready for one, and
-// shows a moment between the last two ticks. What was saved goes on, in a world made anew, to the very same bits.
+// shows a moment between the last two ticks. A saved state continues, in a new world, with the same bits.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

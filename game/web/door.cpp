@@ -1,5 +1,4 @@
 // The one way from JavaScript into the engine: a call by name with JSON, to which JSON is the answer.
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <memory>

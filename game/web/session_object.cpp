@@ -124,7 +124,7 @@ Json SessionObject::moment() {
             {"divergence", session_.divergence() ? divergenceOf(*session_.divergence()) : Json()}};
 }
 
-// Of a part what the page does not have yet.
+// The data of a part that the page does not have yet.
 Json SessionObject::frame(std::optional<double> share) {
     const view::FrameView view =
         live::between(session_.before(), session_.now(), std::clamp(share.value_or(pace_.share()), 0.0, 1.0));
@@ -156,7 +156,7 @@ Json SessionObject::frame(std::optional<double> share) {
     return {{"time", view.time}, {"camera", cameraJson(view.camera)}, {"fits", fits}, {"parts", parts}};
 }
 
-// What is there now, as `taut export` writes it.
+// The present state, as `taut export` writes it.
 Json SessionObject::glb(double aspect) {
     geometry::GeometryOptions options;
     options.fps = session_.spec().run.fps;

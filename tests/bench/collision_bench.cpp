@@ -62,7 +62,7 @@ std::string nameOf(const Subject& subject, const ShapeSizes& sizes) {
 }
 
 void build(benchmark::State& state) {
-    const Subject& subject = subjects[static_cast<std::size_t>(state.range(0))];
+    const Subject& subject = subjects[state.range(0)];
     const ShapeSizes sizes = ballOfTriangles(subject.level, subject.rough);
     for (auto _ : state) benchmark::DoNotOptimize(builtInShapes().find(subject.kind)->shape(sizes).form);
     state.SetLabel(nameOf(subject, sizes));
@@ -128,7 +128,7 @@ struct Cloth {
 
 template <class Real>
 void point(benchmark::State& state, double height) {
-    const Subject& subject = subjects[static_cast<std::size_t>(state.range(0))];
+    const Subject& subject = subjects[state.range(0)];
     const ShapeSizes sizes = ballOfTriangles(subject.level, subject.rough);
     Colliders colliders;
     colliders.add({builtInShapes().find(subject.kind)->shape(sizes).form, {}}, {}, {});

@@ -61,7 +61,7 @@ void drawScene(benchmark::State& state, const char* name, bool isCameraStill, in
         before = now;
     };
     render::Renderer renderer(options);
-    for (int i = 0; i < 3; ++i) (void)renderer.draw(views[static_cast<std::size_t>(i)]);  // programs are made
+    for (int i = 0; i < 3; ++i) (void)renderer.draw(views[i]);  // programs are made
     passes.clear();
     double pictures = 0.0;
     for (auto _ : state) {

@@ -33,7 +33,7 @@ mechanics::Model hangingCloth(int side) {
     shape.material.dampingTime = 1e-6;
     shape.material.dragRate = 0.5;
     mechanics::Model cloth = mechanics::buildCloth(shape);
-    for (int p : cloth.groups.at("top")) cloth.held[static_cast<std::size_t>(p)] = true;
+    for (int p : cloth.groups.at("top")) cloth.held[p] = true;
     for (std::size_t i = 0; i < cloth.positions.size(); ++i)
         cloth.positions[i].z = 0.01 * std::sin(9.0 * cloth.uv[i].x + 4.0 * cloth.uv[i].y) * cloth.uv[i].y;
     return cloth;
@@ -54,15 +54,15 @@ mechanics::Model hangingMesh(int side) {
                 triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
             for (const int from : {a, b, c, d})
                 for (const int to : {a, b, c, d})
-                    if (from != to) neighbours[static_cast<std::size_t>(from)].push_back(to);
+                    if (from != to) neighbours[from].push_back(to);
         }
     std::vector<int> order{0}, numberOf(count, -1);
     numberOf[0] = 0;
     for (std::size_t next = 0; next < order.size(); ++next) {
-        std::vector<int>& around = neighbours[static_cast<std::size_t>(order[next])];
+        std::vector<int>& around = neighbours[order[next]];
         std::shuffle(around.begin(), around.end(), random);
         for (const int i : around) {
-            int& number = numberOf[static_cast<std::size_t>(i)];
+            int& number = numberOf[i];
             if (number >= 0) continue;
             number = static_cast<int>(order.size());
             order.push_back(i);
@@ -72,13 +72,13 @@ mechanics::Model hangingMesh(int side) {
     shape.material.bend = 2.0;
     shape.material.dampingTime = 1e-6;
     shape.material.dragRate = 0.5;
-    for (const int i : order) shape.positions.push_back(sheet.positions[static_cast<std::size_t>(i)]);
+    for (const int i : order) shape.positions.push_back(sheet.positions[i]);
     for (const auto& corners : triangles) {
         auto& t = shape.triangles.emplace_back();
-        for (std::size_t i = 0; i < 3; ++i) t[i] = numberOf[static_cast<std::size_t>(corners[i])];
+        for (std::size_t i = 0; i < 3; ++i) t[i] = numberOf[corners[i]];
     }
     mechanics::Model cloth = mechanics::buildMeshCloth(shape);
-    for (int p : cloth.groups.at("top")) cloth.held[static_cast<std::size_t>(p)] = true;
+    for (int p : cloth.groups.at("top")) cloth.held[p] = true;
     return cloth;
 }
 

@@ -67,7 +67,7 @@ ObjectSprings<Real>::ObjectSprings(const mechanics::Model& cloth, double step) :
         add(point, std::make_unique<Drag>());
     }
     for (const mechanics::Spring& s : cloth.springs) {
-        Point &a = points_[static_cast<std::size_t>(s.a)], &b = points_[static_cast<std::size_t>(s.b)];
+        Point &a = points_[s.a], &b = points_[s.b];
         add(a, std::make_unique<SpringEnd>(&b, s));
         add(b, std::make_unique<SpringEnd>(&a, s));
     }

@@ -67,8 +67,7 @@ void measure(const Telling& telling, int cells, double gamma) {
         time += steps * telling.step;
         fastest = 0;
         for (int i = 0; i < body.m_nodes.size(); ++i)
-            fastest = std::max(
-                fastest, (body.m_nodes[i].m_x - before[static_cast<std::size_t>(i)]).length() / (steps * telling.step));
+            fastest = std::max(fastest, (body.m_nodes[i].m_x - before[i]).length() / (steps * telling.step));
     }
     const double spent = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     const int last = body.m_nodes.size() - 1;

@@ -17,9 +17,7 @@ class Choices {
     int below(int count) { return static_cast<int>(byte() * static_cast<unsigned>(count) >> 8U); }
     // The rarer of two, never at the end of the bytes.
     bool oneIn(int count) { return below(count) == count - 1; }
-    const char* of(const std::vector<const char*>& words) {
-        return words[static_cast<std::size_t>(below(static_cast<int>(words.size())))];
-    }
+    const char* of(const std::vector<const char*>& words) { return words[below(static_cast<int>(words.size()))]; }
     double between(double least, double most) {
         const unsigned high = byte(), low = byte();
         return least + (most - least) * (high << 8U | low) / 65535.0;
@@ -221,7 +219,7 @@ class Growing {
     }
 
     std::string points() {
-        const Own& own = bodies_[static_cast<std::size_t>(choices_.below(static_cast<int>(bodies_.size())))];
+        const Own& own = bodies_[choices_.below(static_cast<int>(bodies_.size()))];
         return own.name + "@" + choices_.of(own.selectors);
     }
 
@@ -345,8 +343,8 @@ class Growing {
             case 5: happens(tick | 1, {"do = \"free\"\ntarget = \"{}\"\n", points()}); break;
             case 6:
                 happens(tick, {"do = \"cut\"\ntarget = \"{}\"\nplane = [{}, {}]\n",
-                               bodies_[static_cast<std::size_t>(choices_.below(static_cast<int>(bodies_.size())))].name,
-                               choices_.vector(0.1), choices_.vector(1)});
+                               bodies_[choices_.below(static_cast<int>(bodies_.size()))].name, choices_.vector(0.1),
+                               choices_.vector(1)});
                 break;
             case 7:
                 happens(tick, {"do = \"add-mass\"\ntarget = \"{}\"\nmass_kg = {:.6g}\n", points(),

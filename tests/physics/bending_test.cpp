@@ -100,9 +100,7 @@ std::string meshOf(int cells, bool isIrregular) {
     const auto face = [&](int a, int b, int c) {
         text += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " + std::to_string(c + 1) + "\n";
     };
-    const auto distance = [&](int a, int b) {
-        return glm::length(x[static_cast<std::size_t>(a)] - x[static_cast<std::size_t>(b)]);
-    };
+    const auto distance = [&](int a, int b) { return glm::length(x[a] - x[b]); };
     for (int j = 0; j < across; ++j)
         for (int i = 0; i < cells; ++i) {
             const int a = j * (cells + 1) + i, b = a + 1, c = a + cells + 1, d = c + 1;

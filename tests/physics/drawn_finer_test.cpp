@@ -67,14 +67,14 @@ class Layers {
         contact::Bvh leaves(elements);
         double most = 0.0;
         for (const contact::Crossing& crossing : contact::findCrossings(elements, leaves, x_)) {
-            const auto at = [&](std::size_t i) { return x_[static_cast<std::size_t>(crossing.points[i])]; };
+            const auto at = [&](std::size_t i) { return x_[crossing.points[i]]; };
             const dvec3 normal = glm::cross(at(3) - at(2), at(4) - at(2));
             if (!(glm::length(normal) > 0.0)) continue;
             const double depth =
                 std::min(std::abs(glm::dot(normal, at(0) - at(2))), std::abs(glm::dot(normal, at(1) - at(2)))) /
                 glm::length(normal);
-            const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
-            const int triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
+            const int edge = elements.edges()[crossing.edge].surface;
+            const int triangle = elements.triangles()[crossing.triangle].surface;
             most = std::max(most,
                             depth / std::max(elements.surface(edge).thickness, elements.surface(triangle).thickness));
         }

@@ -135,7 +135,7 @@ TEST(FreeFlight, OfANetAtRestLeavesItUndeformed) {
         EXPECT_NEAR(fall.y, -0.5 * g * 0.25, 0.1) << method.name;  // it fell: drag takes 7 % off
         for (int i = 0; i < cloth.pointCount(); ++i)
             // Rounding of positions of 5 m, 1e-15, strains springs; 1e4 steps of it: below 1e-11.
-            ASSERT_LT(glm::length(network.position(i) - cloth.positions[static_cast<std::size_t>(i)] - fall), 1e-11)
+            ASSERT_LT(glm::length(network.position(i) - cloth.positions[i] - fall), 1e-11)
                 << method.name << ", point " << i;
     }
 }
@@ -182,7 +182,7 @@ TEST(Reversal, BringsAClothBackAfterFiveHundredSteps) {
         network.step(500);
         for (int i = 0; i < cloth.pointCount(); ++i)
             // 1000 steps of rounding, enlarged by what the folding cloth magnifies.
-            EXPECT_LT(glm::length(network.position(i) - cloth.positions[static_cast<std::size_t>(i)]), 1e-9) << method;
+            EXPECT_LT(glm::length(network.position(i) - cloth.positions[i]), 1e-9) << method;
     }
 }
 

@@ -67,8 +67,7 @@ Model randomNetwork(std::uint64_t seed, double stretch) {
     for (int i = 0; i < 4 * n; ++i) {
         const int a = static_cast<int>(n * random()), b = static_cast<int>(n * random());
         if (a == b) continue;
-        const double l =
-            glm::length(model.positions[static_cast<std::size_t>(b)] - model.positions[static_cast<std::size_t>(a)]);
+        const double l = glm::length(model.positions[b] - model.positions[a]);
         addSpring(model, a, b, std::pow(10.0, random.between(1, 4)), l / stretch * random.between(0.5, 1.5));
     }
     return model;

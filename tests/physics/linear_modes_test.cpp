@@ -196,7 +196,7 @@ TEST(HangingChain, SwingsAtTheZerosOfLaguerrePolynomials) {
             std::vector<dvec3> shape(static_cast<std::size_t>(n) + 1, dvec3(0.0));
             double largest = 0.0;
             for (int r = 0; r < n; ++r) largest = std::max(largest, std::abs(laguerre(r, zero)));
-            for (int r = 0; r < n; ++r) shape[static_cast<std::size_t>(n - r)] = {laguerre(r, zero) / largest, 0, 0};
+            for (int r = 0; r < n; ++r) shape[n - r] = {laguerre(r, zero) / largest, 0, 0};
             expectMode(model, shape, 5e-6 * l, std::sqrt(g / l * zero), 1e-6, {0, -g, 0});
         }
     }

@@ -39,7 +39,7 @@ double omegaOfCloth() {
     Model model = mechanics::buildCloth({.size = {0.9, 0.6},
                                          .cells = cells,
                                          .material = {0.2, 600.0, 300.0, 2.0, 0.0, 0.0, mechanics::Lumping::weighted}});
-    for (int i : model.groups["left"]) model.held[static_cast<std::size_t>(i)] = true;
+    for (int i : model.groups["left"]) model.held[i] = true;
     return fastestFrequency(model, model.positions);
 }
 

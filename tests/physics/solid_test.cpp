@@ -874,7 +874,7 @@ TEST(SolidBox, StandsInAStackAndSleeps) {
     EXPECT_EQ(world.asleepShare(), 1.0);
     for (int k = 0; k < count; ++k) {
         const dvec3 centre = motionOf(world, "solid.box" + std::to_string(k)).centre;
-        EXPECT_LT(glm::distance(centre, settled[static_cast<std::size_t>(k)]), 2e-5) << k;
+        EXPECT_LT(glm::distance(centre, settled[k]), 2e-5) << k;
     }
 
     SolidSpec dropped = ball("ball", {0.03, 0.1 * count + 0.15, 0.0}, 0.05);

@@ -61,8 +61,7 @@ double errorWithChange(double h, bool splits) {
     const auto play = [&](double step, std::string_view method, bool split) {
         mechanics::MassSpringSystem<double> system(model);
         ode::State<double> state(system.layout());
-        for (int i = 0; i < 4; ++i)
-            state.x[static_cast<std::size_t>(i)] = model.positions[static_cast<std::size_t>(i)].x;
+        for (int i = 0; i < 4; ++i) state.x[i] = model.positions[i].x;
         ode::MethodOptions options;
         options.splits = split;
         const auto run = ode::makeMethod<double>(method, options);

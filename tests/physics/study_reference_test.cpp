@@ -102,8 +102,8 @@ class Unsolved final : public Subject {
 double errorOf(const std::vector<Observation>& seen, const Subject& solved, const Grid& grid) {
     double sum = 0;
     for (int i = 0; i < grid.samples; ++i) {
-        const double rms = rmsDifference(seen[static_cast<std::size_t>(i)].values,
-                                         solved.exact(grid.spacing * (i + 1))->values, solved.dimensions());
+        const double rms =
+            rmsDifference(seen[i].values, solved.exact(grid.spacing * (i + 1))->values, solved.dimensions());
         sum += rms * rms;
     }
     return std::sqrt(sum / grid.samples);
@@ -140,7 +140,7 @@ TEST(StudyReference, ErrsLessThanItSaysAgainstOdeint) {
     for (int i = 0; i < grid.samples; ++i) {
         boost::numeric::odeint::integrate_adaptive(boost::numeric::odeint::bulirsch_stoer<State>(1e-14, 1e-14),
                                                    equation, y, grid.spacing * i, grid.spacing * (i + 1), 1e-3);
-        const double rms = rmsDifference(reference.at[static_cast<std::size_t>(i)].values, std::span(y.data(), 3), 3);
+        const double rms = rmsDifference(reference.at[i].values, std::span(y.data(), 3), 3);
         sum += rms * rms;
     }
     EXPECT_LT(std::sqrt(sum / grid.samples), reference.error);

@@ -64,7 +64,7 @@ inline void animate(figure::Figure& figure, int node, figure::Path path, std::ve
 // collider.f
 inline world::ColliderSpec colliderOf(const figure::Figure& figure) {
     auto mesh = std::make_shared<world::MeshData>();
-    mesh->positions.resize(static_cast<std::size_t>(figure.vertexCount()));
+    mesh->positions.resize(figure.vertexCount());
     figure::placeVertices(figure, figure::postureAt(figure, nullptr, 0), mesh->positions);
     mesh->triangles = figure.triangles;
     mesh->figure = std::make_shared<const figure::Figure>(figure);

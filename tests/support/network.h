@@ -32,7 +32,7 @@ inline void addSpring(mechanics::Model& model, int a, int b, double stiffness, d
 }
 
 inline void hold(mechanics::Model& model, std::string_view group) {
-    for (int i : model.groups.at(std::string(group))) model.held[static_cast<std::size_t>(i)] = true;
+    for (int i : model.groups.at(std::string(group))) model.held[i] = true;
 }
 
 template <class Real>

@@ -46,7 +46,7 @@ inline bool goesThrough(const dvec3& p, const dvec3& q, const std::array<dvec3, 
 
 // Pairs of an edge and a triangle without a common point that the edge goes through, at places x (points) [m].
 inline int countPiercings(const Skin& skin, const std::vector<dvec3>& x) {
-    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    const auto at = [&](int i) { return x[i]; };
     struct Span {
         dvec3 low, high;
         int item;
@@ -70,8 +70,8 @@ inline int countPiercings(const Skin& skin, const std::vector<dvec3>& x) {
             if (a.isTriangle == b.isTriangle || a.low.y > b.high.y || b.low.y > a.high.y || a.low.z > b.high.z ||
                 b.low.z > a.high.z)
                 continue;
-            const auto& edge = skin.edges[static_cast<std::size_t>(a.isTriangle ? b.item : a.item)];
-            const auto& t = skin.triangles[static_cast<std::size_t>(a.isTriangle ? a.item : b.item)];
+            const auto& edge = skin.edges[a.isTriangle ? b.item : a.item];
+            const auto& t = skin.triangles[a.isTriangle ? a.item : b.item];
             if (std::any_of(t.begin(), t.end(), [&](int k) { return k == edge[0] || k == edge[1]; })) continue;
             if (goesThrough(at(edge[0]), at(edge[1]), {at(t[0]), at(t[1]), at(t[2])})) ++count;
         }

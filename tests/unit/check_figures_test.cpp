@@ -19,7 +19,7 @@ TEST(CheckFigures, ExpressionsAreColumnsInTheirOrder) {
     EXPECT_EQ(figures.mentions().size(), 3U);
 }
 
-TEST(CheckFigures, WhatIsNotThereYetIsNoNumber) {
+TEST(CheckFigures, MissingBodiesGiveNoNumber) {
     world::World world(sceneOf(balls + "[[at]]\nt = 0.1\ndo = \"spawn\"\ntarget = \"net.balls\"\n"));
     Figures figures = Figures::parse("position(net.balls@a).x");
     EXPECT_TRUE(std::isnan(figures.of(world)[0]));
@@ -27,7 +27,7 @@ TEST(CheckFigures, WhatIsNotThereYetIsNoNumber) {
     EXPECT_NEAR(figures.of(world)[0], 1.0, 1e-9);
 }
 
-TEST(CheckFigures, WhatIsNoExpressionIsAFault) {
+TEST(CheckFigures, AFaultNamesItsPlaceInTheText) {
     for (const auto& [text, at] : {std::pair("", 0U), {"time < 3", 5U}, {"time,", 5U}, {"sped(cloth.a)", 0U}}) {
         try {
             Figures::parse(text);

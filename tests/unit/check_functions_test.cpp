@@ -222,7 +222,7 @@ TEST(CheckFunctions, TouchingIsWithinTheSumOfThicknesses) {
 }
 
 // A line through one of the two triangles of a cloth.
-TEST(CheckFunctions, WhatCrossesIsCountedAndHasNoGap) {
+TEST(CheckFunctions, CrossingsAreCountedAndHaveNoGap) {
     const std::string cloth =
         "[material.m]\n[cloth.c]\nmaterial = \"m\"\nsize = [1, 1]\ncells = [1, 1]\ndown = [0, 0, 1]\n"
         "touch = \"others\"\n";

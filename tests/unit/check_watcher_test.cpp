@@ -94,7 +94,7 @@ TEST(CheckWatcher, ACheckWhoseMomentNeverCameHasFailed) {
     EXPECT_EQ(results[2].reason, "the run ended at 0.333333 s, before 0.966667 s");
 }
 
-TEST(CheckWatcher, WhatIsNoNumberHasFailed) {
+TEST(CheckWatcher, ChecksWithoutANumberHaveFailed) {
     const Result result = watched(check("(time - time) / (time - time) < 1")).at(0);
     EXPECT_FALSE(result.passed);
     EXPECT_EQ(result.failures, 59);

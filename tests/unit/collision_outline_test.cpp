@@ -14,7 +14,7 @@ using Ends = std::pair<std::array<double, 3>, std::array<double, 3>>;
 
 Ends endsOf(const Outline& outline, const Outline::Edge& edge) {
     const auto at = [&](int i) {
-        const dvec3& p = outline.vertices[static_cast<std::size_t>(i)];
+        const dvec3& p = outline.vertices[i];
         return std::array<double, 3>{p.x, p.y, p.z};
     };
     return std::minmax(at(edge.a), at(edge.b));
@@ -72,7 +72,7 @@ TEST(CollisionOutline, WingsLieOnTheTwoFacesBesideAnEdge) {
          {outlineOfOnly(boxHull({0.5, 1.0, 1.5})), outlineOfOnly(prism({{0, 0}, {1, 0}, {0.3, 0.8}}, {{0, 1, 2}}))})
         for (const Outline::Edge& edge : outline.edges) {
             ASSERT_TRUE(edge.wingA >= 0 && edge.wingB >= 0);
-            const auto at = [&](int i) { return outline.vertices[static_cast<std::size_t>(i)]; };
+            const auto at = [&](int i) { return outline.vertices[i]; };
             const glm::dvec3 along = at(edge.b) - at(edge.a);
             const glm::dvec3 one = glm::cross(along, at(edge.wingA) - at(edge.a));
             const glm::dvec3 other = glm::cross(at(edge.wingB) - at(edge.a), along);

@@ -140,7 +140,7 @@ TEST(ContactFaces, AnEdgeDoesNotStopWhatComesAlongAFaceBesideIt) {
     EXPECT_EQ(v[0].z, speed);
 }
 
-TEST(ContactFaces, WhatMeetsOnlyRigidSurfacesMeetsNeitherItselfNorOthers) {
+TEST(ContactFaces, SurfacesForRigidOnesMeetNeitherThemselvesNorOthers) {
     Scene scene;
     scene.addTip({0, -1, 0});
     scene.sheet.meetsItself = scene.sheet.meetsOthers = false;

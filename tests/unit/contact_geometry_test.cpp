@@ -64,7 +64,7 @@ TEST(ContactNearest, KernelsGiveTheBitsOfOnePairOnEveryInstructionSet) {
         triangles.solve(closestKernels().onTriangles);
         segments.solve(closestKernels().onSegments);
         for (int n = 0; n < triangles.count(); ++n) {
-            const auto& p = places[static_cast<std::size_t>(n)];
+            const auto& p = places[n];
             const Closest on = closestPoints(p, true), beside = closestPoints(p, false);
             EXPECT_EQ(triangles.weights(n), on.weights) << n;
             EXPECT_EQ(triangles.separation(n), on.separation) << n;

@@ -220,7 +220,7 @@ TEST(ContactGroup, LeadsTheSmallerPartOfASheetBack) {
         const std::vector<Crossing> crossings = findCrossings(elements, bvh, flight.x);
         EXPECT_GE(crossings.size(), 12U);  // 9 edges of the parted, and some of the other
         for (const Crossing& crossing : crossings) {
-            const bool isParted = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface == 1;
+            const bool isParted = elements.edges()[crossing.edge].surface == 1;
             EXPECT_NEAR(crossing.separatingDirection.y, isParted == (below < 0.1) ? 1.0 : -1.0, 1e-12);
         }
     }

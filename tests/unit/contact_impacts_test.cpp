@@ -453,7 +453,7 @@ TEST(ContactImpact, TakesSweepsInProportionToThePile) {
         // Half of the right impulses, which are those of all the weight above, is a start that is scaled to the whole.
         std::vector<Four> fresh(static_cast<std::size_t>(n) + 1, Four{{0, -1, 0, 0}});
         fresh[0] = {};
-        for (int k = 0; k < n; ++k) rows[static_cast<std::size_t>(k)].impulse = {{0, 0, 0, 0.5 * (n - k)}};
+        for (int k = 0; k < n; ++k) rows[k].impulse = {{0, 0, 0, 0.5 * (n - k)}};
         EXPECT_EQ(projectedGaussSeidel(rows, 5 * n, 1e-12, fresh), 1);
     }
 }

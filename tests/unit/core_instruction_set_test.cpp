@@ -24,13 +24,13 @@ TEST(InstructionSets, AWiderOneHasToGainATwentieth) {
 // The choice is the process's: what is in use before is put back.
 TEST(InstructionSets, SayHowTheyWereChosen) {
     const InstructionSet before = instructionSet();
-    chooseInstructionSet("sse2", "--isa");
+    chooseInstructionSet("sse2", "TAUT_SIMD");
     EXPECT_EQ(instructionSet(), InstructionSet::sse2);
-    EXPECT_EQ(instructionSetReason(), "--isa");
-    chooseInstructionSet("auto", "--isa");
+    EXPECT_EQ(instructionSetReason(), "TAUT_SIMD");
+    chooseInstructionSet("auto", "TAUT_SIMD");
     EXPECT_TRUE(isSupported(instructionSet()));
     EXPECT_TRUE(instructionSetReason().starts_with("trial: sse2 ")) << instructionSetReason();
-    EXPECT_THROW(chooseInstructionSet("avx", "--isa"), Error);
+    EXPECT_THROW(chooseInstructionSet("avx", "TAUT_SIMD"), Error);
     useInstructionSet(before);
 }
 

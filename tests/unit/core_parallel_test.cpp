@@ -15,7 +15,7 @@ namespace {
 
 TEST(ParallelFor, CallsEachIndexOnce) {
     std::vector<std::atomic<int>> calls(1000);
-    parallelFor(1000, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+    parallelFor(1000, [&](int i) { ++calls[i]; });
     for (const auto& count : calls) EXPECT_EQ(count, 1);
 }
 

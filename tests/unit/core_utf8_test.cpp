@@ -18,7 +18,7 @@ TEST(Utf8, LettersAreThoseOfTheStandard) {
     }
 }
 
-TEST(Utf8, WhatSteersATerminalIsShownAsText) {
+TEST(Utf8, ControlCharactersAreShownAsText) {
     EXPECT_EQ(printable("größe 3 µm\tend\n"), "größe 3 µm\tend\n");
     EXPECT_EQ(printable("two\tor\nmore", true), "two\\u{9}or\\u{A}more");
     EXPECT_EQ(printable("\x1b]0;title\x07 \x7f\r"), "\\u{1B}]0;title\\u{7} \\u{7F}\\u{D}");

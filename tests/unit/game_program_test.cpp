@@ -129,7 +129,7 @@ TEST(Program, PicturesAreTheSameHoweverManyAreDrawnAtOnce) {
     const std::string scene = springScene(folder).string();
     std::vector<std::string> frames;
     for (const char* drawers : {"1", "3"}) {
-        const Outcome outcome = run({"render", scene, "-o", (folder / drawers).string(), "--draw-threads", drawers,
+        const Outcome outcome = run({"render", scene, "-o", (folder / drawers).string(), "--threads", drawers,
                                      "--quiet", "--hash", "--overlay"});
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         std::string all = outcome.out;

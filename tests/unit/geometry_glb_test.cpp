@@ -78,7 +78,7 @@ TEST(Glb, HasAShapeAFrameAndPosesOfWhatIsRigid) {
     const std::vector<float> heights = {1.0F, 1.25F, 1.25F, 0.7F};
     geometry::GlbWriter writer(path, {});
     test::Film film;
-    for (std::int64_t k = 0; k < 4; ++k) writer.write(film.frame(2 + k, heights[static_cast<std::size_t>(k)]));
+    for (std::int64_t k = 0; k < 4; ++k) writer.write(film.frame(2 + k, heights[k]));
     EXPECT_FALSE(std::filesystem::exists(path));
     writer.finish();
 
@@ -166,7 +166,7 @@ TEST(Glb, CompactMovesAreRoundedToSixteenBits) {
     options.isCompact = true;
     geometry::GlbWriter writer(path, options);
     test::Film film;
-    for (std::int64_t k = 0; k < 4; ++k) writer.write(film.frame(k, heights[static_cast<std::size_t>(k)]));
+    for (std::int64_t k = 0; k < 4; ++k) writer.write(film.frame(k, heights[k]));
     writer.finish();
     const Glb glb(path);
     EXPECT_EQ(glb.text["scenes"][0]["extras"]["taut"]["times"].size(), 4U);

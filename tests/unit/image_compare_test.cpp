@@ -16,7 +16,7 @@ Image grey(int width, int height, int value = 100) {
 }
 
 void shift(Image& image, int x, int y, int channel, int by) {
-    auto& value = image.rgb[static_cast<std::size_t>((y * image.width + x) * 3 + channel)];
+    auto& value = image.rgb[(y * image.width + x) * 3 + channel];
     value = static_cast<std::uint8_t>(value + by);
 }
 

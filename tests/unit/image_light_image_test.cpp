@@ -77,7 +77,7 @@ TEST(LightImage, BytesOfAPngAreLightBySrgb) {
     EXPECT_EQ(picture.rgb[2], 0.0F);
 }
 
-TEST(LightImage, WhateverIsMissingOfARadiancePictureIsAnError) {
+TEST(LightImage, AnyMissingPartOfARadiancePictureIsAnError) {
     const std::string whole = head + size8 + planes + pixels;
     const TemporaryFolder folder;
     for (std::size_t length = 0; length < whole.size(); ++length) {

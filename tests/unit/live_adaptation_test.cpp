@@ -18,7 +18,7 @@ struct Machine {
 
     double turn(double slowness, double other) {
         const double noise = 1.0 + 0.15 * std::sin(2.4 * ++turns);
-        const double drawing = 1e-3 * slowness * noise * costs[static_cast<std::size_t>(adaptation.level())];
+        const double drawing = 1e-3 * slowness * noise * costs[adaptation.level()];
         const double whole = std::max(drawing, other);
         changes += adaptation.add(drawing, whole);
         return whole;
@@ -55,7 +55,7 @@ TEST(Adaptation, GoesUpAgainWhereThereIsTime) {
 }
 
 // A level up looks possible, by its cost, but what it takes from what goes on beside makes turns too long.
-TEST(Adaptation, WhatIsTakenBackIsTriedEverLessOften) {
+TEST(Adaptation, RevertedLevelsAreTriedEverLessOften) {
     Machine machine;
     const auto other = [&] { return machine.adaptation.level() > 2 ? 0.036 : 0.02; };
     const auto changesIn = [&](double seconds) {
@@ -71,7 +71,7 @@ TEST(Adaptation, WhatIsTakenBackIsTriedEverLessOften) {
     EXPECT_LE(last, 4);  // a minute between rises, each taken back
 }
 
-TEST(Adaptation, WhatHoldsUpTheRestChangesNothing) {
+TEST(Adaptation, DelaysByOtherWorkChangeNothing) {
     Machine machine;
     machine.run(10.0, 1.0, 0.08);  // pictures of 20 ms in turns of 80 ms
     EXPECT_EQ(machine.changes, 0);

@@ -30,7 +30,7 @@ TEST(MouseHand, MovesAtMostEveryThirdTickAndOnlyWhenLedElsewhere) {
     for (std::size_t i = 1; i < moves.size(); ++i) EXPECT_EQ(moves[i] - moves[i - 1], MouseHand::moveTicks);
 }
 
-TEST(MouseHand, WhatItDoesIsRoundedAsAFileHasIt) {
+TEST(MouseHand, ItsActionsAreRoundedAsInAFile) {
     MouseHand hand("mouse", 72.0);
     hand.grab("cloth.a@#3", 0.123456, 200.0, 0.3, {0.0, 0.0, 0.0});
     hand.leadTo({0.12345678, -0.0001, 1.0 / 9.0});

@@ -62,7 +62,7 @@ TEST(Between, MovesEvenlyFromOneTickToTheNext) {
     EXPECT_EQ(between(before, now, 1.0).surfaces[0].geometry, now.surfaces[0].geometry);
 }
 
-TEST(Between, WhatIsNewIsShownAsItIs) {
+TEST(Between, NewPartsAreShownAsTheyAre) {
     const view::FrameView before, now = withTriangle(1.0F);
     EXPECT_EQ(between(before, now, 0.5).surfaces[0].geometry, now.surfaces[0].geometry);
 }

@@ -60,7 +60,7 @@ TEST(Anchor, PartsAddUpToTheWhole) {
     std::fill(state.f.begin(), state.f.end(), 0.0);
     anchor.addForces(state.motion(), 0, 1, state.f.data());
     anchor.addForces(state.motion(), 1, 3, state.f.data());
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(state.get(state.f, i), whole[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(state.get(state.f, i), whole[i]);
 }
 
 TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergy) {
@@ -78,7 +78,7 @@ TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergy) {
             const double down = anchor.potentialEnergy(state.motion());
             x = here;
             // The energy is quadratic: the difference is exact but for rounding, 1e-15 / h.
-            EXPECT_NEAR(f[static_cast<std::size_t>(i)][axis], (down - up) / (2.0 * h), 1e-11);
+            EXPECT_NEAR(f[i][axis], (down - up) / (2.0 * h), 1e-11);
             u[state.index(i, axis)] = 1.0 + i;
         }
     anchor.addStiffnessProduct(state.motion(), u.data(), product.data());
@@ -127,13 +127,12 @@ TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergyWhereItIsCut) {
             const std::vector<dvec3> forceDown = state.forces(anchor);
             x = here;
             // Differences err by h² of third derivatives, 8 N / (5 m)², and by rounding, 4e-15 · 38 J / h.
-            EXPECT_NEAR(f[static_cast<std::size_t>(i)][axis], (down - up) / (2.0 * h), 1e-8);
+            EXPECT_NEAR(f[i][axis], (down - up) / (2.0 * h), 1e-8);
             core::AlignedArray<double> u(state.planes()), product(state.planes()), weighted(state.planes());
             u[state.index(i, axis)] = 1.0;
             anchor.addStiffnessProduct(state.motion(), u.data(), product.data());
             anchor.addProduct(state.stride, u.data(), weighted.data());
-            const auto slope =
-                (forceDown[static_cast<std::size_t>(i)] - forceUp[static_cast<std::size_t>(i)]) / (2 * h);
+            const auto slope = (forceDown[i] - forceUp[i]) / (2 * h);
             for (int other = 0; other < 3; ++other) {
                 EXPECT_NEAR(product[state.index(i, other)], slope[other], 1e-8);
                 EXPECT_EQ(weighted[state.index(i, other)], product[state.index(i, other)]);

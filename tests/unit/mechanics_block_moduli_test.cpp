@@ -61,16 +61,15 @@ class RestingBlock {
     // corners.
     void spread(const dvec3& whole, Vectors& onPoints) const {
         const std::vector<int>& face = model_.groups.at("right");
-        const dvec3 corner = model_.positions[static_cast<std::size_t>(face.back())];
+        const dvec3 corner = model_.positions[face.back()];
         std::vector<double> areas;
         for (int i : face) {
-            const dvec3& at = model_.positions[static_cast<std::size_t>(i)];
+            const dvec3& at = model_.positions[i];
             const auto part = [&](int axis) { return std::abs(at[axis]) > 0.999 * std::abs(corner[axis]) ? 0.5 : 1.0; };
             areas.push_back(part(1) * part(2));
         }
         const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
-        for (std::size_t k = 0; k < face.size(); ++k)
-            onPoints[static_cast<std::size_t>(face[k])] = areas[k] / sum * whole;
+        for (std::size_t k = 0; k < face.size(); ++k) onPoints[face[k]] = areas[k] / sum * whole;
     }
     // Mean over the right face.
     dvec3 tip(const Vectors& u) const {
@@ -106,7 +105,7 @@ TEST(BlockModuli, HoldInATensionTest) {
         for (const dvec3& size : {dvec3(0.4, 0.2, 0.2), dvec3(0.4, 0.22, 0.186)}) {
             RestingBlock bar({.size = size, .cells = {4, 2, 2}, .young = young, .poisson = poisson});
             const Vectors u = bar.underLoad({stress * size.y * size.z, 0.0, 0.0}, [&](int point, int axis) {
-                return bar.model().positions[static_cast<std::size_t>(point)][axis] > -0.499 * size[axis];
+                return bar.model().positions[point][axis] > -0.499 * size[axis];
             });
             const std::size_t far = u.size() - 1;  // the corner at the far ends of all axes
             EXPECT_NEAR(stress / (u[far].x / size.x), young, 1e-8 * young);
@@ -124,9 +123,8 @@ TEST(BlockModuli, CantileverDoesNotLock) {
         const auto ratio = [&](int across) {
             RestingBlock bar(
                 {.size = {10.0, 1.0, 1.0}, .cells = {10 * across, across, across}, .young = young, .poisson = poisson});
-            const Vectors u = bar.underLoad({0.0, force, 0.0}, [&](int point, int) {
-                return bar.model().positions[static_cast<std::size_t>(point)].x > -4.99;
-            });
+            const Vectors u = bar.underLoad({0.0, force, 0.0},
+                                            [&](int point, int) { return bar.model().positions[point].x > -4.99; });
             const double shear = young / (2.0 * (1.0 + poisson)), k = 10.0 * (1.0 + poisson) / (12.0 + 11.0 * poisson);
             return bar.tip(u).y / (force * 1000.0 / (3.0 * young / 12.0) + force * 10.0 / (k * shear));
         };

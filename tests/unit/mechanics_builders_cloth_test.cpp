@@ -176,7 +176,7 @@ TEST(ClothBuilder, RoundOneHasWhatTheCellsInTheEllipseHave) {
         for (int k = 0; k < term.count; ++k) EXPECT_TRUE(used.contains(term.points[k]));
     });
     EXPECT_NEAR(terms, 3 * cells, 0.1 * terms);  // two folds and a twist a cell, but for the hem
-    for (int p = 0; p < model.pointCount(); ++p) EXPECT_EQ(model.held[static_cast<std::size_t>(p)], !used.contains(p));
+    for (int p = 0; p < model.pointCount(); ++p) EXPECT_EQ(model.held[p], !used.contains(p));
 }
 
 TEST(ClothBuilder, GroupsAreWhereTheirNamesSay) {

@@ -56,7 +56,7 @@ TEST(RopeBuilder, HangingByItsOwnWeightStretchesByHalfMgLOverEa) {
     double below = 0.0, extension = 0.0;
     for (int i = shape.segments - 1; i >= 0; --i) {
         below += model.masses[static_cast<std::size_t>(i) + 1];
-        extension += below * 9.81 / model.springs[static_cast<std::size_t>(i)].stiffness;
+        extension += below * 9.81 / model.springs[i].stiffness;
     }
     EXPECT_NEAR(extension, 0.7 * 9.81 * 2.0 / (2.0 * 500.0), ropeRounding);
 }
@@ -159,7 +159,7 @@ TEST(RopeBuilder, ShorterThanItsDistanceIsTautAndEven) {
     const Model model = buildRope(shape);
     for (int i = 0; i < 5; ++i) {
         EXPECT_NEAR(chord(model, i), 0.2, ropeRounding);
-        EXPECT_EQ(model.springs[static_cast<std::size_t>(i)].restLength, 0.8 / 5);
+        EXPECT_EQ(model.springs[i].restLength, 0.8 / 5);
     }
 }
 
@@ -217,8 +217,8 @@ TEST(RopeBuilder, ClosedItIsAnUnstretchedRing) {
         std::vector<int> neighbours(40, 0);
         for (const Spring& s : model.springs) {
             if (s.kind != SpringKind::structural) continue;
-            ++neighbours[static_cast<std::size_t>(s.a)];
-            ++neighbours[static_cast<std::size_t>(s.b)];
+            ++neighbours[s.a];
+            ++neighbours[s.b];
             EXPECT_NEAR(glm::length(at(model.positions, s.b) - at(model.positions, s.a)), s.restLength, 1e-9);
         }
         for (const int count : neighbours) EXPECT_EQ(count, 2);

@@ -21,8 +21,7 @@ double kineticEnergy(const PlanarState<Real>& state) {
     for (int i = 0; i < state.count; ++i)
         for (int axis = 0; axis < 3; ++axis) {
             const auto at = state.index(i, axis);
-            energy += 0.5 * static_cast<double>(state.mass[static_cast<std::size_t>(i)]) *
-                      std::pow(static_cast<double>(state.v[at]), 2);
+            energy += 0.5 * static_cast<double>(state.mass[i]) * std::pow(static_cast<double>(state.v[at]), 2);
         }
     return energy;
 }
@@ -78,8 +77,7 @@ TEST(DashpotSweep, KeepsMomentumAndAddsNoEnergy) {
             state.shake(1e-3, 1.0);
             const auto momentum = [&] {
                 glm::dvec3 sum(0.0);
-                for (int i = 0; i < state.count; ++i)
-                    sum += state.mass[static_cast<std::size_t>(i)] * state.get(state.v, i);
+                for (int i = 0; i < state.count; ++i) sum += state.mass[i] * state.get(state.v, i);
                 return sum;
             };
             const double energy = kineticEnergy(state);
@@ -103,7 +101,7 @@ TEST(SplitLeapfrog, DampsALongWaveAsTheorySays) {
         for (int i = 0; i <= n; ++i) taut::test::addPoint(model, {0.1 * i, 0, 0}, i == n ? m / 2 : m, i == 0);
         for (int i = 0; i < n; ++i) taut::test::addSpring(model, i, i + 1, k, 0.1, tau);
         const double q = std::acos(-1.0) / (2 * n), omega = fastest * std::sin(q / 2), zeta = 0.5 * tau * omega;
-        for (int i = 0; i <= n; ++i) model.positions[static_cast<std::size_t>(i)].x += 1e-3 * std::sin(q * i);
+        for (int i = 0; i <= n; ++i) model.positions[i].x += 1e-3 * std::sin(q * i);
         taut::test::Network network(model, "leapfrog", h, {}, {.splits = true});
         const auto steps = static_cast<std::int64_t>(1.0 / (zeta * omega) / h);
         network.step(steps);

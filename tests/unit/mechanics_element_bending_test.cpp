@@ -43,7 +43,7 @@ Model patch(double jitter, const BendingRigidity& rigidity, double warpDegrees, 
         shape.triangles.push_back({p, q, r});
         auto& uv = shape.cornerUv.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) {
-            const dvec2 at = flat[static_cast<std::size_t>(shape.triangles.back()[k])];
+            const dvec2 at = flat[shape.triangles.back()[k]];
             uv[k] = {c * at.x + s * at.y, c * at.y - s * at.x};
         }
     };
@@ -95,7 +95,7 @@ double largest(const std::vector<dvec3>& forces) {
     return size;
 }
 
-TEST(ElementBending, WhatIsCurvedAtRestIsFreeOfForceThere) {
+TEST(ElementBending, ElementsCurvedAtRestAreFreeOfForceThere) {
     for (const Model& model : {patch(0.3, threads, 20, saddlePlace), curvedRing()}) {
         const auto generator = bendingOf(model);
         PlanarState<double> state(model);
@@ -115,8 +115,8 @@ TEST(ElementBending, ForcesAreTheSlopeOfTheEnergyAndKeepMomentumAndAngularMoment
         const std::vector<dvec3> forces = state.forces(generator);
         dvec3 sum(0.0), torque(0.0);
         for (int i = 0; i < state.count; ++i) {
-            sum += forces[static_cast<std::size_t>(i)];
-            torque += glm::cross(state.get(state.x, i), forces[static_cast<std::size_t>(i)]);
+            sum += forces[i];
+            torque += glm::cross(state.get(state.x, i), forces[i]);
         }
         const double size = largest(forces);
         // Rounding of a few thousand terms of that size, with arms of 0.1 m.
@@ -131,7 +131,7 @@ TEST(ElementBending, ForcesAreTheSlopeOfTheEnergyAndKeepMomentumAndAngularMoment
                 moved.x[moved.index(i, axis)] -= 2 * h;
                 const double less = generator.potentialEnergy(moved.motion());
                 // h² of the third derivative: (h over a cell)², times a few.
-                EXPECT_NEAR(forces[static_cast<std::size_t>(i)][axis], -(more - less) / (2 * h), 1e-7 * size);
+                EXPECT_NEAR(forces[i][axis], -(more - less) / (2 * h), 1e-7 * size);
             }
     }
 }
@@ -209,7 +209,7 @@ TEST(ElementBending, ProductsForImplicitMethodsAreThoseOfStiffnessAndDamping) {
             for (int axis = 0; axis < 3; ++axis) {
                 const std::size_t at = state.index(i, axis);
                 // At rest the stiffness is exact; the force of 1e-7 m is linear to 1e-7 over a cell.
-                EXPECT_NEAR(product[at], -5.0 * forces[static_cast<std::size_t>(i)][axis], 1e-4 * largest(forces));
+                EXPECT_NEAR(product[at], -5.0 * forces[i][axis], 1e-4 * largest(forces));
                 core::AlignedArray<double> unit(state.planes()), column(state.planes());
                 unit[at] = 1;
                 generator.addProduct(state.stride, unit.data(), column.data());

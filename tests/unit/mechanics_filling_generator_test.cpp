@@ -41,8 +41,7 @@ struct Octahedron {
             const auto [entry, isNew] = middles.try_emplace(std::minmax(a, b), static_cast<int>(places.size()));
             if (isNew) {
                 const dvec3 centre(2, 3, 4);
-                const dvec3 arm =
-                    0.5 * (places[static_cast<std::size_t>(a)] + places[static_cast<std::size_t>(b)]) - centre;
+                const dvec3 arm = 0.5 * (places[a] + places[b]) - centre;
                 places.push_back(centre + glm::normalize(arm));
                 masses.push_back(0.1);
             }
@@ -71,7 +70,7 @@ TEST(Filling, SurfacesAreClosedOpenTwistedOrFlat) {
     EXPECT_TRUE(closed[0].isClosed());
     EXPECT_NEAR(closed[0].firstVolume, 4.0 / 3.0, 1e-15);
     for (const Triangle& t : closed[0].triangles) {  // all turned outwards
-        const auto at = [&](std::size_t k) { return solid.places[static_cast<std::size_t>(t[k])]; };
+        const auto at = [&](std::size_t k) { return solid.places[t[k]]; };
         EXPECT_GT(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(0) - dvec3(2, 3, 4)), 0.0);
     }
 
@@ -98,7 +97,7 @@ TEST(Filling, SurfacesAreClosedOpenTwistedOrFlat) {
     PlanarState<double> state(twice, std::vector<double>(12, 1.0));
     const std::vector<dvec3> forces = state.forces(Filling<double>(apart, twice, laws[0], {200.0, 200.0}));
     dvec3 torque(0.0);
-    for (int i = 0; i < 12; ++i) torque += glm::cross(state.get(state.x, i), forces[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 12; ++i) torque += glm::cross(state.get(state.x, i), forces[i]);
     EXPECT_LT(glm::length(sum(forces)) + glm::length(torque), 1e-11);
 
     // Möbius's band of five triangles; a pillow of two squares, with another at a corner that is sewn to itself.
@@ -174,7 +173,7 @@ TEST(Filling, ForcesAreTheSlopeOfTheEnergyAndProductsThatOfTheForces) {
         const Filling<double> filling = solid.filling(law);
         const std::vector<dvec3> forces = state.forces(filling);
         dvec3 torque(0.0);
-        for (int i = 0; i < 6; ++i) torque += glm::cross(state.get(state.x, i), forces[static_cast<std::size_t>(i)]);
+        for (int i = 0; i < 6; ++i) torque += glm::cross(state.get(state.x, i), forces[i]);
         EXPECT_LT(glm::length(sum(forces)) + glm::length(torque), 1e-11);  // rounding of 1e3 N
         const double h = 1e-5;
         for (int i = 0; i < 6; ++i)
@@ -191,7 +190,7 @@ TEST(Filling, ForcesAreTheSlopeOfTheEnergyAndProductsThatOfTheForces) {
                 const std::vector<dvec3> below = state.forces(filling);
                 state.x[state.index(i, axis)] = here;
                 // Rounding of a thousand joules, 1e-13 J / h; third derivatives of some thousands, h² times that.
-                EXPECT_NEAR(forces[static_cast<std::size_t>(i)][axis], (down - up) / (2.0 * h), 1e-6);
+                EXPECT_NEAR(forces[i][axis], (down - up) / (2.0 * h), 1e-6);
                 for (int j = 0; j < 6; ++j)
                     for (int k = 0; k < 3; ++k) {
                         const auto p = static_cast<std::size_t>(j);

@@ -16,8 +16,8 @@ TEST(Gravity, IsTheWeightOfEachPoint) {
     const Gravity<float> gravity({0.5, -9.81, 0.0});
     const std::vector<glm::dvec3> forces = state.forces(gravity);
     for (int i = 0; i < state.count; ++i) {
-        const double m = state.mass[static_cast<std::size_t>(i)];
-        const glm::dvec3 f = forces[static_cast<std::size_t>(i)];
+        const double m = state.mass[i];
+        const glm::dvec3 f = forces[i];
         EXPECT_NEAR(f.x, 0.5 * m, 1e-6 * m);  // float rounding, 6e-8, of a product
         EXPECT_NEAR(f.y, -9.81 * m, 1e-5 * m);
         EXPECT_EQ(f.z, 0.0);

@@ -23,16 +23,16 @@ Bending sheetOf10To1() {
 }
 
 std::vector<int> gridNumbers(int count, int first, int step) {
-    std::vector<int> points(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) points[static_cast<std::size_t>(i)] = first + step * i;
+    std::vector<int> points(count);
+    for (int i = 0; i < count; ++i) points[i] = first + step * i;
     return points;
 }
 
 // Of the sheet flat in the x-y plane, with points between its own where step is 2.
 PlanarState<double> flatSheet(int step = 1) {
-    std::vector<dvec3> x(static_cast<std::size_t>(gridColumns * gridRows * step), dvec3(7, 8, 9));
+    std::vector<dvec3> x(gridColumns * gridRows * step, dvec3(7, 8, 9));
     for (int i = 0; i < gridColumns * gridRows; ++i)
-        x[static_cast<std::size_t>(i * step)] = {cellAcross * (i % gridColumns), -cellDown * (i / gridColumns), 0};
+        x[i * step] = {cellAcross * (i % gridColumns), -cellDown * (i / gridColumns), 0};
     return {x, std::vector<double>(x.size(), density * cellAcross * cellDown)};
 }
 
@@ -46,7 +46,7 @@ TEST(GridBending, ForcesAreTheSlopeOfTheEnergyAndKeepMomentumAndAngularMomentum)
     dvec3 sum(0.0), torque(0.0);
     double size = 0;
     for (int i = 0; i < gridColumns * gridRows; ++i) {
-        const dvec3 f = forces[static_cast<std::size_t>(i)];
+        const dvec3 f = forces[i];
         sum += f;
         torque += glm::cross(state.get(state.x, i), f);
         size = std::max(size, glm::length(f));
@@ -62,7 +62,7 @@ TEST(GridBending, ForcesAreTheSlopeOfTheEnergyAndKeepMomentumAndAngularMomentum)
             const double more = generator.potentialEnergy(moved.motion());
             moved.x[moved.index(i, axis)] -= 2 * h;
             const double less = generator.potentialEnergy(moved.motion());
-            EXPECT_NEAR(forces[static_cast<std::size_t>(i)][axis], -(more - less) / (2 * h), 1e-8 * size);
+            EXPECT_NEAR(forces[i][axis], -(more - less) / (2 * h), 1e-8 * size);
         }
 }
 

@@ -32,7 +32,7 @@ BendingFriction rubbing() {
 }
 
 std::vector<int> rubbingPoints() {
-    std::vector<int> points(static_cast<std::size_t>(rubbingColumns * rubbingRows));
+    std::vector<int> points(rubbingColumns * rubbingRows);
     std::iota(points.begin(), points.end(), 0);
     return points;
 }
@@ -53,7 +53,7 @@ TEST(GridFriction, ForcesAreTheSlopeOfWhatStuckFoldsStore) {
     std::vector<bool> isHeld(rubbingPoints().size(), false);
     std::vector<dvec3> rest;
     for (int i = 0; i < rubbingColumns * rubbingRows; ++i) {
-        isHeld[static_cast<std::size_t>(i)] = i % rubbingColumns == 0 || i == 9;
+        isHeld[i] = i % rubbingColumns == 0 || i == 9;
         rest.push_back(rubbingSheet().get(rubbingSheet().x, i));
     }
     friction.stuck = clamped(friction.stuck, isHeld, isHeld, rest);
@@ -69,13 +69,13 @@ TEST(GridFriction, ForcesAreTheSlopeOfWhatStuckFoldsStore) {
         for (const dvec3& f : forces) largest = std::max(largest, glm::length(f));
         constexpr double h = 1e-7;  // [m]; the energy's third derivative over its first is about 1/(5 mm)²
         for (int i = 0; i < rubbingColumns * rubbingRows; ++i)
-            for (int axis = 0; axis < 3 && !isHeld[static_cast<std::size_t>(i)]; ++axis) {
+            for (int axis = 0; axis < 3 && !isHeld[i]; ++axis) {
                 PlanarState<double> moved = state;
                 moved.x[moved.index(i, axis)] += h;
                 const double more = generator.potentialEnergy(moved.motion());
                 moved.x[moved.index(i, axis)] -= 2 * h;
                 const double slope = (more - generator.potentialEnergy(moved.motion())) / (2 * h);
-                EXPECT_NEAR(forces[static_cast<std::size_t>(i)][axis], -slope, 1e-7 * largest) << size << " at " << i;
+                EXPECT_NEAR(forces[i][axis], -slope, 1e-7 * largest) << size << " at " << i;
             }
     }
 }
@@ -92,7 +92,7 @@ TEST(GridFriction, HasNeitherASumNorATorqueHoweverTheSheetLies) {
         double largest = 0;
         const std::vector<dvec3> forces = state.forces(generator);
         for (int i = 0; i < rubbingColumns * rubbingRows; ++i) {
-            const dvec3 f = forces[static_cast<std::size_t>(i)];
+            const dvec3 f = forces[i];
             sum += f;
             torque += glm::cross(state.get(state.x, i), f);
             largest = std::max(largest, glm::length(f));

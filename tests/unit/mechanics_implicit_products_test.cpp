@@ -22,8 +22,7 @@ struct Accelerations final : ode::AccelerationSink<double> {
     Accelerations(ode::Layout l) : layout(l), a(l.size(), 0.0) {}
     void take(int first, int last, const double* const* values) override {
         for (int p = 0; p < 3; ++p)
-            for (int i = first; i < last; ++i)
-                a[static_cast<std::size_t>(p * layout.stride + i)] = values[p][i - first];
+            for (int i = first; i < last; ++i) a[p * layout.stride + i] = values[p][i - first];
     }
     ode::Layout layout;
     Planes a;
@@ -59,8 +58,7 @@ Planes forces(System& system, const Planes& x, const Planes& v) {
     Accelerations sink(system.layout());
     system.accelerate(0.3, x.data(), v.data(), sink);
     for (int p = 0; p < 3; ++p)
-        for (int i = 0; i < system.layout().count; ++i)
-            sink.a[static_cast<std::size_t>(p * system.layout().stride + i)] *= system.masses()[i];
+        for (int i = 0; i < system.layout().count; ++i) sink.a[p * system.layout().stride + i] *= system.masses()[i];
     return sink.a;
 }
 

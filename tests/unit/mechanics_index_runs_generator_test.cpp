@@ -18,10 +18,10 @@ std::vector<std::array<int, Corners>> cornersByElement(const IndexRuns<Corners>&
     std::vector<std::array<int, Corners>> found(count, none);
     const auto lanes = runs.lanes();
     auto store = [&](int lane, const std::array<int, Corners>& corners) {
-        const int source = runs.sources()[static_cast<std::size_t>(lane)];
+        const int source = runs.sources()[lane];
         if (source >= 0) {
-            EXPECT_EQ(found[static_cast<std::size_t>(source)], none);
-            found[static_cast<std::size_t>(source)] = corners;
+            EXPECT_EQ(found[source], none);
+            found[source] = corners;
         }
     };
     std::array<int, Corners> corners;

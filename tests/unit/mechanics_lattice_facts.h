@@ -12,7 +12,7 @@
 namespace taut::mechanics::test {
 
 inline const glm::dvec3& at(const std::vector<glm::dvec3>& vectors, int i) {
-    return vectors[static_cast<std::size_t>(i)];
+    return vectors[i];
 }
 
 inline double totalMass(const Model& model) {
@@ -72,8 +72,8 @@ inline std::vector<glm::dvec3> strainForces(const Model& model, const glm::dmat3
         const glm::dvec3 d = at(model.positions, s.b) - at(model.positions, s.a);
         const glm::dvec3 n = glm::normalize(d);
         const glm::dvec3 pull = s.stiffness * glm::dot(n, strain * d) * n;
-        forces[static_cast<std::size_t>(s.a)] += pull;
-        forces[static_cast<std::size_t>(s.b)] -= pull;
+        forces[s.a] += pull;
+        forces[s.b] -= pull;
     }
     return forces;
 }

@@ -45,7 +45,7 @@ struct Keeper : ode::AccelerationSink<Real> {
     void take(int first, int last, const Real* const* planes) override {
         for (int p = 0; p < 3; ++p)
             for (int i = first; i < last; ++i) {
-                const std::size_t at = island.at(p, static_cast<std::size_t>(i));
+                const std::size_t at = island.at(p, i);
                 a[at] = planes[p][i - first];
                 ++times[at];
                 if (spoil) island.x[at] = island.v[at] = std::numeric_limits<Real>::quiet_NaN();
@@ -286,10 +286,8 @@ TYPED_TEST(MassSpringSystems, AddGeneratorsOfEveryKindOnceEach) {
             for (int p = 0; p < 3; ++p)
                 for (int i = 0; i < static_cast<int>(held.size()); ++i) {
                     // Small whole numbers over powers of two: exact.
-                    const double expected = held[static_cast<std::size_t>(i)]
-                                                ? 0.0
-                                                : 2.0 * push * (p + 1) * (i % 1024) + (p == 1 ? g : 0.0);
-                    ASSERT_EQ(static_cast<double>(a[island.at(p, static_cast<std::size_t>(i))]), expected)
+                    const double expected = held[i] ? 0.0 : 2.0 * push * (p + 1) * (i % 1024) + (p == 1 ? g : 0.0);
+                    ASSERT_EQ(static_cast<double>(a[island.at(p, i)]), expected)
                         << "generators " << kinds << ", point " << i;
                 }
         }

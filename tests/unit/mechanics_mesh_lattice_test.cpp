@@ -92,7 +92,7 @@ Hanging hang(const Model& model, const Lattice& lattice, const dmat3& axes, cons
         const dvec3 x = (along * axes[0] - low) / lattice.cell;
         const CarriedPoint carried = carriedBy(lattice.carrierOf(x), x);
         dvec3 sum(0.0);
-        for (std::size_t c = 0; c < 8; ++c) sum += carried.weights[c] * u[static_cast<std::size_t>(carried.points[c])];
+        for (std::size_t c = 0; c < 8; ++c) sum += carried.weights[c] * u[carried.points[c]];
         return sum;
     };
     const std::vector<dvec3> across = under(axes[1]), along = under(axes[0]);
@@ -222,7 +222,7 @@ TEST(MeshLattice, ForcesAtTheSurfaceGoToItsCellsWithTheirTorque) {
 }
 
 // A rod of a fifth of a cell, askew: each of its cells has a neighbour at a face.
-TEST(MeshLattice, WhatIsThinHangsTogether) {
+TEST(MeshLattice, ThinPartsHangTogether) {
     Mesh rod;
     addBox(rod, {0, 0, 0}, {3.0, 0.04, 0.04});
     addBox(rod, {3.5, 0, 0}, {4.5, 0.5, 0.5});
@@ -234,22 +234,22 @@ TEST(MeshLattice, WhatIsThinHangsTogether) {
     for (std::size_t next = 0; next < found.size(); ++next)
         for (int axis = 0; axis < 3; ++axis)
             for (const int way : {-1, 1}) {
-                glm::ivec3 at = lattice.cells[static_cast<std::size_t>(found[next])].at;
+                glm::ivec3 at = lattice.cells[found[next]].at;
                 at[axis] += way;
                 const int cell = lattice.cellAt(at);
-                if (cell < 0 || isReached[static_cast<std::size_t>(cell)]) continue;
-                isReached[static_cast<std::size_t>(cell)] = true;
+                if (cell < 0 || isReached[cell]) continue;
+                isReached[cell] = true;
                 found.push_back(cell);
             }
     double reached = 0.0;
-    for (const int cell : found) reached += lattice.cells[static_cast<std::size_t>(cell)].share();
+    for (const int cell : found) reached += lattice.cells[cell].share();
     reached *= lattice.cell.x * lattice.cell.y * lattice.cell.z;
     EXPECT_NEAR(std::min(reached, filled(lattice) - reached), 3.0 * 0.04 * 0.04, 1e-11);
 }
 
 // Where a rod comes to an end in a cell that it hardly fills, the one before it carries that: a point which weighs
 // thousands of times less than its neighbours would be thrown about by them.
-TEST(MeshLattice, WhatIsThinHasNoLightEnds) {
+TEST(MeshLattice, ThinPartsHaveNoLightEnds) {
     for (double length = 3.0; length < 3.2; length += 0.02) {
         Mesh rod;
         addBox(rod, {0, 0, 0}, {length, 0.04, 0.04});
@@ -263,7 +263,7 @@ TEST(MeshLattice, WhatIsThinHasNoLightEnds) {
                     glm::ivec3 at = cell.at;
                     at[axis] += way;
                     if (const int other = lattice.cellAt(at); other >= 0)
-                        beside.push_back(lattice.cells[static_cast<std::size_t>(other)].share());
+                        beside.push_back(lattice.cells[other].share());
                 }
             if (beside.size() > 1) continue;
             ++ends;
@@ -306,7 +306,7 @@ TEST(MeshLattice, FaultsOfAMeshAreToldApart) {
     expectSaid(faultOf(part), "12 the part of the mesh to which this face belongs is inside out");
     Mesh crossed = box;  // its top is turned half round, so that the sides go through each other
     for (const int c : {2, 3, 6, 7}) {
-        dvec3& x = crossed.positions[static_cast<std::size_t>(c)];
+        dvec3& x = crossed.positions[c];
         x = {0.7 - 0.4 * x.x, x.y, x.z};
     }
     expectSaid(faultOf(crossed), "crosses itself");
@@ -316,7 +316,7 @@ TEST(MeshLattice, FaultsOfAMeshAreToldApart) {
 }
 
 // Of a plate in the slant of its box, by all cells, the first of the nearest; also at equal distances from several.
-TEST(MeshLattice, WhatIsInNoCellGoesWithTheNearest) {
+TEST(MeshLattice, VerticesOutsideAllCellsFollowTheNearest) {
     Mesh plate;
     addBox(plate, dvec3(0.0), dvec3(3.0, 3.0, 0.3));
     turn(plate, turned(0.6, 0.4));

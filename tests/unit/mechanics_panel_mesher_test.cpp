@@ -59,7 +59,7 @@ TEST(PanelMesher, FillsThePanelOnce) {
         double area = 0, whole = areaOf(shape.rings[0]);
         for (std::size_t i = 1; i < shape.rings.size(); ++i) whole -= areaOf(shape.rings[i]);
         for (const auto& [a, b, c] : mesh.triangles) {
-            const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(i)]; };
+            const auto at = [&](int i) { return mesh.points[i]; };
             const double own = 0.5 * cross(at(b) - at(a), at(c) - at(a));
             EXPECT_GT(own, 0);
             area += own;
@@ -93,7 +93,7 @@ TEST(PanelMesher, HasTheOutlineAsItsOnlyBorder) {
             const int first = mesh.corners[ring].front(), end = mesh.ringEnd(ring);
             for (int i = first; i < end; ++i) ++border[std::minmax(i, i + 1 < end ? i + 1 : first)];
             for (std::size_t i = 0; i < shape.rings[ring].size(); ++i)
-                EXPECT_EQ(mesh.points[static_cast<std::size_t>(mesh.corners[ring][i])], shape.rings[ring][i]);
+                EXPECT_EQ(mesh.points[mesh.corners[ring][i]], shape.rings[ring][i]);
         }
         std::erase_if(uses, [](const auto& edge) { return edge.second == 2; });
         EXPECT_EQ(uses, border);
@@ -105,7 +105,7 @@ TEST(PanelMesher, KeepsTrianglesFat) {
     for (const PanelShape& shape : shapes()) {
         const PanelMesh mesh = meshPanel(shape);
         eachCorner(mesh, [&](int a, int b, int c) {
-            const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(i)]; };
+            const auto at = [&](int i) { return mesh.points[i]; };
             const dvec2 ab = at(b) - at(a), ac = at(c) - at(a);
             EXPECT_GT(std::atan2(cross(ab, ac), glm::dot(ab, ac)), 25 * M_PI / 180);
             EXPECT_GT(glm::length(ab), 0.5 * shape.cell);
@@ -124,10 +124,10 @@ TEST(PanelMesher, LaysRowsAlongTheWarp) {
     int rows = 0, inner = 0;
     eachCorner(mesh, [&](int a, int b, int c) {
         for (const int i : {a, b, c}) {
-            const dvec2 p = mesh.points[static_cast<std::size_t>(i)];
+            const dvec2 p = mesh.points[i];
             if (std::min({p.x, p.y, 1 - p.x, 1 - p.y}) < 0.36) return;
         }
-        const dvec2 ab = mesh.points[static_cast<std::size_t>(b)] - mesh.points[static_cast<std::size_t>(a)];
+        const dvec2 ab = mesh.points[b] - mesh.points[a];
         EXPECT_NEAR(glm::length(ab), shape.cell, 4e-3 * shape.cell);
         ++inner;
         if (std::abs(cross(ab, shape.along)) < 4e-3 * shape.cell) ++rows;

@@ -15,7 +15,7 @@ namespace {
 double energy(const Model& model, double area, double uu, double vv, double uv) {
     double sum = 0.0;
     for (const Spring& s : model.springs) {
-        const glm::dvec2 e = model.uv[static_cast<std::size_t>(s.b)] - model.uv[static_cast<std::size_t>(s.a)];
+        const glm::dvec2 e = model.uv[s.b] - model.uv[s.a];
         const double stretch = (uu * e.x * e.x + vv * e.y * e.y + 2.0 * uv * e.x * e.y) / glm::length(e);
         sum += 0.5 * s.stiffness * stretch * stretch;
     }

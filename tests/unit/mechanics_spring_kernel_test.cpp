@@ -67,8 +67,8 @@ TYPED_TEST(SpringKernelsOf, BundlesAddEachSpringToBothEndsWithTheSameBits) {
                     for (int i = 0; i < n; ++i) {
                         const double stiffness = static_cast<double>(k[r + static_cast<std::size_t>(i)]);
                         const glm::dvec3 f = force(x, v, i, i + offsets[r], stiffness, 0.25, tau);
-                        expected[static_cast<std::size_t>(i)] += f;
-                        expected[static_cast<std::size_t>(i + offsets[r])] -= f;
+                        expected[i] += f;
+                        expected[i + offsets[r]] -= f;
                     }
                 const auto runs = bundleOf<Real>(n, offsets, 0.25, tau);
                 std::vector<Real> first;
@@ -83,7 +83,7 @@ TYPED_TEST(SpringKernelsOf, BundlesAddEachSpringToBothEndsWithTheSameBits) {
                             for (int i = 0; i < stride; ++i) {
                                 const auto at = static_cast<std::size_t>(p * stride + i);
                                 const double change = static_cast<double>(f[at]) - static_cast<double>(before[at]);
-                                ASSERT_NEAR(change, expected[static_cast<std::size_t>(i)][p], tolerance)
+                                ASSERT_NEAR(change, expected[i][p], tolerance)
                                     << "n " << n << ", " << offsets.size() << " runs, point " << i;
                                 if (i >= n + offsets.back()) ASSERT_EQ(f[at], before[at]);
                             }
@@ -153,7 +153,7 @@ TYPED_TEST(SpringKernelsOf, ListsAddEachSpringToBothEndsWithTheSameBits) {
     for (const int n : {1, 7, 63, 64, 65, 200}) {
         std::vector<int> a, b;
         std::vector<Real> rest, tau;
-        std::vector<glm::dvec3> expected(static_cast<std::size_t>(windowStride), glm::dvec3(0.0));
+        std::vector<glm::dvec3> expected(windowStride, glm::dvec3(0.0));
         double largest = 0.0;
         for (int i = 0; i < n; ++i) {
             a.push_back(windowFirst + static_cast<int>(random() % 100));
@@ -163,8 +163,8 @@ TYPED_TEST(SpringKernelsOf, ListsAddEachSpringToBothEndsWithTheSameBits) {
             const auto s = static_cast<std::size_t>(i);
             const glm::dvec3 f = force(x, v, a[s], b[s], static_cast<double>(k[s]), static_cast<double>(rest[s]),
                                        static_cast<double>(tau[s]));
-            expected[static_cast<std::size_t>(a[s] - windowFirst)] += f;
-            expected[static_cast<std::size_t>(b[s] - windowFirst)] -= f;
+            expected[a[s] - windowFirst] += f;
+            expected[b[s] - windowFirst] -= f;
             largest += glm::length(f);
         }
         // Partial sums are below `largest` and each addition rounds once, each spring some ten times.
@@ -192,9 +192,9 @@ TYPED_TEST(SpringKernelsOf, ListsAddEachSpringToBothEndsWithTheSameBits) {
         for (int p = 0; p < 3; ++p)
             for (int i = 0; i < windowStride; ++i) {
                 const auto at = static_cast<std::size_t>(p * windowStride + i);
-                ASSERT_NEAR(static_cast<double>(first[at]) - static_cast<double>(before[at]),
-                            expected[static_cast<std::size_t>(i)][p], tolerance);
-                ASSERT_NEAR(static_cast<double>(firstOwn[at]), expected[static_cast<std::size_t>(i)][p], tolerance);
+                ASSERT_NEAR(static_cast<double>(first[at]) - static_cast<double>(before[at]), expected[i][p],
+                            tolerance);
+                ASSERT_NEAR(static_cast<double>(firstOwn[at]), expected[i][p], tolerance);
             }
     }
 }

@@ -29,11 +29,11 @@ std::vector<Line> linesOf(const Network& network, std::size_t first, std::size_t
     for (std::size_t i = first; i < last; ++i) {
         const SpringBlock& block = network.blocks[i];
         for (int r = block.firstRun; r < block.lastRun; ++r) {
-            const SpringRun<double>& run = network.runs[static_cast<std::size_t>(r)];
+            const SpringRun<double>& run = network.runs[r];
             for (int j = 0; j < run.count; ++j) {
-                const double k = network.stiffness[static_cast<std::size_t>(run.table + j)];
+                const double k = network.stiffness[run.table + j];
                 if (k == 0.0) continue;
-                const auto own = [&](int at) { return network.mixed[static_cast<std::size_t>(run.mixed + at)]; };
+                const auto own = [&](int at) { return network.mixed[run.mixed + at]; };
                 lines.emplace_back(run.a + j, run.a + j + run.offset, k, run.mixed < 0 ? run.restLength : own(j),
                                    run.mixed < 0 ? run.tau : own(run.count + j));
             }
@@ -103,7 +103,7 @@ TEST_P(SpringNetworks, CutThePointsIntoBlocksAndTheBlocksIntoChunks) {
     for (const SpringChunk& c : network_.chunks) {
         EXPECT_EQ(c.firstBlock, block);
         EXPECT_GT(c.lastBlock, c.firstBlock);
-        EXPECT_EQ(c.firstPoint, network_.blocks[static_cast<std::size_t>(c.firstBlock)].firstPoint);
+        EXPECT_EQ(c.firstPoint, network_.blocks[c.firstBlock].firstPoint);
         EXPECT_EQ(c.lastPoint, network_.blocks[static_cast<std::size_t>(c.lastBlock) - 1].lastPoint);
         block = c.lastBlock;
     }
@@ -135,8 +135,7 @@ TEST_P(SpringNetworks, KnowHowFarBlocksAndChunksReach) {
     for (std::size_t c = 0; c < network_.chunks.size(); ++c) {
         const SpringChunk& chunk = network_.chunks[c];
         int reach = chunk.lastPoint;
-        for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i)
-            reach = std::max(reach, network_.blocks[static_cast<std::size_t>(i)].reach);
+        for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) reach = std::max(reach, network_.blocks[i].reach);
         EXPECT_EQ(chunk.spill, reach - chunk.lastPoint);
         // Into the next chunk, never past it.
         const int next = c + 1 < network_.chunks.size() ? network_.chunks[c + 1].lastPoint : case_.points;
@@ -147,7 +146,7 @@ TEST_P(SpringNetworks, KnowHowFarBlocksAndChunksReach) {
 TEST_P(SpringNetworks, BundleRunsThatCoverTheSamePoints) {
     for (const SpringBlock& block : network_.blocks)
         for (int r = block.firstRun; r < block.lastRun;) {
-            const SpringRun<double>* bundle = &network_.runs[static_cast<std::size_t>(r)];
+            const SpringRun<double>* bundle = &network_.runs[r];
             ASSERT_GE(bundle->together, 1);
             ASSERT_LE(bundle->together, std::min(mostTogether, block.lastRun - r));
             for (int i = 0; i < bundle->together; ++i) {

@@ -19,8 +19,7 @@ TEST(SpringWatch, FindsWhatAPlainLoopFindsWithEveryInstructionSet) {
     ASSERT_GT(network.chunks.size(), 1U);
     std::vector<double> x(3 * points);
     for (int i = 0; i < points; ++i)
-        for (int p = 0; p < 3; ++p)
-            x[static_cast<std::size_t>(p * points + i)] = net.positions[static_cast<std::size_t>(i)][p];
+        for (int p = 0; p < 3; ++p) x[p * points + i] = net.positions[i][p];
     const InstructionSetGuard guard;
     for (const double most : {9.0, 1.9, 0.5}) {
         std::vector<LengthLimits> limits(net.springs.size());
@@ -29,8 +28,7 @@ TEST(SpringWatch, FindsWhatAPlainLoopFindsWithEveryInstructionSet) {
             if (s % 4 == 0) continue;  // without
             limits[s].most = most;
             if (s % 2 == 1) limits[s].least = 0.2 / most;
-            const glm::dvec3 d = net.positions[static_cast<std::size_t>(net.springs[s].b)] -
-                                 net.positions[static_cast<std::size_t>(net.springs[s].a)];
+            const glm::dvec3 d = net.positions[net.springs[s].b] - net.positions[net.springs[s].a];
             const double l = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
             if (l > limits[s].most || l < limits[s].least) expected.push_back(static_cast<int>(s));
         }

@@ -44,8 +44,7 @@ void expectBothAlike(const Model& model, double tolerance) {
     for (Spring& spring : dashpots) {
         isUniform = isUniform && spring.dampingTime == model.springs[0].dampingTime;
         spring.stiffness *= spring.dampingTime;
-        spring.restLength = glm::length(model.positions[static_cast<std::size_t>(spring.b)] -
-                                        model.positions[static_cast<std::size_t>(spring.a)]);
+        spring.restLength = glm::length(model.positions[spring.b] - model.positions[spring.a]);
     }
     const double damping = std::pow(boundHere({dashpots, inverseMasses}, {}, model.positions).omega, 2);
     // With cells its weights are those of springs and cells, with which it may lie below B2, but never below the

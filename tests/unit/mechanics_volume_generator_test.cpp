@@ -94,8 +94,8 @@ TEST(Volume, ForcesPassNeitherMomentumNorSpin) {
     dvec3 torque(0.0);
     double size = 0.0;
     for (int i = 0; i < state.count; ++i) {
-        torque += glm::cross(state.get(state.x, i), forces[static_cast<std::size_t>(i)]);
-        size += glm::length(forces[static_cast<std::size_t>(i)]);
+        torque += glm::cross(state.get(state.x, i), forces[i]);
+        size += glm::length(forces[i]);
     }
     EXPECT_GT(size, 1000.0);
     EXPECT_LT(glm::length(sum(forces)), 1e-13 * size);  // rounding of some hundred terms
@@ -121,7 +121,7 @@ TEST(Volume, ForceIsTheSlopeOfTheEnergy) {
                 const double down = volume.potentialEnergy(state.motion());
                 x = here;
                 // Quadratic in one coordinate, so no error of order h²; rounding of some hundred joules, 1e-13 J / h.
-                EXPECT_NEAR(forces[static_cast<std::size_t>(i)][axis], (down - up) / (2.0 * h), 3e-8);
+                EXPECT_NEAR(forces[i][axis], (down - up) / (2.0 * h), 3e-8);
             }
     }
 }
@@ -179,7 +179,7 @@ TEST(Volume, OfACellIsThatOfItsTrilinearMap) {
                     const bool isFar = (corner >> other & 1) != 0;
                     part *= other == axis ? (isFar ? 1.0 : -1.0) : (isFar ? at : 1.0 - at);
                 }
-                slope[axis] += part * p[static_cast<std::size_t>(corner)];
+                slope[axis] += part * p[corner];
             }
         volume += glm::determinant(slope) / 8.0;
     }
@@ -277,7 +277,7 @@ TEST(Volume, ReportCountsCollapsedInvertedAndOverstretched) {
     PlanarState<double> poked(model);
     poked.set(poked.x, 0, {-0.1, -0.1, -0.1});
     report = volume.inspect(poked.motion());
-    const auto& points = model.cells[static_cast<std::size_t>(report.smallestCell)].points;
+    const auto& points = model.cells[report.smallestCell].points;
     EXPECT_EQ(std::count(points.begin(), points.end(), 0), 1);
 }
 

@@ -129,7 +129,7 @@ TEST(Wind, ClothFeelsTheFormulaInEveryTriangleGustsIncluded) {
             p[c] = state.get(state.x, triangle[c]);
             u += (wind.airVelocity(p[c], 0.75) - state.get(state.v, triangle[c])) / 3.0;
         }
-        for (int i : triangle) expected[static_cast<std::size_t>(i)] += expectedForce(p[0], p[1], p[2], u, s) / 3.0;
+        for (int i : triangle) expected[i] += expectedForce(p[0], p[1], p[2], u, s) / 3.0;
     }
     const std::vector<dvec3> f = state.forces(wind, 0.75);
     for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(glm::length(f[i] - expected[i]), 0.0, windRounding);

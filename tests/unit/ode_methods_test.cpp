@@ -143,8 +143,8 @@ TEST(EveryMethod, TreatsPlanesAndRangesLikeSeparateOscillatorsAndLeavesTheGaps) 
         std::vector<double> x(10, 0.0), v(10, 0.0);
         for (int p = 0; p < 2; ++p)
             for (int i = 0; i < 3; ++i) {
-                x[static_cast<std::size_t>(5 * p + i)] = 1.0 + 0.1 * i;
-                v[static_cast<std::size_t>(5 * p + i)] = -0.3 * p;
+                x[5 * p + i] = 1.0 + 0.1 * i;
+                v[5 * p + i] = -0.3 * p;
             }
         Integration<double> run(system, info.name, 0.02, x, v);
         run.step(100);

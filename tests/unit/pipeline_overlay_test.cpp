@@ -67,7 +67,7 @@ TEST(Painting, ALineCoversItsWidth) {
     EXPECT_EQ(pixel(picture, 2, 10), (std::array{120, 120, 120}));
 }
 
-TEST(Painting, WhatLiesOutsideIsLeftOut) {
+TEST(Painting, MarksOutsideAreLeftOut) {
     image::Image picture = grey(8, 8);
     const image::Image before = picture;
     auto painter = letters();

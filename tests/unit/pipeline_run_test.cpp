@@ -101,7 +101,7 @@ TEST(Play, MomentsOfAnExposureLieAroundTheFrameAndChangeNoState) {
         EXPECT_NEAR(view.moments[0].time, view.time - 1.0 / 240.0, 1e-12);
         for (const int side : {0, 1}) {
             const glm::vec3 exact = bobOf(fine[8 * i + (side == 0 ? 0U : 2U) - 1]);
-            EXPECT_NEAR(glm::distance(bobOf(view.moments[static_cast<std::size_t>(side)]), exact), 0.0, 1e-3) << i;
+            EXPECT_NEAR(glm::distance(bobOf(view.moments[side]), exact), 0.0, 1e-3) << i;
         }
     }
     EXPECT_GT(glm::distance(bobOf(blurred[5].moments[0]), bobOf(blurred[5].moments[1])), 0.005F);

@@ -20,7 +20,7 @@ TEST(ScenarioFiles, OfAFolderAreItsTomlFilesByName) {
     EXPECT_EQ(scenarioFiles({folder.path(), folder / "b.toml"}).size(), 2U);
 }
 
-TEST(ScenarioFiles, WhatIsNotThereOrNotToldApartIsRefused) {
+TEST(ScenarioFiles, MissingOrAmbiguousEntriesAreRefused) {
     const TemporaryFolder folder;
     const auto missing = [&](const std::string& name) {
         return test::messageOf(core::ErrorKind::inputOutput, [&] { scenarioFiles({folder / name}); });

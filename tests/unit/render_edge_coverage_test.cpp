@@ -61,7 +61,7 @@ TEST(EdgeCoverage, AHalfPlaneCoversItsShareOfThePixelsOnItsBorder) {
     covered.add(tileBox, coveringTriangle({40.5, -100.0}, {400.0, 16.0}, {40.5, 200.0}, 3, 0.5));
     for (int y = 0; y < edgeTileSize; ++y) {
         for (int x = 0; x < edgeTileSize; ++x) {
-            const FourInts& marks = covered.mark[static_cast<std::size_t>(y * edgeTileSize + x)];
+            const FourInts& marks = covered.mark[y * edgeTileSize + x];
             EXPECT_EQ((marks[0] + marks[1] + marks[2] + marks[3]) / 3, x < 8 ? 0 : x == 8 ? 2 : 4);
         }
     }

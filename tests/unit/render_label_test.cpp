@@ -20,7 +20,7 @@ using namespace render::test;
 // A picture of one colour.
 image::Image sheet(int width, int height, std::uint8_t grey) {
     image::Image picture{width, height, {}};
-    picture.rgb.assign(static_cast<std::size_t>(3 * width * height), grey);
+    picture.rgb.assign(3 * width * height, grey);
     return picture;
 }
 

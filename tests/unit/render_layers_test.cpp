@@ -15,7 +15,7 @@ namespace taut::render::test {
 namespace {
 
 int depthAt(const image::Image& picture, int x, int y) {
-    return picture.layer("depth")->numbers[static_cast<std::size_t>(y * picture.width + x)];
+    return picture.layer("depth")->numbers[y * picture.width + x];
 }
 
 // A box of a metre in front of the camera, nothing else.

@@ -28,11 +28,8 @@ TEST(RenderPicture, BlankSceneIsTheGradient) {
             const float up = std::max(slope, 0.0F) / std::sqrt(1.0F + slope * slope + side * side);
             const float part = up * up / (up * up + 0.0064F);
             const glm::vec3 expected = glm::mix(view.background.horizon, view.background.top, part);
-            for (int channel = 0; channel < 3; ++channel) {
-                EXPECT_NEAR(pixelAt(picture, x, y)[static_cast<std::size_t>(channel)], srgb(expected[channel]),
-                            ditherStep + 0.5)
-                    << "row " << y;
-            }
+            for (int channel = 0; channel < 3; ++channel)
+                EXPECT_NEAR(pixelAt(picture, x, y)[channel], srgb(expected[channel]), ditherStep + 0.5) << "row " << y;
         }
     }
 }

@@ -20,15 +20,13 @@ RendererOptions coverageOptions(int samples) {
 
 double rowSum(const image::Image& picture, int y) {
     double sum = 0.0;
-    for (int x = 0; x < picture.width; ++x)
-        sum += picture.alpha[static_cast<std::size_t>(y * picture.width + x)] / 255.0;
+    for (int x = 0; x < picture.width; ++x) sum += picture.alpha[y * picture.width + x] / 255.0;
     return sum;
 }
 
 double columnSum(const image::Image& picture, int x) {
     double sum = 0.0;
-    for (int y = 0; y < picture.height; ++y)
-        sum += picture.alpha[static_cast<std::size_t>(y * picture.width + x)] / 255.0;
+    for (int y = 0; y < picture.height; ++y) sum += picture.alpha[y * picture.width + x] / 255.0;
     return sum;
 }
 
@@ -75,16 +73,13 @@ TEST(RenderSamples, APictureOfMomentsIsTheirMeanInLight) {
         view.moments.back().surfaces[0].transform[3].x += static_cast<float>(10 * i * pixel);
     }
     const image::Image clear = pictureOf(view, coverageOptions(4));
-    for (int n = 0; n <= 4; ++n)
-        EXPECT_NEAR(clear.alpha[static_cast<std::size_t>(90 * 320 + 155 + 10 * n)], 63.75 * n, 0.51);
+    for (int n = 0; n <= 4; ++n) EXPECT_NEAR(clear.alpha[90 * 320 + 155 + 10 * n], 63.75 * n, 0.51);
     // Over the sky, which nothing shades, the mean of two colours in light.
     const image::Image opaque = pictureOf(view), none = pictureOf(emptyView());
     const image::Image all = pictureOf(still);
     const auto light = [](int byte) { return std::pow((byte / 255.0 + 0.055) / 1.055, 2.4); };
     for (int c = 0; c < 3; ++c) {
-        const auto at = [&](const image::Image& picture, int x) {
-            return light(picture.rgb[static_cast<std::size_t>(3 * (90 * 320 + x) + c)]);
-        };
+        const auto at = [&](const image::Image& picture, int x) { return light(picture.rgb[3 * (90 * 320 + x) + c]); };
         const double half = 0.5 * (at(none, 175) + at(all, 175));
         EXPECT_NEAR(at(opaque, 175), half, 0.01);
         EXPECT_GT(std::abs(at(all, 175) - at(none, 175)), 0.04);
@@ -93,7 +88,7 @@ TEST(RenderSamples, APictureOfMomentsIsTheirMeanInLight) {
 
 // An edge that is not where the lens is focused on lies anywhere in a disc of radius c = R |1 - F/D| (focal length in
 // pixels) / F. A place t c from it sees of that disc the part beyond a chord.
-TEST(RenderSamples, WhatIsOutOfFocusIsSpreadOverADisc) {
+TEST(RenderSamples, PointsOutOfFocusAreSpreadOverADisc) {
     view::FrameView view = emptyView();
     view.surfaces.push_back(surface(view::quadMesh({0.0F, 0.0F, 1.0F}, 10.0F), {10.0F, 0.0F, 0.0F}, glm::vec3(0.5F)));
     view.camera.lensRadius = 0.2F;
@@ -106,7 +101,7 @@ TEST(RenderSamples, WhatIsOutOfFocusIsSpreadOverADisc) {
             const double t = c > 0.0 ? std::clamp((x + 0.5 - 160.0) / c, -1.0, 1.0) : (x < 160 ? -1.0 : 1.0);
             const double seen = 0.5 + (std::asin(t) + t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
             // 32 places that are spread evenly are off by less than 3 in 64.
-            EXPECT_NEAR(picture.alpha[static_cast<std::size_t>(90 * 320 + x)] / 255.0, seen, c > 0.0 ? 0.05 : 0.01)
+            EXPECT_NEAR(picture.alpha[90 * 320 + x] / 255.0, seen, c > 0.0 ? 0.05 : 0.01)
                 << focus << " m, column " << x;
         }
     }

@@ -40,7 +40,7 @@ TEST(ShadowMap, APlaneOfTrianglesHasItsDepthInEachTexel) {
             for (int x = 0; x < edge; ++x) {
                 const float expected = depthAt(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
                 // Half a step of rounding, and as much of single precision.
-                EXPECT_NEAR(static_cast<float>(map[static_cast<std::size_t>(y * edge + x)]), 65535.0F * expected, 1.0F);
+                EXPECT_NEAR(static_cast<float>(map[y * edge + x]), 65535.0F * expected, 1.0F);
             }
         }
     }

@@ -81,10 +81,8 @@ TEST(RenderShadow, NoLightGetsUnderTheFootOfAThinWall) {
         for (float z = half + std::max(2.2F * texel, 0.003F) / sine; z < 0.1F; z += 0.002F) {
             for (float x = -0.2F; x <= 0.2F; x += 0.02F) {
                 const Pixel seen = pixelOf(picture, view.camera, {x, 0.0F, z});
-                for (int channel = 0; channel < 3; ++channel) {
-                    EXPECT_LE(seen[static_cast<std::size_t>(channel)], srgb(filmic(sky[channel])) + 1.5F)
-                        << shadowSize << ": " << x << ' ' << z;
-                }
+                for (int channel = 0; channel < 3; ++channel)
+                    EXPECT_LE(seen[channel], srgb(filmic(sky[channel])) + 1.5F) << shadowSize << ": " << x << ' ' << z;
             }
         }
     }

@@ -63,7 +63,7 @@ TEST(RenderStill, GroundThatSinksIsDrawnAnew) {
     expectSameBytes([](int i, view::FrameView& view) { view.ground->height = i < 12 ? 0.0F : -0.1F; });
 }
 
-TEST(RenderStill, WhatWasStillMayMoveOrGo) {
+TEST(RenderStill, StillPartsMayMoveOrGo) {
     expectSameBytes([](int i, view::FrameView& view) {
         if (i >= 12) view.surfaces[0].transform[3].x += 0.1F;
     });

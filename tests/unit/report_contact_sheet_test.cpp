@@ -37,7 +37,7 @@ TEST(ContactSheet, PutsFramesRowByRow) {
     const image::Image sheet = contactSheet(pattern, {.pictures = 9, .columns = 2, .width = 40, .gap = 2});
     EXPECT_EQ(sheet.width, 40);
     EXPECT_EQ(sheet.height, 2 * (8 + 2) + 2);
-    const auto level = [&](int x, int y) { return sheet.rgb[static_cast<std::size_t>((y * sheet.width + x) * 3)]; };
+    const auto level = [&](int x, int y) { return sheet.rgb[(y * sheet.width + x) * 3]; };
     EXPECT_EQ(level(0, 0), 24);
     EXPECT_EQ(level(10, 5), 60);
     EXPECT_EQ(level(30, 5), 120);
@@ -50,9 +50,9 @@ TEST(Resize, AveragesLight) {
     image::Image board = plain(64, 64, 0);
     for (int y = 0; y < 64; ++y)
         for (int x = y % 2; x < 64; x += 2)
-            for (int c = 0; c < 3; ++c) board.rgb[static_cast<std::size_t>((y * 64 + x) * 3 + c)] = 255;
+            for (int c = 0; c < 3; ++c) board.rgb[(y * 64 + x) * 3 + c] = 255;
     const image::Image small = image::resized(board, 8, 8);
-    EXPECT_NEAR(small.rgb[static_cast<std::size_t>((4 * 8 + 4) * 3)], 188, 3);  // ripple of the cubic filter
+    EXPECT_NEAR(small.rgb[(4 * 8 + 4) * 3], 188, 3);  // ripple of the cubic filter
 }
 
 TEST(SheetCommand, WritesASheetAndExplainsWhatIsMissing) {

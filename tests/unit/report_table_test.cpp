@@ -24,7 +24,7 @@ TEST(ReportTable, NumbersOfCsvReadBackAsTheyWere) {
     }
 }
 
-TEST(ReportTable, WhatIsNoNumberIsEmpty) {
+TEST(ReportTable, CellsWithoutANumberAreEmpty) {
     EXPECT_EQ(csv({{"x", "y"}, {{std::nan(""), 2.5}}}), "x,y\n,2.5\n");
     EXPECT_EQ(aligned({{"x", "y"}, {{std::nan(""), 2.5}}}), "x    y\n   2.5\n");
 }

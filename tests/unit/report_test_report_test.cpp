@@ -90,7 +90,7 @@ TEST(TestReport, AsBytesAndBackIsTheSamePage) {
         taut::test::messageOf(core::ErrorKind::badContent, [&] { (void)reportIn(std::span(saved).first(length)); });
 }
 
-TEST(TestReport, WhatIsOutdatedIsSkippedAndSaidOnceForAll) {
+TEST(TestReport, OutdatedGoldensAreSkippedAndReportedOnceForAll) {
     TestReport report;
     for (const char* name : {"a", "b"}) {
         TestScenario scenario;
@@ -138,7 +138,7 @@ TEST(TestReportPage, ShowsFailuresFirstWithReasonAndCommand) {
     EXPECT_TRUE(has(page, "<code>1 &lt; 2 &amp; &quot;x&quot;</code>"));
 }
 
-TEST(TestReportPage, WhatIsGravestComesFirst) {
+TEST(TestReportPage, GravestResultsComeFirst) {
     TestReport report = mixedReport();
     report.scenarios[1].checks.insert(report.scenarios[1].checks.begin(), report.scenarios[0].checks[0]);
     const std::string page = testPage(report);

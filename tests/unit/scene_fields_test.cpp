@@ -154,7 +154,7 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
     EXPECT_EQ(body.array.stepZ, dvec3(0, 0, 3));
 }
 
-TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
+TEST(SceneFields, CommonKeysSetTheMembersOfEveryBody) {
     const AssetFolder folder;
     const world::SceneSpec scene = folder.load(fullScene).spec;
     const world::BodySpec& flag = named(scene.bodies.of<world::ClothSpec>(), "flag");
@@ -387,7 +387,7 @@ TEST(SceneFields, CollidersLandInTheirMembers) {
     ASSERT_NE(table.parts[2].meshData, nullptr);
 }
 
-TEST(SceneFields, WhatIsDrawnRoundKeepsItsRadiusIfNoThicknessIsGiven) {
+TEST(SceneFields, RoundDrawingsKeepTheirRadiusIfNoThicknessIsGiven) {
     const AssetFolder folder;
     const auto load = [&](const std::string& kind, const std::string& more) {
         return folder.load("schema = 1\n" + kind + more);

@@ -62,7 +62,7 @@ TEST(SceneFiles, ByteOrderMarksAndWindowsLineEndsAreRead) {
                     .first.starts_with("bad.toml:4:1: error: [rope.r] has no key \"x\"\n  x = 1\n  ^ it has ends, "));
 }
 
-TEST(SceneFiles, WhatIsNoTextIsReported) {
+TEST(SceneFiles, FilesWithoutTextAreReported) {
     const AssetFolder folder;
     EXPECT_EQ(folder.messageOf(std::string("schema = 1\n\0\0", 13)),
               "s.toml:2:1: error: this is not a text file: it holds a zero byte\n  ??\n  ^");

@@ -30,7 +30,7 @@ std::string armWith(const std::string& before, const std::string& after) {
 }
 
 std::vector<dvec3> placesAt(const figure::Figure& figure, const char* animation, double seconds) {
-    std::vector<dvec3> places(static_cast<std::size_t>(figure.vertexCount()));
+    std::vector<dvec3> places(figure.vertexCount());
     figure::placeVertices(figure, figure::postureAt(figure, figure.find(animation), seconds), places);
     return places;
 }

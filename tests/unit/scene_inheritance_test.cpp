@@ -68,7 +68,7 @@ TEST(SceneInheritance, AMaterialHasKeysForItsCloth) {
     EXPECT_NE(scene.warnings[1].text.find("no cloth takes this friction"), std::string::npos) << scene.warnings[1].text;
 }
 
-TEST(SceneInheritance, WhatDoesNotGoWithAFormIsLeftOut) {
+TEST(SceneInheritance, KeysOfOtherFormsAreLeftOut) {
     const Loaded scene = loaded(
         "[defaults.collider]\nshape = \"sphere\"\nradius = 0.2\nfriction = 0.9\n"
         "[collider.ball]\n[collider.box]\nshape = \"box\"\nsize = [1, 2, 3]\n");
@@ -174,7 +174,7 @@ TEST(SceneInheritance, FaultsAreSaidOnceAndWhereTheyStand) {
 }
 
 // A megabyte that ten thousand elements take over would fill the memory.
-TEST(SceneInheritance, WhatIsTakenOverHasALimit) {
+TEST(SceneInheritance, InheritanceHasALimit) {
     std::string text = "schema = 1\n[defaults.rope]\nhold = [";
     for (int i = 0; i < 20'000; ++i) text += "\"a\",";
     text += "]\n";

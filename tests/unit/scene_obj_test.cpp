@@ -102,7 +102,7 @@ TEST(SceneObj, AGroupIsASelectionOfPoints) {
               std::string::npos);
 }
 
-TEST(SceneObj, WhatMakesNoClothIsNamedByTheLineOfItsFace) {
+TEST(SceneObj, FacesThatMakeNoClothAreNamedByTheirLine) {
     const AssetFolder folder;
     const std::string cloth = "schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"shirt.obj\"\n";
     const auto faultOf = [&](const std::string& faces) -> std::string {
@@ -170,9 +170,8 @@ TEST(SceneObj, AFaceOfTooManyCornersIsRefused) {
 double areaOf(const std::vector<dvec3>& polygon, const std::vector<Triangle>& triangles) {
     double sum = 0;
     for (const Triangle& t : triangles) {
-        const dvec3& a = polygon[static_cast<std::size_t>(t[0])];
-        sum += 0.5 *
-               glm::cross(polygon[static_cast<std::size_t>(t[1])] - a, polygon[static_cast<std::size_t>(t[2])] - a).z;
+        const dvec3& a = polygon[t[0]];
+        sum += 0.5 * glm::cross(polygon[t[1]] - a, polygon[t[2]] - a).z;
     }
     return sum;
 }

@@ -48,7 +48,7 @@ TEST(SceneTies, AreReadWithTheirKeys) {
     EXPECT_NEAR(loaded.spec.actions.of<world::MoveAction>()[0].rotation->x, 8 * 3.14159265358979, 1e-12);
 }
 
-TEST(SceneTies, WhatIsWrongWithThemIsReported) {
+TEST(SceneTies, ErrorsInThemAreReported) {
     const auto with = [&](const std::string& more) { return figure + more; };
     const std::string nearly =
                           with("[cloth.flag]\nmaterial = \"m\"\nhold = [\"left\"]\nhold_on = \"collider.figur\"\n"),

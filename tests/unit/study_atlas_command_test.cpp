@@ -48,8 +48,8 @@ TEST(AtlasCommand, WritesTheMapAndThePhasePlane) {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(outcome.err.empty()) << outcome.err;
     EXPECT_TRUE(has(outcome.out, "largest gap")) << outcome.out;
-    for (const char* name : {"stability-map.csv", "stability-map.json", "stability-growth.csv", "stability-map.svg",
-                             "phase-plane.csv", "phase-plane.svg"})
+    for (const char* name :
+         {"stability-map.csv", "stability-growth.csv", "stability-map.svg", "phase-plane.csv", "phase-plane.svg"})
         EXPECT_GT(std::filesystem::file_size(folder / "atlas" / name), 0U) << name;
     EXPECT_GT(image::readImage(folder / "atlas/stability-map.png").width, 500);
     EXPECT_GT(image::readImage(folder / "atlas/phase-plane.png").width, 500);

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <complex>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "taut/ode/method_table.h"
@@ -95,9 +94,9 @@ TEST(Atlas, MapsGrowthWhereDampingMakesADifferenceTwice) {
     settings.columns = 5;
     settings.boundaries = 3;
     double last = 0;
-    settings.progress = [&](const AtlasProgress& progress) {
-        EXPECT_GT(progress.done, last);
-        last = progress.done;
+    settings.listener.progress = [&](double done, const std::string&) {
+        EXPECT_GT(done, last);
+        last = done;
     };
     const StabilityMap map = measureStability(settings);
     EXPECT_EQ(last, 1.0);
@@ -112,7 +111,7 @@ TEST(Atlas, MapsGrowthWhereDampingMakesADifferenceTwice) {
         for (int row = 0; row < map.rows && !panel.growth.empty(); ++row)
             for (int column = 0; column < map.columns; ++column) {
                 const double limit = theory(panel.method, map.zetaAt(column), panel.damping), z = map.zAt(row);
-                const double growth = panel.growth[static_cast<std::size_t>(row * map.columns + column)];
+                const double growth = panel.growth[row * map.columns + column];
                 if (z < 0.98 * limit)
                     EXPECT_LT(growth, 1 + 1e-4);  // undamped leap-frog is 1: swings over 400 steps
                 else if (z > 1.02 * limit)
@@ -120,8 +119,6 @@ TEST(Atlas, MapsGrowthWhereDampingMakesADifferenceTwice) {
             }
     }
     EXPECT_EQ(maps, 3);
-    const auto json = nlohmann::json::parse(stabilityJson(map, {}));
-    EXPECT_EQ(json["methods"].size(), 4U);
     const std::string csv = boundariesCsv(map);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 3);
     const std::string growth = growthCsv(map);
@@ -131,7 +128,7 @@ TEST(Atlas, MapsGrowthWhereDampingMakesADifferenceTwice) {
 TEST(Atlas, StopsWhenAsked) {
     const std::atomic<bool> stop = true;
     StabilityMapSettings settings;
-    settings.stop = &stop;
+    settings.listener.stop = &stop;
     EXPECT_TRUE(measureStability(settings).isInterrupted);
 }
 

@@ -93,11 +93,10 @@ TEST(LeastSquares, EigenvectorsOfAChainAreItsWaves) {
     const std::vector<Vector> chain{{2, 1, 0}, {1, 2, 1}, {0, 1, 2}};
     const Eigenvectors found = eigenvectors(chain);
     for (int k = 0; k < 3; ++k) {
-        EXPECT_NEAR(found.values[static_cast<std::size_t>(k)], 2 + (k - 1) * std::sqrt(2.0), 1e-14);
-        const Vector& v = found.vectors[static_cast<std::size_t>(k)];
+        EXPECT_NEAR(found.values[k], 2 + (k - 1) * std::sqrt(2.0), 1e-14);
+        const Vector& v = found.vectors[k];
         for (std::size_t i = 0; i < 3; ++i)
-            EXPECT_NEAR(chain[i][0] * v[0] + chain[i][1] * v[1] + chain[i][2] * v[2],
-                        found.values[static_cast<std::size_t>(k)] * v[i], 1e-14);
+            EXPECT_NEAR(chain[i][0] * v[0] + chain[i][1] * v[1] + chain[i][2] * v[2], found.values[k] * v[i], 1e-14);
     }
 }
 

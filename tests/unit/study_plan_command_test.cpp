@@ -127,7 +127,7 @@ TEST(PlanCommand, ShowsNoTimeOfWhatWasStopped) {
     EXPECT_GT(stopped, 0) << "else this shows nothing";
 }
 
-TEST(PlanCommand, WhatCannotBePredictedForAsLongAsAskedIsNotWritten) {
+TEST(PlanCommand, PlansBeyondThePredictableTimeAreNotWritten) {
     const TemporaryFolder folder;
     const std::string buckling = R"(schema = 1
 [need]

@@ -94,7 +94,7 @@ TEST(PlanModel, AllEdgesGoWithTheLongest) {
         << "two at least";
 }
 
-TEST(PlanModel, WhatIsTiedToItsPointsKeepsThem) {
+TEST(PlanModel, BodiesWithTiedPointsKeepTheirCells) {
     world::SceneSpec scene = sceneWithNeed();
     scene.bodies.of<world::ClothSpec>()[0].hold = {"#3"};
     scene.bodies.add(support::rope("a", {0, 2, 0}, {1, 2, 0}, 20));

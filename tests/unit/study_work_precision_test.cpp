@@ -222,7 +222,7 @@ TEST(StudyWorkPrecision, JsonHoldsTheMachineAndEveryRun) {
 TEST(StudyWorkPrecision, StopsWhenAsked) {
     const std::atomic<bool> stop(true);
     StudySettings settings = fixed(3);
-    settings.stop = &stop;
+    settings.listener.stop = &stop;
     const WorkPrecision study = studyWorkPrecision(*makeGrowth(), settings);
     EXPECT_TRUE(study.isInterrupted);
     EXPECT_TRUE(study.points.empty());

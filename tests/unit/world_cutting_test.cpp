@@ -57,7 +57,7 @@ TEST(Cutting, NoForceCrossesACut) {
 }
 
 // Held at the top and cut across: what is below falls freely, what is above stays held.
-TEST(Cutting, WhatIsCutOffFallsFreely) {
+TEST(Cutting, CutPartsFallFreely) {
     SceneSpec scene = sheet();
     scene.bodies.of<ClothSpec>()[0].hold = {"top"};
     scene.actions = {support::cutPlane(0.0, "cloth.sheet", {0, 1.45, 0}, {0, 1, 0})};
@@ -188,7 +188,7 @@ TEST(Cutting, ARowOfPointsIsLeft) {
 
 // A rope of EA = 100 N pulled by a hand: it tears once (l - L)/L is over the break strain, and nowhere else before.
 // A cut through what is rigid takes nothing of it, and says so.
-TEST(Cutting, WhatIsRigidStaysWhole) {
+TEST(Cutting, RigidBodiesStayComplete) {
     SceneSpec scene;
     SolidSpec crate;
     crate.name = "crate";

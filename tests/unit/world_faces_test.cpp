@@ -67,7 +67,7 @@ double distanceTo(World& world, const dvec3& place) {
     const std::vector<dvec3> x = world.positions(entity);
     double least = 1e300;
     for (const std::array<int, 3>& t : world.registry().find<BodyPart>(entity)->body->model.triangles) {
-        const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(t[k])]; };
+        const auto at = [&](std::size_t k) { return x[t[k]]; };
         least = std::min(least, glm::length(contact::closestPoints({place, at(0), at(1), at(2)}, true).separation));
     }
     return least;

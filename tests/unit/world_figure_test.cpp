@@ -77,7 +77,7 @@ TEST(Figure, AFastFacePassesThroughNothing) {
     for (const dvec3& x : world.points("cloth.c").x) EXPECT_GT(x.y, 0.7);
 }
 
-TEST(Figure, WhatTwoPartsSqueezeIsLetThroughAndComesFree) {
+TEST(Figure, PointsSqueezedByTwoPartsAreLetThroughAndComeFree) {
     // Two boxes close upon a sheet that hangs between them until they overlap by 2 cm, and part again.
     figure::Figure press = boxes({{-0.3, 0, 0}, {0.3, 0, 0}}, {0.2, 0.2, 0.2}, 4);
     animate(press, 0, Path::translation, {0.1, 0.5, 0.8, 1.2}, {-0.3, 0, 0, -0.09, 0, 0, -0.09, 0, 0, -0.3, 0, 0});

@@ -115,7 +115,7 @@ TEST_F(Fillings, ALiquidKeepsItsVolume) {
 }
 
 // The piston falls as it would without a gas: its speed tends to g over the drag rate.
-TEST_F(Fillings, WhatIsCutOpenHoldsNothing) {
+TEST_F(Fillings, CutFillingsHoldNothing) {
     World world = load(piston("keeps = \"amount\"",
                               "[[at]]\nt = 1.0\ndo = \"cut\"\ntarget = \"cloth.box\"\n"
                               "plane = [[0, 0.2, 0], [0, 1, 0]]\n"));
@@ -185,7 +185,7 @@ TEST_F(Fillings, PanelsHoldItWhileTheyAreSewn) {
     EXPECT_NEAR(opening(8, 9), even, 0.15 * even);
 }
 
-TEST_F(Fillings, WhatHoldsNothingIsNamed) {
+TEST_F(Fillings, BodiesThatHoldNothingAreNamed) {
     const std::string sheet = "schema = 1\n[material.m]\n[cloth.sheet]\nmaterial = \"m\"\ncells = [2, 2]\n";
     EXPECT_NE(complaint(sheet + "[filling.air]\nin = [\"cloth.sheet\"]\n")
                   .find("filling.air: the surface of cloth.sheet at [0, 0, 0] is open along 8 edges"),

@@ -30,7 +30,7 @@ class Attraction final : public mechanics::ForceGenerator<Real> {
         double energy = 0;
         for (int i = 0; i < motion.count; ++i)
             for (int p = 0; p < 3; ++p) {
-                if (!only.empty() && !only[static_cast<std::size_t>(i)]) continue;
+                if (!only.empty() && !only[i]) continue;
                 const double way = static_cast<double>(motion.x[p * motion.stride + i]) - centre_[p];
                 energy += 0.5 * stiffness_ * way * way;
             }
@@ -42,7 +42,7 @@ class Attraction final : public mechanics::ForceGenerator<Real> {
                 out[p * motion.stride + i] += static_cast<Real>(stiffness_) * u[p * motion.stride + i];
     }
     void addStability(const mechanics::Motion<Real>& motion, mechanics::StabilityShare& share) const override {
-        for (int i = 0; i < motion.count; ++i) share.stiffness[static_cast<std::size_t>(i)] += stiffness_;
+        for (int i = 0; i < motion.count; ++i) share.stiffness[i] += stiffness_;
     }
 
   private:

@@ -63,7 +63,7 @@ TEST(Freeze, TheOthersGoOnAsIfTheyWereAlone) {
 }
 
 // The rest state is 1/10 m a cell: what is kept is a cloth still, torn but not scattered.
-TEST(Freeze, WhatIsKeptIsWithinTheStrainThatWasSet) {
+TEST(Freeze, KeptPlacesAreWithinTheStrainThatWasSet) {
     for (const double strain : {0.3, 1.0, 2.0}) {
         SceneSpec scene = calmAndWild();
         scene.solver.freezeStrain = strain;

@@ -126,7 +126,7 @@ MoveAction turnHand(double t, dvec3 angles, double over, Ease ease) {
     return turn;
 }
 
-TEST(Hands, WhatATurningHandHasGoesRoundAsOftenAsItTurns) {
+TEST(Hands, PointsInATurningHandGoRoundAsOftenAsItTurns) {
     for (const bool isRigid : {true, false}) {
         SceneSpec scene;
         scene.world.gravity = dvec3(0.0);
@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodLetsGo,
                              return name;
                          });
 
-TEST_P(EveryMethodLetsGo, WhatARigidHandReleasesFliesOnWithItsSpeed) {
+TEST_P(EveryMethodLetsGo, PointsReleasedByARigidHandFlyOnWithTheirSpeed) {
     SceneSpec scene = handledMass(std::string(GetParam()));
     scene.world.gravity = dvec3(0.0);
     scene.bodies.of<NetSpec>()[0].springs[0].dampingTime = 0;

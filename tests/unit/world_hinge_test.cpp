@@ -466,7 +466,7 @@ TEST(Places, LooseEndsComeToASolid) {
     EXPECT_LT(lengthOf(joined.points("net.n").v[0]), 1e-9);
 }
 
-TEST(Places, WhatCannotBeIsRefused) {
+TEST(Places, ImpossiblePlacesAreRefused) {
     const std::string box =
         "[solid.box]\nshape = \"box\"\nsize = [0.2, 0.4, 0.6]\nposition = [1, 2, 3]\n"
         "[solid.other]\nshape = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [1.6, 2, 3]\nhold = [\"front-top-left\"]\n"

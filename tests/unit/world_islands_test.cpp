@@ -61,9 +61,9 @@ TEST(Islands, AWeldAddsMassesAndKeepsMomentum) {
     const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
     const int welded = bodies[0].pointOf.back();
     EXPECT_EQ(welded, bodies[1].pointOf.front());
-    const auto& point = plans[0].points[static_cast<std::size_t>(welded)];
+    const auto& point = plans[0].points[welded];
     EXPECT_NEAR(point.mass, 0.1, 1e-15);  // twice half a segment of a tenth of a kilogram
-    EXPECT_NEAR(plans[0].velocities[static_cast<std::size_t>(welded)].z, 1.0, 1e-15);
+    EXPECT_NEAR(plans[0].velocities[welded].z, 1.0, 1e-15);
 }
 
 TEST(Islands, ASpringJointKeepsItsStartingLength) {
@@ -118,9 +118,9 @@ TEST(Islands, MeshPointsAreNumberedForLocality) {
     auto mesh = std::make_shared<MeshData>();
     const int columns = 200;
     const auto number = [&](int column, int row) { return (2 * column + row) * 7 % (2 * columns); };
-    mesh->positions.resize(static_cast<std::size_t>(2 * columns));
+    mesh->positions.resize(2 * columns);
     for (int c = 0; c < columns; ++c)
-        for (int r = 0; r < 2; ++r) mesh->positions[static_cast<std::size_t>(number(c, r))] = {0.1 * c, 0.1 * r, 0.0};
+        for (int r = 0; r < 2; ++r) mesh->positions[number(c, r)] = {0.1 * c, 0.1 * r, 0.0};
     for (int c = 0; c + 1 < columns; ++c) {
         mesh->triangles.push_back({number(c, 0), number(c + 1, 0), number(c, 1)});
         mesh->triangles.push_back({number(c + 1, 0), number(c + 1, 1), number(c, 1)});

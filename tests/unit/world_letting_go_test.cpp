@@ -156,7 +156,7 @@ TEST(LettingGo, ANameIsThatOfAllItsJointsAndOfEveryTie) {
     EXPECT_EQ(left(world, "peg"), 0);
 }
 
-TEST(LettingGo, WhatHasLetGoIsSavedAndGoesOnTheSame) {
+TEST(LettingGo, ReleasedTiesAreSavedAndGoOnTheSame) {
     for (const std::string& joint :
          {std::string("a = \"net.o@b\"\nb = \"net.n@a\"\nbreak_N = 40\n"),
           std::string("a = \"net.o@b\"\nb = \"collider.k\"\nkind = \"spring\"\nbreak_N = 1e9\n"),

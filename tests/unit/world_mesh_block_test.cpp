@@ -84,7 +84,7 @@ TEST(MeshBlock, GoesOnTheSameFromASavedState) {
     EXPECT_EQ(through.save(), restored.save());
 }
 
-TEST(MeshBlock, WhatCannotBeFilledIsRefused) {
+TEST(MeshBlock, MeshesThatCannotBeFilledAreRefused) {
     const auto refusal = [](const BlockSpec& block) -> std::string {
         SceneSpec scene;
         scene.bodies.add(block);
@@ -110,7 +110,7 @@ TEST(MeshBlock, WhatCannotBeFilledIsRefused) {
         << open;
 }
 
-TEST(MeshBlock, WhatIsThinnerThanACellOrCrossesItselfIsSaid) {
+TEST(MeshBlock, PartsThinnerThanACellAndSelfCrossingsAreReported) {
     mechanics::test::Mesh boxes;
     addBox(boxes, dvec3(0.0), {0.4, 0.4, 0.4});
     SceneSpec scene;

@@ -21,7 +21,7 @@ ClothSpec panel() {
 
 std::vector<dvec3> placesOf(const mechanics::Model& model, const char* selector) {
     std::vector<dvec3> places;
-    for (const int i : selectPoints(model, selector)) places.push_back(model.positions[static_cast<std::size_t>(i)]);
+    for (const int i : selectPoints(model, selector)) places.push_back(model.positions[i]);
     return places;
 }
 
@@ -29,8 +29,7 @@ TEST(Panels, HaveEdgesInTheOrderOfTheirCorners) {
     const mechanics::Model model = panel().build({});
     const std::vector<dvec3> top = placesOf(model, "side3");
     ASSERT_EQ(top.size(), 5U);
-    for (int i = 0; i < 5; ++i)
-        EXPECT_NEAR(glm::distance(top[static_cast<std::size_t>(i)], dvec3(0.2 - 0.1 * i, 0.5, 0)), 0, 1e-15);
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(glm::distance(top[i], dvec3(0.2 - 0.1 * i, 0.5, 0)), 0, 1e-15);
     EXPECT_EQ(placesOf(model, "left"), placesOf(model, "side2"));
     // Over the first corner, and all the way round but for a side.
     const std::vector<dvec3> round = placesOf(model, "round");
@@ -52,7 +51,7 @@ TEST(Panels, LieAcrossAndDownFromTheirOriginWithTheFrontThatGridsHave) {
     EXPECT_EQ(placesOf(model, "side2").back(), dvec3(0.5, 2, 3.2));
     const auto front = [](const mechanics::Model& of) {
         const auto& [a, b, c] = of.triangles.front();
-        const auto at = [&](int i) { return of.positions[static_cast<std::size_t>(i)]; };
+        const auto at = [&](int i) { return of.positions[i]; };
         return glm::normalize(glm::cross(at(b) - at(a), at(c) - at(a)));
     };
     EXPECT_NEAR(glm::dot(front(model), front(like)), 1, 1e-12);

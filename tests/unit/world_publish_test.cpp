@@ -99,7 +99,7 @@ TEST(Publish, SmoothClothHasFourTrianglesForEachAndSmoothRopesTwoRings) {
               sides * more * static_cast<std::size_t>(rope.segments));
 }
 
-TEST(Publish, WhatDoesNotChangeIsShared) {
+TEST(Publish, UnchangedPartsAreShared) {
     World world(smallScene());
     const view::FrameView first = world.view(false);
     ASSERT_FALSE(world.advance());

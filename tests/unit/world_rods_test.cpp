@@ -233,7 +233,7 @@ TEST(Rods, HoldInContact) {
     EXPECT_LT(world.metrics("net.n").kinetic, 0.05);  // it lies there
 }
 
-TEST(Rods, WhatTheyDoNotHaveIsRefusedByName) {
+TEST(Rods, OtherKeysAreRefusedByName) {
     const scene::AssetFolder folder;
     const std::string two =
         "schema = 1\n[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0] }, { name = \"b\", position = [0, 0, 0] "

@@ -64,9 +64,9 @@ TEST_P(Saving, ARestoredWorldGoesOnBitForBitFromAnyTick) {
     for (int from = 0; from < ticks; from += 3) {
         SCOPED_TRACE(from);
         World restored(scene);
-        restored.restore(saved[static_cast<std::size_t>(from)]);
+        restored.restore(saved[from]);
         for (int i = from; i < ticks; ++i) {
-            ASSERT_EQ(restored.stateHash(), hashes[static_cast<std::size_t>(i)]) << i;
+            ASSERT_EQ(restored.stateHash(), hashes[i]) << i;
             ASSERT_FALSE(restored.advance());
         }
         EXPECT_EQ(restored.stateHash(), through.stateHash());
@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Across a tear nothing bends any more, whether the world goes on or is restored: the loose end of a rope without
 // weight keeps its momentum.
-TEST(SavingWhole, WhatIsTornBendsNoMore) {
+TEST(SavingWhole, TornPartsBendNoMore) {
     const SceneSpec scene = scene::loadSceneText(R"(schema = 1
 [world]
 gravity = [0, 0, 0]
@@ -230,7 +230,7 @@ TEST(SavingWhole, ABlockThatTearsAroundAColliderMeetsItTheSame) {
     }
 }
 
-TEST(SavingWhole, WhatIsRestoredShowsAndTellsTheSame) {
+TEST(SavingWhole, RestoredWorldsShowAndReportTheSame) {
     const SceneSpec scene = support::everythingHappens();
     World through(scene);
     for (int i = 0; i < 20; ++i) ASSERT_FALSE(through.advance());
@@ -442,17 +442,17 @@ TEST(SavingRamps, ThreadsThatRubGoOnBitForBitFromWhereTheySlip) {
         }
         for (int from = 0; from < ticks; from += 3) {
             World restored(scene);
-            restored.restore(saved[static_cast<std::size_t>(from)]);
+            restored.restore(saved[from]);
             for (int i = from; i < ticks; ++i) {
                 ASSERT_FALSE(restored.advance());
-                ASSERT_EQ(restored.stateHash(), hashes[static_cast<std::size_t>(i)]) << precision << from << i;
+                ASSERT_EQ(restored.stateHash(), hashes[i]) << precision << from << i;
             }
         }
     }
 }
 
 // With steps a little too long the sheet diverges late in its first tick. What threads slipped till then is undone.
-TEST(SavingWhole, WhatThreadsSlippedIsUndoneWithATick) {
+TEST(SavingWhole, SlipOfThreadsIsUndoneWithATick) {
     const SceneSpec scene =
         scene::loadSceneText(
             "schema = 1\nsolver.dt = 1.8e-4\n[material.m]\nbending_rigidity_N_m = 1e-5\nbending_hysteresis_N = 1e-3\n"

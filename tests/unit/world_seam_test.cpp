@@ -361,7 +361,7 @@ TEST(Seams, ComeApartWhenReleasedTornOrCut) {
     }
 }
 
-TEST(Seams, WhatCannotBeSewnIsRefused) {
+TEST(Seams, ImpossibleSeamsAreRefused) {
     const auto messageOf = [](const std::string& text) -> std::string {
         try {
             World world(sceneOf(text));
@@ -399,7 +399,7 @@ TEST(Seams, WhatCannotBeSewnIsRefused) {
 }  // namespace
 // Two panels sewn round a post that is too thick for them: they press on it, and nothing moves. Each pulls at the seam
 // along itself, and only what is left of both pulls presses.
-TEST(Seams, WhatIsTautRoundAPostHasNoVelocity) {
+TEST(Seams, ATautSeamRoundAPostHasNoVelocity) {
     const std::string more = "cells = [6, 2]\nmaterial = \"m\"\nthickness = 0.004\n";
     World world(sceneOf(
         "schema = 1\n[solver]\nprecision = \"double\"\n[world]\ngravity = [0, 0, 0]\n[material.m]\ndrag_per_s = 5\n"

@@ -215,7 +215,7 @@ TEST(RestBound, IsInfiniteWhereNothingDrawsBack) {
 }
 
 // At rest to the bit, but nothing would stop it: a particle without weight, and one on ground without friction.
-TEST(Sleep, WhatNothingDrawsBackStaysAwake) {
+TEST(Sleep, BodiesWithoutARestoringForceStayAwake) {
     for (const bool isOnGround : {false, true}) {
         SceneSpec scene = sleepy();
         if (!isOnGround) scene.world.gravity = dvec3(0.0);
@@ -312,7 +312,7 @@ TEST(Sleep, AFallingBallWakesThePileWithinTheTick) {
     EXPECT_LE(furthest(world, waking, {"cloth.lower", "cloth.upper", "net.ball"}), allowed);
 }
 
-TEST(Sleep, WhatLosesItsSupportFalls) {
+TEST(Sleep, BodiesThatLoseTheirSupportFall) {
     World world(pile());
     ASSERT_GT(untilAsleep(world, 5.0), 0);
     const double height = positionsOf(world, "cloth.upper")[12].y;

@@ -184,7 +184,7 @@ kind = "rod"
     EXPECT_GT(world.metrics().kinetic, 0.98 * energy);  // rods that cannot agree to the last digit cost 1 % here
 }
 
-TEST_F(Solids, WhatCannotBeOneIsRefused) {
+TEST_F(Solids, ImpossibleSolidsAreRefused) {
     EXPECT_EQ(complaint("[solid.ball]\nshape = \"sphere\"\nthickness = 0.1\n"),
               "s.toml:4:1: error: thickness does not go with shape \"sphere\"\n  thickness = 0.1\n  ^ it belongs to "
               "box, cylinder, cone, hull, mesh, compound");

@@ -179,7 +179,7 @@ TEST(Tearing, ARepeatedTickKnowsNothingOfTheOneBefore) {
 }
 
 // The bar of `Yielding` bent slowly: what stays of it hardly depends on how often it is looked at.
-TEST(Yielding, WhatStaysDoesNotDependOnTheTicks) {
+TEST(Yielding, LastingStrainDoesNotDependOnTheTicks) {
     const auto offset = [](double fps) {
         SceneSpec scene;
         scene.run.fps = fps;

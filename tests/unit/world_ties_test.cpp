@@ -134,7 +134,7 @@ TEST_P(OrderThroughTies, IsThatOfTheMethod) {
 }
 
 // Thrown off a wheel: the speed 2 sin(θ/2) r a tick, along the tangent, and from then on momentum is conserved.
-TEST(Ties, WhatIsFreedFliesOnWithItsVelocity) {
+TEST(Ties, FreedPointsFlyOnWithTheirVelocity) {
     SceneSpec scene = carriedPair();
     scene.bodies.of<NetSpec>()[0].springs[0].stiffness = 1e-9;
     scene.actions = {support::action<FreeAction>(0.5, "net.n@p")};
@@ -347,7 +347,7 @@ std::string refusal(const SceneSpec& scene) {
     return "";
 }
 
-TEST(Ties, WhatCannotBeTiedIsRefused) {
+TEST(Ties, ImpossibleTiesAreRefused) {
     SceneSpec scene = carriedPair();
     const auto with = [&](const WeldJoint& joint) {
         SceneSpec other = scene;

@@ -142,7 +142,7 @@ TEST(TouchingWorld, MeetsAColliderWhereItHasJumpedTo) {
 
 // A square, held at one side, that is torn out of its strain in the first tick, and a ball of a hundred times its mass
 // that is at it then, or comes later: it stops there, and the square stays bit for bit where it froze.
-TEST(TouchingWorld, WhatIsFrozenStopsWhatComesAndStays) {
+TEST(TouchingWorld, FrozenBodiesStopOthersAndStay) {
     for (const double above : {0.0, 0.1}) {
         ClothSpec cloth = square(0.0, {"left"});
         cloth.velocity = {400.0, 0.0, 0.0};
@@ -163,7 +163,7 @@ TEST(TouchingWorld, WhatIsFrozenStopsWhatComesAndStays) {
 }
 
 // The same square alone, and a box that goes through it: no shorter instant would keep them apart.
-TEST(TouchingWorld, WhatIsFrozenIsGoneThroughByAColliderInTicksThatEnd) {
+TEST(TouchingWorld, CollidersPassThroughFrozenBodiesInTicksThatEnd) {
     ClothSpec cloth = square(0.0, {"left"});
     cloth.velocity = {400.0, 0.0, 0.0};
     SceneSpec scene;

@@ -37,7 +37,7 @@ double cellFor(double droopError, double bendingLength) {
 
 std::vector<std::string> coarseCells(const SceneSpec& scene) {
     constexpr double most = 0.1;
-    std::vector<std::string> notes, said;  // said: materials, each once
+    std::vector<std::string> notes, reported;  // reported: materials, each once
     const double gravity = std::sqrt(glm::dot(scene.world.gravity, scene.world.gravity));
     if (!(gravity > 0)) return notes;
     for (const ClothSpec& cloth : scene.bodies.of<ClothSpec>()) {
@@ -52,9 +52,9 @@ std::vector<std::string> coarseCells(const SceneSpec& scene) {
         const Along u{cloth.size.x, cloth.size.x / cloth.cells.x, lengthAt(cloth.grain)};
         const Along v{cloth.size.y, cloth.size.y / cloth.cells.y, lengthAt(0.5 * std::numbers::pi - cloth.grain)};
         const double error = std::max(droopError(u.cell, u.bendingLength), droopError(v.cell, v.bendingLength));
-        const bool isSaid = std::find(said.begin(), said.end(), cloth.material) != said.end();
-        if (!(error > most) || isSaid) continue;
-        said.push_back(cloth.material);
+        const bool isReported = std::find(reported.begin(), reported.end(), cloth.material) != reported.end();
+        if (!(error > most) || isReported) continue;
+        reported.push_back(cloth.material);
         notes.push_back(
             fmt::format("the cells of cloth.{} are coarse for {}, whose bending length is {:.2g} by {:.2g} mm: {}; "
                         "cells = [{}, {}] "

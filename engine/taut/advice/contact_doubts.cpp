@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "taut/contact/closest_points.h"
@@ -67,11 +65,9 @@ void doubtLoneliness(const WorldImpl& world, std::span<const Body* const> bodies
 struct PlacedSolid {
     const Body* body;
     std::vector<dvec3> x;  // (points of the model) [m]
-    core::Aabb box;        // of those that touch
+    core::Aabb box;        // of the bodies that touch
 
-    std::span<const dvec3> touching() const {
-        return std::span(x).subspan(static_cast<std::size_t>(body->model.innerPoints));
-    }
+    std::span<const dvec3> touching() const { return std::span(x).subspan(body->model.innerPoints); }
 };
 
 std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
@@ -80,7 +76,7 @@ std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
         for (const Body* body : island->plan().bodies) {
             if (!body->spec->isRigid() || body->spec->touch == Touch::nothing) continue;
             PlacedSolid& solid = solids.emplace_back(PlacedSolid{body, {}, {}});
-            for (const int i : body->pointOf) solid.x.push_back(island->plan().positions[static_cast<std::size_t>(i)]);
+            for (const int i : body->pointOf) solid.x.push_back(island->plan().positions[i]);
             for (const dvec3& x : solid.touching()) solid.box.add(x);
         }
     std::sort(solids.begin(), solids.end(),
@@ -142,13 +138,12 @@ void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, s
         collision::Colliders::Inside deepest;
         for (const mechanics::RigidPart& part : surfacesOf(*solid.body))
             for (int i = part.first; i < part.last; ++i)
-                if (const auto inside = colliders.inside(solid.x[static_cast<std::size_t>(i)], part.rounding);
-                    inside.depth > deepest.depth)
+                if (const auto inside = colliders.inside(solid.x[i], part.rounding); inside.depth > deepest.depth)
                     deepest = inside;
         const bool isCounted =
             solid.body->spec->collide && deepest.depth > share * glm::length(solid.box.high - solid.box.low);
         if (!isCounted) continue;
-        const std::string& collider = names[static_cast<std::size_t>(deepest.collider)];
+        const std::string& collider = names[deepest.collider];
         const bool isMounted = std::any_of(world.spec.joints.begin(), world.spec.joints.end(), [&](const auto& joint) {
             return isTie(joint) && !joint.touch && colliderOf(joint) == collider &&
                    world::names(pointsOf(joint), *solid.body);
@@ -252,7 +247,7 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
     for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
     std::vector<contact::LeafPair> near;
     patches.findNear(boxes, 0.0, near);
-    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    const auto at = [&](int i) { return x[i]; };
     // Notes the points of a that lie on a triangle or an edge of b.
     std::map<std::pair<int, int>, std::set<int>> found;
     const auto look = [&](const contact::BvhLeaf& a, const contact::BvhLeaf& b) {
@@ -264,11 +259,11 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
                 return glm::dot(apart, apart) <= within * within;
             };
             for (int t : b.triangles) {
-                const std::array<int, 3>& c = elements.triangles()[static_cast<std::size_t>(t)].points;
+                const std::array<int, 3>& c = elements.triangles()[t].points;
                 if (isNear({point, at(c[0]), at(c[1]), at(c[2])}, true)) return true;
             }
             for (int e : b.edges) {
-                const contact::Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
+                const contact::Edge& edge = elements.edges()[e];
                 if (isNear({point, point, at(edge.a), at(edge.b)}, false)) return true;
             }
             return false;

@@ -1,6 +1,5 @@
 #include "taut/advice/private/encounters.h"
 
-#include <algorithm>
 #include <memory>
 
 #include "taut/advice/contact_doubts.h"
@@ -98,8 +97,8 @@ class LookAhead {
 
     void add(const ContactStage& stage, const contact::Crossing& crossing) {
         const contact::Elements& elements = stage.elements();
-        const int a = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
-        const int b = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
+        const int a = elements.edges()[crossing.edge].surface;
+        const int b = elements.triangles()[crossing.triangle].surface;
         if (stage.isOfBody(a) && stage.isOfBody(b)) add(stage.bodyOf(a), stage.bodyOf(b));
     }
 
@@ -115,7 +114,8 @@ class LookAhead {
     // [ns] Cost of all ticks so far.
     double workOf(const WorldImpl& world) {
         const ContactInfo contact = world.contactStage->info();
-        contactWork_ += contact.lastDetections * (perPointDetection * contact.points + perPair * contact.lastTestedPairs);
+        contactWork_ +=
+            contact.lastDetections * (perPointDetection * contact.points + perPair * contact.lastTestedPairs);
         double work = contactWork_;
         for (const auto& island : world.islands) {
             const ode::Work own = island->work();

@@ -18,8 +18,7 @@ std::string textOf(const ColliderSpec& collider) {
     std::set<int> known;
     for (const figure::Skin& skin : figure.skins)
         for (const int joint : skin.joints)
-            if (const std::string& name = figure.nodes[static_cast<std::size_t>(joint)].name;
-                !name.empty() && known.insert(joint).second)
+            if (const std::string& name = figure.nodes[joint].name; !name.empty() && known.insert(joint).second)
                 joints.push_back(name);
     std::string text = fmt::format("collider.{}: {} has {} triangles", collider.name,
                                    std::filesystem::path(collider.mesh).filename().string(), figure.triangles.size());

@@ -52,7 +52,7 @@ class Thickness {
     }
 
   private:
-    const dvec3& at(std::size_t t, std::size_t k) const { return x_[static_cast<std::size_t>(triangles_[t][k])]; }
+    const dvec3& at(std::size_t t, std::size_t k) const { return x_[triangles_[t][k]]; }
 
     template <class Visit>
     void eachBin(const dvec3& from, const dvec3& to, const Visit& visit) const {
@@ -90,7 +90,7 @@ double roundedDown(double value) {
 }
 
 void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume, std::vector<core::Finding>& doubts) {
-    // What is thinner than a twentieth of a cell is two faces that lie on each other.
+    // Parts thinner than a twentieth of a cell are two faces that lie on each other.
     constexpr double worthSaying = 0.02, leastThick = 0.05, mostFaces = 1e4;
     const Triangles& triangles = block.meshData->triangles;
     core::Aabb box;

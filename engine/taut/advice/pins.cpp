@@ -1,7 +1,5 @@
 #include "taut/advice/private/pins.h"
 
-#include <algorithm>
-
 #include "taut/spec/targets.h"
 #include "taut/world/private/impl.h"
 
@@ -13,7 +11,7 @@ class Loads {
   public:
     Loads(const IslandPlan& plan, const Body& body, const SceneSpec& scene)
         : body_(body), isLoaded_(plan.points.size(), false), isOwn_(plan.points.size(), false) {
-        for (const int i : body.pointOf) isOwn_[static_cast<std::size_t>(i)] = true;
+        for (const int i : body.pointOf) isOwn_[i] = true;
         for (std::size_t i = 0; i < plan.points.size(); ++i) isLoaded_[i] = plan.points[i].held;
         for (const Grip& grip : plan.grips)
             for (const int i : grip.points) add(i);
@@ -27,8 +25,7 @@ class Loads {
                 for (const int i : other->pointOf) add(i);
         for (const MassSpec& mass : scene.masses)
             if (names(mass.target, body))
-                for (const int i : selectPoints(body.model, parseTarget(mass.target).selector))
-                    add(body.pointOf[static_cast<std::size_t>(i)]);
+                for (const int i : selectPoints(body.model, parseTarget(mass.target).selector)) add(body.pointOf[i]);
     }
 
     // The first point of the model with a load while its neighbours have none, or -1.
@@ -36,12 +33,12 @@ class Loads {
         std::vector<bool> isAlone = isLoaded_;
         for (const mechanics::Spring& s : body_.model.springs) {
             if (s.kind != mechanics::SpringKind::structural) continue;
-            const auto a = static_cast<std::size_t>(body_.pointOf[static_cast<std::size_t>(s.a)]),
-                       b = static_cast<std::size_t>(body_.pointOf[static_cast<std::size_t>(s.b)]);
+            const auto a = static_cast<std::size_t>(body_.pointOf[s.a]),
+                       b = static_cast<std::size_t>(body_.pointOf[s.b]);
             if (isLoaded_[a] && isLoaded_[b]) isAlone[a] = isAlone[b] = false;
         }
         for (std::size_t i = 0; i < body_.pointOf.size(); ++i)
-            if (isAlone[static_cast<std::size_t>(body_.pointOf[i])]) return static_cast<int>(i);
+            if (isAlone[body_.pointOf[i]]) return static_cast<int>(i);
         return -1;
     }
 

@@ -41,7 +41,7 @@ bool isPlaceless(const ActionSpec& action) {
     return points != nullptr ? !points->near : builtInActions().find(action.kind()) != nullptr;
 }
 
-// A hand whose grab was refused can neither move nor let go. The refusal has been reported.
+// A hand whose grab was refused can neither move nor release. The refusal has been reported.
 bool followsFromAnother(const ActionSpec& action, const std::vector<Refusal>& before) {
     const bool isOfHand =
         dynamic_cast<const MoveAction*>(&action) != nullptr || dynamic_cast<const ReleaseAction*>(&action) != nullptr;
@@ -128,7 +128,7 @@ bool isLeftAlone(const SceneSpec& scene) {
                [&](const ColliderSpec& collider) { return collider.keys.empty() && !scene.isFigure(collider); });
 }
 
-// Whether the energy of bodies that are left alone grows by a tenth of what they have in motion and springs. Steps near
+// Whether the energy of bodies without outside forces grows by a tenth of their kinetic and elastic energy. Steps near
 // the limit of a method are wrong by less.
 class EnergyWatch {
   public:

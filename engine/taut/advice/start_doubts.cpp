@@ -54,7 +54,7 @@ void doubtCameras(WorldImpl& world, std::vector<core::Finding>& doubts) {
             doubts.push_back(warningAt(camera.source) +
                              fmt::format("camera.{} is inside collider.{} at {:.3g} s, and sees little else; move "
                                          "one of them",
-                                         camera.name, specs[static_cast<std::size_t>(found)]->name, t));
+                                         camera.name, specs[found]->name, t));
             break;
         }
 }
@@ -69,7 +69,7 @@ void doubtStrains(const Island& island, std::vector<core::Finding>& doubts) {
         const mechanics::Spring& s = plan.springs[i];
         if (plan.origins[i].body < 0 || s.kind == mechanics::SpringKind::bend || !(s.restLength > 0)) continue;
         const double length = lengthOf(s, plan.positions), strain = length / s.restLength - 1;
-        Longest& of = longest[static_cast<std::size_t>(plan.origins[i].body)];
+        Longest& of = longest[plan.origins[i].body];
         if (strain > of.strain) of = {strain, length, s.restLength};
     }
     for (std::size_t b = 0; b < longest.size(); ++b)
@@ -88,7 +88,7 @@ void doubtMasses(const WorldImpl& world, std::vector<core::Finding>& doubts) {
     for (const auto& island : world.islands)
         for (const Body* body : island->plan().bodies) {
             double mass = 0;
-            for (const int i : body->pointOf) mass += island->plan().points[static_cast<std::size_t>(i)].weighedMass();
+            for (const int i : body->pointOf) mass += island->plan().points[i].weighedMass();
             all.emplace_back(mass, body);
         }
     if (all.empty()) return;
@@ -134,7 +134,7 @@ void doubtCuts(const WorldImpl& world, std::vector<core::Finding>& doubts) {
         });
 }
 
-// Panels that are still apart give a filling another volume than what is sewn of them.
+// Panels that are still apart give a filling another volume than the sewn body.
 void doubtFillings(const WorldImpl& world, std::vector<core::Finding>& doubts) {
     const std::vector<Body*> bodies = bodiesOf(world);
     for (const FillingSpec& filling : world.spec.forces.of<FillingSpec>()) {

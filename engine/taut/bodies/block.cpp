@@ -126,7 +126,7 @@ mechanics::Model BlockSpec::build(const SceneSpec&) const {
     for (const auto& [group, vertices] : meshData->groups) {
         std::set<int> points;
         for (const int v : vertices) {
-            const dvec3 place = scale * meshData->positions[static_cast<std::size_t>(v)];
+            const dvec3 place = scale * meshData->positions[v];
             const auto& corners = found->carrierOf((place - low) / found->cell).points;
             points.insert(corners.begin(), corners.end());
         }

@@ -1,7 +1,6 @@
 #include "taut/bodies/private/carried_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -41,7 +40,7 @@ struct Mesh {
     std::vector<Triangle> triangles;
 };
 
-// Keeps the first of those that get the same key, and the triangles that are left.
+// Keeps the first of several with the same key, and the remaining triangles.
 template <class KeyOf>
 Mesh joined(const Mesh& mesh, const KeyOf& keyOf) {
     Mesh joined;
@@ -55,7 +54,7 @@ Mesh joined(const Mesh& mesh, const KeyOf& keyOf) {
     std::set<Triangle> seen;
     for (const Triangle& t : mesh.triangles) {
         Triangle own;
-        for (std::size_t k = 0; k < 3; ++k) own[k] = numbers[static_cast<std::size_t>(t[k])];
+        for (std::size_t k = 0; k < 3; ++k) own[k] = numbers[t[k]];
         if (own[0] == own[1] || own[1] == own[2] || own[2] == own[0]) continue;
         Triangle sorted = own;
         std::sort(sorted.begin(), sorted.end());
@@ -68,23 +67,23 @@ Mesh joined(const Mesh& mesh, const KeyOf& keyOf) {
 // one stays that stands out most.
 Mesh thinned(const Mesh& mesh, double side) {
     const std::size_t count = mesh.places.size();
-    const auto cubeOf = [&](int v) { return glm::ivec3(glm::floor(mesh.places[static_cast<std::size_t>(v)] / side)); };
+    const auto cubeOf = [&](int v) { return glm::ivec3(glm::floor(mesh.places[v] / side)); };
     std::vector<dvec3> normals(count, dvec3(0.0));
     std::vector<int> parent(count);
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&](int v) {
-        while (parent[static_cast<std::size_t>(v)] != v) {
-            int& up = parent[static_cast<std::size_t>(v)];
-            up = parent[static_cast<std::size_t>(up)];
+        while (parent[v] != v) {
+            int& up = parent[v];
+            up = parent[up];
             v = up;
         }
         return static_cast<std::size_t>(v);
     };
     for (const Triangle& t : mesh.triangles) {
-        const auto at = [&](std::size_t k) { return mesh.places[static_cast<std::size_t>(t[k])]; };
+        const auto at = [&](std::size_t k) { return mesh.places[t[k]]; };
         const dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
         for (std::size_t k = 0; k < 3; ++k) {
-            normals[static_cast<std::size_t>(t[k])] += normal;
+            normals[t[k]] += normal;
             const std::size_t a = root(t[k]), b = root(t[(k + 1) % 3]);
             if (cubeOf(t[k]) == cubeOf(t[(k + 1) % 3])) parent[std::max(a, b)] = static_cast<int>(std::min(a, b));
         }
@@ -123,7 +122,7 @@ CarriedSurface surfaceOf(const Skin& skin) {
 CarriedSurface carriedSurface(const Body& body) {
     constexpr double fineness = 1.0 / 3.0, coarseness = 1.5;  // of a cell
     const bool isCut = body.damage.goneTetrahedra() > 0;
-    // At a cut its thickness behind it, so that what is drawn of a body ends where what it touches begins.
+    // At a cut its thickness behind it, so that the drawn surface ends where the touching body begins.
     const double back = body.spec->thickness;
     if (!body.spec->hasCarriedSurface())
         return isCut ? surfaceOf(bluntSkinOf(body.model, body.damage, back)) : CarriedSurface{};

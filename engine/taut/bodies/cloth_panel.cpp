@@ -22,9 +22,9 @@ namespace {
 // The points of a ring from one of its corners on to another; from one to itself all, each once.
 std::vector<int> wayAlong(const mechanics::PanelMesh& mesh, std::size_t ring, int from, int to) {
     const std::vector<int>& corners = mesh.corners[ring];
-    const int end = corners[static_cast<std::size_t>(to)];
+    const int end = corners[to];
     std::vector<int> points;
-    int point = corners[static_cast<std::size_t>(from)];
+    int point = corners[from];
     do {
         points.push_back(point);
         if (++point == mesh.ringEnd(ring)) point = corners.front();
@@ -127,7 +127,7 @@ void ClothSpec::meshPanel() {
         data->uv.emplace_back(c * p.x - s * p.y, s * p.x + c * p.y);
     }
     data->triangles = made.triangles;
-    const auto uvOf = [&](int i) { return data->uv[static_cast<std::size_t>(i)]; };
+    const auto uvOf = [&](int i) { return data->uv[i]; };
     for (const auto& [i, j, k] : made.triangles) data->cornerUv.push_back({uvOf(i), uvOf(j), uvOf(k)});
     for (const PanelEdge& edge : panelEdges()) data->groups[edge.name] = wayAlong(made, edge.ring, edge.from, edge.to);
     meshData = std::move(data);

@@ -27,7 +27,7 @@ using fields::Section;
 namespace {
 
 constexpr int tubeSides = 10;
-constexpr int tubeSubdivisions = 2;  // of what is not smoothed further
+constexpr int tubeSubdivisions = 2;  // of ropes that are not smoothed further
 
 // Draws a rope or its pieces. Each piece of a cut rope goes straight on beyond its last point up to the cut.
 class RopeDrawing final : public BodyDrawing {
@@ -59,7 +59,7 @@ class RopeDrawing final : public BodyDrawing {
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
         for (const Piece& piece : pieces_) {
             std::vector<glm::vec3> line;
-            const auto at = [&](int i) { return positions[static_cast<std::size_t>(point(i))]; };
+            const auto at = [&](int i) { return positions[point(i)]; };
             if (piece.before > 0)
                 line.push_back(at(piece.first) + piece.before * (at(piece.first) - at(piece.first + 1)));
             for (int i = piece.first; i <= piece.last; ++i) line.push_back(at(i));
@@ -84,7 +84,7 @@ class RopeDrawing final : public BodyDrawing {
     // The points from one end to the other. A ring starts at its first cut, whose point comes last again.
     static std::vector<int> orderOf(const RopeSpec& spec, const Body& body) {
         const int count = body.model.pointCount();
-        std::vector<int> order(static_cast<std::size_t>(count));
+        std::vector<int> order(count);
         std::iota(order.begin(), order.end(), 0);
         if (!spec.isClosed) return order;
         for (int i = 0; i < count; ++i)
@@ -95,7 +95,7 @@ class RopeDrawing final : public BodyDrawing {
         order.push_back(order.front());
         return order;
     }
-    int point(int i) const { return order_[static_cast<std::size_t>(i)]; }
+    int point(int i) const { return order_[i]; }
     void addPiece(Piece piece, float perSegment) {
         if (piece.last == piece.first) return;  // one point without a segment has no direction
         const int points = piece.last - piece.first + 1 + (piece.before > 0 ? 1 : 0) + (piece.after > 0 ? 1 : 0);

@@ -33,7 +33,6 @@ TAUT_VALUE_COPIES(SolidSpec);
 using fields::FieldList;
 using fields::notNegative;
 using fields::positive;
-using fields::Role;
 using fields::Section;
 
 namespace {
@@ -68,7 +67,7 @@ class SolidDrawing final : public BodyDrawing {
     }
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
         std::array<dvec3, 3> now;
-        for (std::size_t k = 0; k < 3; ++k) now[k] = dvec3(positions[static_cast<std::size_t>(marks_.points[k])]);
+        for (std::size_t k = 0; k < 3; ++k) now[k] = dvec3(positions[marks_.points[k]]);
         const glm::mat4 transform = matrixOf(marks_.motionTo(now));
         for (const Piece& piece : pieces_) {
             view::Surface& surface = surfaces.emplace_back();
@@ -111,7 +110,7 @@ FieldList<SolidSpec> solidRows(const ShapeKinds& shapes) {
     return list;
 }
 
-// What has sharp edges and no thickness in the file gets one that fits.
+// A solid with sharp edges and no thickness in the file gets a suitable one.
 void checkThickness(const fields::CheckInput& input, const ShapeKind& kind, SolidSpec& solid, const std::string& name) {
     if (!kind.largestBall) return;
     const double most = kind.largestBall(sizesOf(solid, kind));
@@ -137,7 +136,7 @@ Section partSection(const ShapeKinds& shapes) {
     return section;
 }
 
-// The parts take from the compound what they do not have of their own.
+// The parts inherit missing values from the compound.
 void checkParts(const fields::CheckInput& input, const ShapeKinds& shapes, SolidSpec& compound) {
     const fields::Member* rows = input.table.find("parts");
     if (compound.parts.empty() || rows == nullptr)

@@ -30,7 +30,7 @@ void holdPoints(Body& body) {
             throw Error(ErrorKind::badContent,
                         at(body.spec->source) + key + " = \"" + selector + "\" names no point of " + body.fullName());
         if (body.spec->holdOn.empty())
-            for (int i : points) body.model.held[static_cast<std::size_t>(i)] = true;
+            for (int i : points) body.model.held[i] = true;
         else
             body.carried.insert(body.carried.end(), points.begin(), points.end());
         return points;
@@ -38,15 +38,14 @@ void holdPoints(Body& body) {
     for (const std::string& selector : body.spec->hold) hold("hold", selector);
     for (const std::string& selector : body.spec->clamp) {
         body.clamped.resize(body.model.positions.size(), false);
-        for (int i : hold("clamp", selector)) body.clamped[static_cast<std::size_t>(i)] = true;
+        for (int i : hold("clamp", selector)) body.clamped[i] = true;
     }
     std::sort(body.carried.begin(), body.carried.end());
     body.carried.erase(std::unique(body.carried.begin(), body.carried.end()), body.carried.end());
 }
 
 bool starts(const Body& body, int point) {
-    return !body.model.held[static_cast<std::size_t>(point)] &&
-           !std::binary_search(body.carried.begin(), body.carried.end(), point);
+    return !body.model.held[point] && !std::binary_search(body.carried.begin(), body.carried.end(), point);
 }
 
 void setInMotion(Body& body) {
@@ -99,8 +98,7 @@ void addMasses(std::vector<Body>& bodies, const SceneSpec& spec) {
             for (int i : selectPoints(body->model, parseTarget(extra.target).selector)) points.emplace_back(body, i);
         if (points.empty())
             throw Error(ErrorKind::badContent, at(extra.source) + "target = \"" + extra.target + "\" names no point");
-        for (auto& [body, i] : points)
-            body->model.masses[static_cast<std::size_t>(i)] += extra.mass / static_cast<double>(points.size());
+        for (auto& [body, i] : points) body->model.masses[i] += extra.mass / static_cast<double>(points.size());
     }
 }
 
@@ -122,7 +120,7 @@ void addAir(std::vector<Body>& bodies, const SceneSpec& spec) {
 template <class Visit>
 void eachTouchedEdge(const mechanics::Model& model, const Visit& visit) {
     const auto look = [&](int a, int b) {
-        const dvec3 d = model.positions[static_cast<std::size_t>(a)] - model.positions[static_cast<std::size_t>(b)];
+        const dvec3 d = model.positions[a] - model.positions[b];
         visit(std::sqrt(glm::dot(d, d)));
     };
     for (const std::array<int, 3>& t : model.triangles)

@@ -20,15 +20,13 @@ dvec3 directionOf(std::string_view name) {
     dvec3 direction(0.0);
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side)
-            if (name.find(directions[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)]) !=
-                std::string_view::npos)
-                direction[axis] = 2.0 * side - 1.0;
+            if (name.find(directions[axis][side]) != std::string_view::npos) direction[axis] = 2.0 * side - 1.0;
     return direction;
 }
 
 // [m] A point as it is in the body's shape.
 dvec3 restOf(const Body& body, int i) {
-    return body.model.positions[static_cast<std::size_t>(i)] - jitterOf(body, i);
+    return body.model.positions[i] - jitterOf(body, i);
 }
 
 core::Aabb boxOf(const Body& body) {
@@ -46,7 +44,7 @@ dvec3 centreOf(const Body& body) {
     dvec3 sum(0.0);
     double mass = 0;
     for (int i = 0; i < body.model.pointCount(); ++i) {
-        const double own = body.model.masses[static_cast<std::size_t>(i)];
+        const double own = body.model.masses[i];
         sum += own * restOf(body, i);
         mass += own;
     }
@@ -71,8 +69,8 @@ std::vector<std::string> placeNames(const mechanics::Model& model) {
         for (const std::string_view side : sides) names.push_back(std::string(side) + (has(side) ? "-middle" : ""));
     if (!has("front") || !has("left")) return names;
     for (const auto& [first, second] : {std::pair{2, 1}, {2, 0}, {1, 0}})
-        for (const std::string_view a : directions[static_cast<std::size_t>(first)])
-            for (const std::string_view b : directions[static_cast<std::size_t>(second)])
+        for (const std::string_view a : directions[first])
+            for (const std::string_view b : directions[second])
                 names.push_back(std::string(a) + "-" + std::string(b) + "-middle");
     return names;
 }
@@ -80,7 +78,7 @@ std::vector<std::string> placeNames(const mechanics::Model& model) {
 // Inner points 2k and 2k + 1 are an arm before and behind their common centre; 0, 1, 2 and 4 span all.
 Spot spotAt(const Body& body, const dvec3& place) {
     std::array<dvec3, mechanics::innerPoints> x;
-    for (int i = 0; i < mechanics::innerPoints; ++i) x[static_cast<std::size_t>(i)] = restOf(body, i);
+    for (int i = 0; i < mechanics::innerPoints; ++i) x[i] = restOf(body, i);
     const glm::dmat3 arms(0.5 * (x[0] - x[1]), 0.5 * (x[2] - x[3]), 0.5 * (x[4] - x[5]));
     const dvec3 u = glm::inverse(arms) * (place - 0.5 * (x[0] + x[1]));
     const double both = 1.0 - u[1] - u[2];

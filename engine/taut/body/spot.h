@@ -54,7 +54,7 @@ class Spot {
 
     // Arrays by the numbers of its points.
     glm::dvec3 of(std::span<const glm::dvec3> x) const {
-        const auto part = [&](const Share& own) { return own.weight * x[static_cast<std::size_t>(own.point)]; };
+        const auto part = [&](const Share& own) { return own.weight * x[own.point]; };
         glm::dvec3 sum = part(shares_[0]);
         for (std::size_t k = 1; k < size_; ++k) sum += part(shares_[k]);
         return sum;
@@ -62,13 +62,11 @@ class Spot {
     // [1/kg] By how much an impulse of 1 N s there changes its velocity.
     double ease(std::span<const double> inverseMass) const {
         double sum = 0;
-        for (const auto& [point, weight] : shares())
-            sum += weight * weight * inverseMass[static_cast<std::size_t>(point)];
+        for (const auto& [point, weight] : shares()) sum += weight * weight * inverseMass[point];
         return sum;
     }
     void push(std::span<glm::dvec3> x, std::span<const double> inverseMass, const glm::dvec3& impulse) const {
-        for (const auto& [point, weight] : shares())
-            x[static_cast<std::size_t>(point)] += (weight * inverseMass[static_cast<std::size_t>(point)]) * impulse;
+        for (const auto& [point, weight] : shares()) x[point] += (weight * inverseMass[point]) * impulse;
     }
 
   private:

@@ -1,4 +1,4 @@
-// What is measured of whole bodies.
+// Measures of entire bodies.
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -30,7 +30,7 @@ Quantity shadow(const Now& now, std::span<const Expression> arguments) {
     return {glm::dvec3(coveredArea(std::move(flat)), 0, 0)};
 }
 
-// [m³] What closed parts enclose whose sheets do not all look the same way. 0: nothing.
+// [m³] The volume enclosed by closed parts whose sheets do not all face the same way. 0: none.
 double enclosedBySewn(std::span<const std::array<glm::dvec3, 3>> all) {
     std::vector<std::array<int, 3>> triangles;
     std::vector<glm::dvec3> places;
@@ -49,10 +49,10 @@ double enclosedBySewn(std::span<const std::array<glm::dvec3, 3>> all) {
     return volume;
 }
 
-// Of triangles that look all outwards, or all inwards, from no matter where it is seen; what looks the other way counts
-// as hollow.
+// Of triangles that look all outwards, or all inwards, seen from anywhere; parts that face the other way
+// count as hollow.
 Quantity enclosed(const Now& now, std::span<const Expression> arguments) {
-    constexpr double closed = 1e-5;  // of the area: what is left of its sum as vectors
+    constexpr double closed = 1e-5;  // of the area: rest of its sum as vectors
     const auto triangles = now.triangles(arguments[0].target);
     glm::dvec3 middle(0.0), outwards(0.0);
     double area = 0.0;

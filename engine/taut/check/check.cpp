@@ -39,7 +39,7 @@ Compared compared(const Claim& claim, std::size_t i, double left, double right) 
     return result;
 }
 
-// The comparison that fails by most, or is nearest to it; one with what is no number comes first.
+// The comparison that fails by most, or is nearest to it; one with NaN comes first.
 Compared worst(const Claim& claim, const Now& now) {
     Compared worst;
     double left = valueOf(claim.terms[0], now).x.x;

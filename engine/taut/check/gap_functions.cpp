@@ -1,4 +1,4 @@
-// What is measured between bodies.
+// Measures between bodies.
 #include "taut/check/private/function_table.h"
 #include "taut/world/private/body_surfaces.h"
 
@@ -36,7 +36,7 @@ std::vector<Function> gapFunctions() {
          "1 if two bodies are within 105 % of the sum of their thicknesses, else 0.",
          touching,
          {},
-         world::Counts::whatTouches},
+         world::Counts::touchingBodies},
     };
 }
 

@@ -1,4 +1,4 @@
-// What still holds of joints.
+// Measures of joints.
 #include "taut/check/private/function_table.h"
 #include "taut/world/world.h"
 

@@ -1,4 +1,4 @@
-// The moment, and what is done with numbers.
+// The time, and functions of numbers.
 #include <cmath>
 #include <glm/geometric.hpp>
 

@@ -103,7 +103,7 @@ class Parser {
     void expect(std::string_view sign, const std::string& why) {
         if (!take(sign)) fail(at_, fmt::format("\"{}\" is missing {}", sign, why));
     }
-    // What stands here, for messages.
+    // The text here, for messages.
     std::string found() const {
         if (isAtEnd()) return "the end";
         std::size_t end = at_ + 1;
@@ -175,7 +175,7 @@ class Parser {
         return expression;
     }
 
-    // The end of what was read, without blanks behind it.
+    // The end of the text read so far, without trailing blanks.
     std::size_t lastEnd() const {
         std::size_t end = at_;
         while (end > 0 && (text_[end - 1] == ' ' || text_[end - 1] == '\t')) --end;

@@ -1,7 +1,6 @@
-// What is measured at points.
+// Measures at points.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -27,7 +26,7 @@ double largest(const PointsNow& points, const Measure& measure) {
     double value = measure(points, 0);
     for (std::size_t i = 1; i < points.x.size(); ++i) {
         const double next = measure(points, i);
-        if (!(next <= value)) value = next;  // what is no number stays
+        if (!(next <= value)) value = next;  // NaN stays
     }
     return value;
 }

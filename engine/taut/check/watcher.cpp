@@ -22,7 +22,7 @@ std::string spanText(const world::CheckSpec& spec) {
     return "always";
 }
 
-// Whether one outcome is worse than another; what is no number is worst.
+// Whether one outcome is worse than another; NaN is worst.
 bool isWorse(const Outcome& a, const Outcome& b) {
     if (a.holds != b.holds) return b.holds;
     return !std::isnan(b.margin) && !(a.margin >= b.margin);

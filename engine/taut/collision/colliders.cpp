@@ -13,14 +13,15 @@
 namespace taut::collision {
 namespace {
 
-// What a way meets, as from its end: a plane, and the place on the form where it is met.
+// The contact of a path, as seen from its end: a plane, and its place on the form.
 struct Met {
     Nearest plane;
     dvec3 place;  // [m]
 };
 
-// What a path meets whose end is nearest to `near`: a convex form with its thickness, if it begins farther off; else,
-// with none, what it leads through. Of all others what is nearest to its end; none if that is no nearer than `reach`.
+// The contact of a path whose end is nearest to `near`: on a convex form with its thickness, if it begins farther off;
+// else, without thickness, where it passes through. On all other forms the nearest place to its end; none beyond
+// `reach`.
 std::optional<Met> metBy(const Solid& solid, Path path, const Nearest& near, double reach) {
     const dvec3 way = path.to - path.from;
     const double length = std::sqrt(glm::dot(way, way));
@@ -47,7 +48,7 @@ std::optional<Met> metBy(const Solid& solid, Path path, const Nearest& near, dou
     return Met{near, path.to - near.distance * near.normal};
 }
 
-// What a solid's motion of a step makes of a place, so many times.
+// The motion of a solid in a step, repeated so many times.
 Frame motionOf(const Solid& solid, int times) {
     const glm::dmat3 turn = solid.to.rotation * glm::transpose(solid.from.rotation);
     const Frame once{turn, solid.to.position - turn * solid.from.position, true};
@@ -102,7 +103,7 @@ int Colliders::size() const {
 
 void Colliders::move(int collider, const Pose& from, const Pose& to) {
     TAUT_EXPECTS(collider >= 0 && collider < size());
-    const std::size_t first = impl_->firstSolid[static_cast<std::size_t>(collider)];
+    const std::size_t first = impl_->firstSolid[collider];
     const std::size_t last = impl_->firstSolid[static_cast<std::size_t>(collider) + 1];
     double travel = 0.0;
     for (std::size_t i = first; i < last; ++i) {
@@ -115,7 +116,7 @@ void Colliders::move(int collider, const Pose& from, const Pose& to) {
 
 bool Colliders::isNear(int collider, const core::Aabb& box) const {
     TAUT_EXPECTS(collider >= 0 && collider < size());
-    const std::size_t first = impl_->firstSolid[static_cast<std::size_t>(collider)];
+    const std::size_t first = impl_->firstSolid[collider];
     const std::size_t last = impl_->firstSolid[static_cast<std::size_t>(collider) + 1];
     return std::any_of(impl_->solids.data() + first, impl_->solids.data() + last,
                        [&](const Solid& solid) { return !solid.bounded || solid.bounds.overlaps(box, 0.0); });
@@ -147,7 +148,7 @@ namespace {
 using Ways = Colliders::Ways;
 
 const dvec3& at(std::span<const dvec3> places, int point) {
-    return places[static_cast<std::size_t>(point)];
+    return places[point];
 }
 
 double reachAt(const Ways& ways, int point) {
@@ -193,8 +194,8 @@ std::vector<Block> blocksOf(const Ways& ways, double thickness) {
     return blocks;
 }
 
-// Whether none of a block meets a solid that stands still. What has no bounds is convex, so distances from it grow no
-// faster than the way from one place to another.
+// Whether none of a block meets a solid that stands still. A form without bounds is convex, so distances from it grow
+// no faster than the way from one place to another.
 bool isPast(const Block& block, const Solid& solid) {
     constexpr double rounding = 1.0 + 1e-9;
     if (solid.bounded) return !solid.bounds.overlaps(block.box, 0.0);

@@ -1,6 +1,6 @@
 // Compiled once for each instruction set; see taut_kernels in engine/taut.cmake.
 //
-// The kernel does what resolve.cpp does to one point, with the same order of operations, in loops over a batch: where
+// The kernel computes the same as resolve.cpp does for one point, in the same order, in loops over a batch: where
 // the path ends, its distance there, then the response (response.h). It finds out whether a path may have come through
 // the solid, but not where. It leaves such points to resolve.cpp. For meshes see contact_feet.h.
 #include "taut/collision/private/contact_kernel.h"
@@ -277,7 +277,7 @@ inline void findSpeeds(const ContactArgs<Real>& s, ContactLanes& lanes, Rows& ve
     }
 }
 
-// Stores all points. Those that were not touched get their old values.
+// Stores all points. Points without contact get their old values.
 template <class Real>
 inline void store(const ContactArgs<Real>& s, const ContactLanes& lanes) {
     for (int k = 0; k < 3; ++k) {
@@ -290,7 +290,7 @@ inline void store(const ContactArgs<Real>& s, const ContactLanes& lanes) {
     }
 }
 
-// Stores the points that were touched, of those that were tried several times.
+// Stores the points with contact, of the points that were tried several times.
 template <class Real>
 inline void storeTouched(const ContactArgs<Real>& s, const ContactLanes& lanes, const std::int64_t* result, int n) {
     for (int k = 0; k < 3; ++k) {

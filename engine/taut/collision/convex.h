@@ -28,11 +28,11 @@ class SupportingFace {
   public:
     static constexpr int most = 32;
     void add(const dvec3& corner) {
-        if (count_ < most) corners_[static_cast<std::size_t>(count_++)] = corner;
+        if (count_ < most) corners_[count_++] = corner;
     }
     int count() const { return count_; }
-    dvec3& operator[](int i) { return corners_[static_cast<std::size_t>(i)]; }
-    const dvec3& operator[](int i) const { return corners_[static_cast<std::size_t>(i)]; }
+    dvec3& operator[](int i) { return corners_[i]; }
+    const dvec3& operator[](int i) const { return corners_[i]; }
     std::span<const dvec3> corners() const { return {corners_.data(), static_cast<std::size_t>(count_)}; }
     std::span<dvec3> corners() { return {corners_.data(), static_cast<std::size_t>(count_)}; }
 

@@ -115,8 +115,8 @@ void FootFinder::measureCells() {
     rounding_ = 2e-6 * (0.5 * std::sqrt(glm::dot(size, size)) + 2.0 * cellSize_);
 
     // Measure the layers in parallel.
-    std::vector<Slab> slabs(static_cast<std::size_t>(cellCount_.z));
-    core::parallelFor(cellCount_.z, [&](int z) { measureSlab(z, slabs[static_cast<std::size_t>(z)]); });
+    std::vector<Slab> slabs(cellCount_.z);
+    core::parallelFor(cellCount_.z, [&](int z) { measureSlab(z, slabs[z]); });
 
     // Join them in order: all layers first, then all parts. The starts of lists and parts move accordingly.
     const auto layer = static_cast<std::size_t>(cellCount_.x * cellCount_.y);
@@ -148,15 +148,14 @@ void FootFinder::measureSlab(int z, Slab& slab) const {
     };
     std::vector<Known> known;  // of this row up to here, then of the row before
     std::vector<int> among;
-    slab.cells.resize(static_cast<std::size_t>(cellCount_.x * cellCount_.y));
+    slab.cells.resize(cellCount_.x * cellCount_.y);
     for (int y = 0; y < cellCount_.y; ++y) {
         for (int x = 0; x < cellCount_.x; ++x) {
             const dvec3 middle = cellsFrom_ + (dvec3(x, y, z) + 0.5) * cellSize_;
             const auto index = static_cast<std::size_t>(y * cellCount_.x + x);
             Cell& cell = slab.cells[index];
             // Start the search from the nearest triangle of a neighbour.
-            const Known* const neighbour =
-                x > 0 ? &known[static_cast<std::size_t>(x - 1)] : (y > 0 ? &known[0] : nullptr);
+            const Known* const neighbour = x > 0 ? &known[x - 1] : (y > 0 ? &known[0] : nullptr);
             Foot foot;
             if (neighbour != nullptr) {
                 update(middle, neighbour->triangle, foot);
@@ -175,7 +174,7 @@ void FootFinder::measureSlab(int z, Slab& slab) const {
             if (y == 0)
                 known.push_back(here);
             else
-                known[static_cast<std::size_t>(x)] = here;
+                known[x] = here;
 
             // Near the surface: list the triangles that can be nearest.
             if (least > 2.0 * halfDiagonal) continue;

@@ -39,7 +39,7 @@ dvec3 nearestOnTriangle(const dvec3& p, const dvec3& a, const dvec3& ab, const d
 }  // namespace
 
 void FootFinder::update(const dvec3& p, int triangle, Foot& foot) const {
-    const Facet& t = facets_.triangles[static_cast<std::size_t>(triangle)];
+    const Facet& t = facets_.triangles[triangle];
     const dvec3 q = nearestOnTriangle(p, t.corner, t.ab, t.ac);
     const dvec3 apart = p - q;
     const double square = glm::dot(apart, apart);
@@ -59,7 +59,7 @@ void FootFinder::lowestSquares(const dvec3& fromCentre, std::span<const int> lis
     const auto y = static_cast<float>(fromCentre.y);
     const auto z = static_cast<float>(fromCentre.z);
     const auto heights = [&](std::size_t i) {
-        const Prism& prism = prisms_[static_cast<std::size_t>(list[i < list.size() ? i : list.size() - 1])];
+        const Prism& prism = prisms_[list[i < list.size() ? i : list.size() - 1]];
         return prism.x * x + prism.y * y + prism.z * z - prism.offset;
     };
     const auto larger = [](const Four& a, const Four& b) { return a > b ? a : b; };
@@ -122,11 +122,11 @@ Foot FootFinder::foot(const dvec3& p, const Place& place) const {
 //   _____|__       how much ever. If it rises e above the plane, the foot of p' has to stay √(2 h' e) away from the
 //      T    \      edges; h' < 2 h.
 //            \     The radius is the least of these bounds. Triangles that p's cell does not list are farther than
-//                  those that it lists, in all of the cell.
+//                  the listed ones, in all of the cell.
 double FootFinder::radiusOfFace(const dvec3& p, const Place& place, const Foot& foot, const float* lowest) const {
     const dvec3 centre = bounds_.centre();
     const Facet& face = triangle(foot.triangle);
-    const Prism& prism = prisms_[static_cast<std::size_t>(foot.triangle)];
+    const Prism& prism = prisms_[foot.triangle];
     const auto heights = [&](const dvec3& at) {
         const dvec3 from = at - centre;
         return prism.x * static_cast<float>(from.x) + prism.y * static_cast<float>(from.y) +
@@ -223,7 +223,7 @@ FootFinder::Place FootFinder::place(const dvec3& p) const {
         at[k] = cells >= last ? last : (cells > 0.0 ? static_cast<int>(cells) : 0);
         middle[k] = cellsFrom_[k] + (at[k] + 0.5) * cellSize_;
     }
-    const Cell* cell = &cells_[static_cast<std::size_t>((at.z * cellCount_.y + at.y) * cellCount_.x + at.x)];
+    const Cell* cell = &cells_[(at.z * cellCount_.y + at.y) * cellCount_.x + at.x];
     double half = 0.5 * cellSize_;
     while (cell->count < 0) {
         half *= 0.5;

@@ -14,7 +14,7 @@ namespace taut::collision {
 namespace {
 
 constexpr double leaning = 0.2;    // sine of the angle to the normal's plane up to which a face or an edge supports
-constexpr double oneDepth = 1e-6;  // of the size: what two answers for one distance may differ by
+constexpr double oneDepth = 1e-6;  // of the size: difference between two results for one distance
 constexpr double nudge = 1e-3;     // of the roundings, by which cores are moved apart whose distance is 0
 
 struct Posed {
@@ -123,7 +123,7 @@ void clip(SupportingFace& face, const dvec3& direction, double limit) {
 
 using Places = std::vector<Manifold::Place>;
 
-// Of many places the deepest, and those that span most with it: they hold what all hold.
+// The deepest of many places, and the ones that span the largest area with it.
 void keepFour(Places& places, const dvec3& normal) {
     if (places.size() <= Manifold::most) return;
     std::array<Manifold::Place, Manifold::most> kept;
@@ -187,7 +187,7 @@ Manifold finish(Places& places, const dvec3& normal, double ofA, double ofB, dou
     keepFour(places, normal);
     Manifold manifold;
     manifold.normal = normal;
-    for (const Manifold::Place& place : places) manifold.of[static_cast<std::size_t>(manifold.count++)] = place;
+    for (const Manifold::Place& place : places) manifold.of[manifold.count++] = place;
     return manifold;
 }
 
@@ -212,7 +212,7 @@ Manifold manifoldOf(const Convex& shapeA, const Frame& atA, const Convex& shapeB
         Manifold manifold = onHalfSpace(b, a, reach);
         manifold.normal = -manifold.normal;
         for (int k = 0; k < manifold.count; ++k) {
-            Manifold::Place& place = manifold.of[static_cast<std::size_t>(k)];
+            Manifold::Place& place = manifold.of[k];
             std::swap(place.onA, place.onB);
         }
         return manifold;

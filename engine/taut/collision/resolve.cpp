@@ -133,7 +133,7 @@ class Resolver {
                 resolveAgainst(first, rows, near, count, reach);  // one point near more solids takes group after group
                 count = 0;
             }
-            near[static_cast<std::size_t>(count++)] = solid;
+            near[count++] = solid;
         }
         // Most parts of a block are near to only one solid, and those cost least.
         if (count > 1 && last - first > smallBlock) return halve(first, last, from);
@@ -162,7 +162,7 @@ class Resolver {
         if (count == 1 && isForKernel(*near[0])) return resolveBatch(first, rows.count, near);
         std::array<std::uint32_t, contactBatch> mask{};
         for (int c = 0; c < count; ++c) {
-            const Solid& solid = *near[static_cast<std::size_t>(c)];
+            const Solid& solid = *near[c];
             if (solid.bounded) {
                 core::Aabb box = solid.bounds;
                 box.grow(margin);
@@ -318,7 +318,7 @@ class Resolver {
 
         // A point that was moved out of one solid may stand in another. So there are a few passes in the same order.
         // Then the point stays where it is.
-        const Solid& first = *near[static_cast<std::size_t>(__builtin_ctz(bits))];
+        const Solid& first = *near[__builtin_ctz(bits)];
         const bool single = (bits & (bits - 1)) == 0 && first.convex;
         const int passes = single ? 1 : mostPasses;
         const std::size_t firstContact = contacts_.size();
@@ -327,7 +327,7 @@ class Resolver {
         for (int pass = 0; pass < passes; ++pass) {
             bool again = false;
             for (std::uint32_t rest = bits; rest != 0; rest &= rest - 1) {
-                const Solid& solid = *near[static_cast<std::size_t>(__builtin_ctz(rest))];
+                const Solid& solid = *near[__builtin_ctz(rest)];
                 if (!resolveOne(solid, skin, pass == mostPasses - 1, point, impact)) continue;
                 touches = true;
                 again |= impact.isMoved;

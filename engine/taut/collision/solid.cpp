@@ -88,13 +88,13 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
     }
     const double halfSine = match < 1.0 ? std::sqrt(1.0 - match * match) : 0.0;  // of half the angle
     const int pieces = 1 + static_cast<int>(halfSine / 0.2);
-    solid.turn.resize(static_cast<std::size_t>(pieces - 1));
+    solid.turn.resize(pieces - 1);
     for (int i = 1; i < pieces; ++i) {
         const double t = static_cast<double>(i) / pieces;
         const glm::dquat mix(a.w + t * (b.w - a.w), a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
                              a.z + t * (b.z - a.z));
         const dvec3 position = from.position + t * (to.position - from.position);
-        solid.turn[static_cast<std::size_t>(i - 1)] = frameOf({position, mix}).of(solid.inCollider);
+        solid.turn[i - 1] = frameOf({position, mix}).of(solid.inCollider);
     }
 
     // The half-space of a plane, or the box of the whole step.

@@ -25,7 +25,7 @@ void* mapLarge(std::size_t bytes) {
     const std::size_t asked = roundedUp(bytes + largePage, largePage);
     void* mapped = ::mmap(nullptr, asked, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (mapped == MAP_FAILED) throw std::bad_alloc();
-    // Cut off what lies before the first large page and after the last.
+    // Cut off the parts before the first large page and after the last.
     char* begin = static_cast<char*>(mapped);
     const std::size_t past = reinterpret_cast<std::uintptr_t>(begin) % largePage;
     const std::size_t before = past == 0 ? 0 : largePage - past;

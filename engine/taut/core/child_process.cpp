@@ -105,7 +105,7 @@ std::string ChildEnd::text() const {
 ChildProcess::ChildProcess(const ChildCommand& command) : patience_(command.patience) {
     TAUT_EXPECTS(!command.arguments.empty());
     // A socket and not a pipe: writing to one whose reader has gone can be asked to return an error instead of
-    // raising SIGPIPE, whatever the rest of the process does with signals.
+    // raising SIGPIPE, however the rest of the process handles signals.
     int ends[2] = {-1, -1};
     int error = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 ? 0 : errno;
     input_ = ends[0];
@@ -142,7 +142,7 @@ bool ChildProcess::write(std::span<const std::byte> bytes) {
             hangs_ = errno == EAGAIN;
             return false;
         }
-        bytes = bytes.subspan(static_cast<std::size_t>(done));
+        bytes = bytes.subspan(done);
     }
     return true;
 }

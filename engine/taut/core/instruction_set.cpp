@@ -47,7 +47,7 @@ std::vector<InstructionSetTime> trial() {
 #define TAUT_CONTESTANT(set, condition, ...) Contestant{InstructionSet::set, set::pullSprings, set::pullSprings},
     for (const Contestant& c : {TAUT_SETS(TAUT_CONTESTANT)})
         if (isSupported(c.set)) contestants.push_back(c);
-    // By turns, so that whatever else the machine does hits all alike.
+    // In turns, so that other work of the machine affects all equally.
     for (int round = 0; round < rounds; ++round)
         for (Contestant& c : contestants) {
             c.leastSingle = std::min(c.leastSingle, nanosecondsOf([&] { c.single(x.data(), f.data()); }));

@@ -12,9 +12,9 @@ MassProperties massPropertiesOf(std::span<const glm::dvec3> positions, std::span
     glm::dmat3 spread(0.0);
     glm::dvec3 moment(0.0);
     for (const std::array<int, 3>& t : triangles) {
-        const glm::dvec3 a = positions[static_cast<std::size_t>(t[0])] - origin;
-        const glm::dvec3 b = positions[static_cast<std::size_t>(t[1])] - origin;
-        const glm::dvec3 c = positions[static_cast<std::size_t>(t[2])] - origin;
+        const glm::dvec3 a = positions[t[0]] - origin;
+        const glm::dvec3 b = positions[t[1]] - origin;
+        const glm::dvec3 c = positions[t[2]] - origin;
         const glm::dvec3 s = a + b + c;
         const double det = glm::dot(a, glm::cross(b, c));
         all.volume += det / 6;

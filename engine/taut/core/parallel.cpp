@@ -1,7 +1,6 @@
 #include "taut/core/private/parallel.h"
 
 #include <cstddef>
-#include <ctime>
 #include <vector>
 
 namespace taut::core {

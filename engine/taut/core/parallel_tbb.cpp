@@ -20,7 +20,7 @@ void parallelFor(int count, const std::function<void(int)>& task) {
         for (int i = 0; i < count; ++i) task(i);
         return;
     }
-    // What is shared out is no less than what sharing costs.
+    // A share is no smaller than the cost of sharing.
     const int grain = std::max(1, count / mostShares);
     // Isolation keeps a waiting thread from picking up an unrelated task in the middle of this one.
     oneapi::tbb::this_task_arena::isolate([&] {

@@ -1,6 +1,6 @@
 // Compiled once for each instruction set; see taut_kernels in engine/taut.cmake.
 //
-// What springs cost, in small: unaligned loads, a root and a division each, and stores. Its result means nothing.
+// The cost of springs, in small: unaligned loads, a root and a division each, and stores. Its result means nothing.
 #include "taut/core/private/trial_kernel.h"
 
 #include "taut/core/private/vectors.h"

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "taut/core/error.h"
+#include "taut/core/private/file_descriptor.h"
 #include "taut/core/private/file_lock.h"
 
 namespace taut::core {
@@ -23,7 +24,7 @@ namespace {
                                             (isFull ? "; make room for it, or write to another disk" : ""));
 }
 
-// Removes what a process that was killed has left under a temporary name; a link is not followed. False when it is
+// Removes the file that a killed process has left under a temporary name; a link is not followed. False when it is
 // being written, by a process that lives.
 bool hasRemovedLeftOver(const std::filesystem::path& path, const std::filesystem::path& temporary) {
     const int left = ::open(temporary.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -98,7 +99,7 @@ void WholeFile::write(std::span<const std::byte> bytes) {
         const ssize_t done = ::write(descriptor_, bytes.data(), bytes.size());
         if (done < 0 && errno == EINTR) continue;
         if (done < 0) fail("cannot write", errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(done));
+        bytes = bytes.subspan(done);
     }
 }
 
@@ -138,29 +139,26 @@ class OpenFile {
     OpenFile(const std::filesystem::path& path, std::chrono::milliseconds patience)
         : path_(path),
           patience_(static_cast<int>(patience.count())),
-          descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
-        if (descriptor_ < 0) failOn(path_, "cannot read", errno);
+          file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
+        if (file_.get() < 0) failOn(path_, "cannot read", errno);
     }
-    ~OpenFile() { ::close(descriptor_); }
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
 
     struct stat facts() const {
         struct stat facts = {};
-        if (::fstat(descriptor_, &facts) != 0) failOn(path_, "cannot read", errno);
+        if (::fstat(file_.get(), &facts) != 0) failOn(path_, "cannot read", errno);
         return facts;
     }
 
     // Of a pipe, also for the first to write.
     void waitForMore() const {
-        pollfd more{descriptor_, POLLIN, 0};
+        pollfd more{file_.get(), POLLIN, 0};
         if (::poll(&more, 1, patience_) == 0) failOn(path_, "cannot read", ETIMEDOUT);
     }
 
     // How many bytes came; 0: there are no more.
     std::size_t read(std::span<char> buffer) const {
         for (;;) {
-            const ssize_t got = ::read(descriptor_, buffer.data(), buffer.size());
+            const ssize_t got = ::read(file_.get(), buffer.data(), buffer.size());
             if (got >= 0) return static_cast<std::size_t>(got);
             if (errno == EAGAIN)
                 waitForMore();
@@ -172,7 +170,7 @@ class OpenFile {
   private:
     const std::filesystem::path& path_;
     int patience_;  // [ms]
-    int descriptor_;
+    FileDescriptor file_;
 };
 
 }  // namespace
@@ -192,9 +190,9 @@ std::string fileContent(const std::filesystem::path& path, std::uint64_t maxByte
     };
     if (facts.st_size > 0 && static_cast<std::uint64_t>(facts.st_size) > maxBytes) tooLarge();
     std::string content;
-    content.reserve(static_cast<std::size_t>(facts.st_size));
+    content.reserve(facts.st_size);
     char buffer[1 << 16];
-    // Counted all the same: the size of a pipe, and of files of the kernel, is said to be 0.
+    // Counted all the same: the size of a pipe, and of files of the kernel, is reported as 0.
     while (const std::size_t got = file.read(buffer)) {
         content.append(buffer, got);
         if (content.size() > maxBytes) tooLarge();

@@ -35,7 +35,7 @@ class MeshCutter {
         for (const Triangle& t : mesh_.triangles) {
             isBeside_.push_back(isBesideDamage(t));
             if (isBeside_.back())
-                for (const int v : t) isNeeded[static_cast<std::size_t>(v)] = true;
+                for (const int v : t) isNeeded[v] = true;
         }
         for (std::size_t v = 0; v < isNeeded.size(); ++v)
             carriers_.push_back(isNeeded[v] ? sides_.carrierAt(mesh_.places[v]) : -1);
@@ -61,7 +61,7 @@ class MeshCutter {
 
     Skin blunt(double back) {
         const auto isCarried = [this](int v) {
-            const int carrier = carriers_[static_cast<std::size_t>(v)];
+            const int carrier = carriers_[v];
             return carrier >= 0 && remains_.isAnyWholeAt(carrier);
         };
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -72,9 +72,8 @@ class MeshCutter {
         // A point in one place with another of the mesh would have no direction in which to press that.
         Skin faces = bluntSkinOf(model_, damage_, back);
         std::erase_if(faces.triangles, [&](const SkinTriangle& t) {
-            return t.source >= 0 || std::any_of(t.vertices.begin(), t.vertices.end(), [&](int v) {
-                       return !isDeeper(faces.vertices[static_cast<std::size_t>(v)].rest, back);
-                   });
+            return t.source >= 0 || std::any_of(t.vertices.begin(), t.vertices.end(),
+                                                [&](int v) { return !isDeeper(faces.vertices[v].rest, back); });
         });
         addFaces(faces, [](const std::array<SkinVertex, 3>&) {});
         addLoosePoints();
@@ -103,13 +102,11 @@ class MeshCutter {
     std::vector<Corners> groupsOf(std::size_t triangle) const {
         const Triangle& corners = mesh_.triangles[triangle];
         if (!isBeside_[triangle]) return {{corners[0], corners[1], corners[2]}};
-        return world::groupsOf(corners, [this](int v, int w) {
-            return sides_.areJoined(carriers_[static_cast<std::size_t>(v)], carriers_[static_cast<std::size_t>(w)]);
-        });
+        return world::groupsOf(corners, [this](int v, int w) { return sides_.areJoined(carriers_[v], carriers_[w]); });
     }
 
     bool isBesideDamage(const Triangle& t) const {
-        const auto at = [&](std::size_t k) { return sides_.inCells(mesh_.places[static_cast<std::size_t>(t[k])]); };
+        const auto at = [&](std::size_t k) { return sides_.inCells(mesh_.places[t[k]]); };
         const auto cubeOf = [&](const dvec3& x) {
             return glm::clamp(glm::ivec3(glm::floor(x)), glm::ivec3(0), frame_.lattice().counts - 1);
         };
@@ -129,18 +126,18 @@ class MeshCutter {
         if (t[0] >= 0 && t[1] >= 0 && t[2] >= 0) skin_.triangles.push_back({t, source});
     }
 
-    // A vertex of the mesh: as part of its cell, or of what is left there. -1: of crumbs.
+    // A vertex of the mesh: as part of its cell, or of the rest there. -1: of crumbs.
     int vertexAt(int v) {
         const auto [known, isNew] = known_.try_emplace({v, -1}, -1);
         if (!isNew) return known->second;
-        SkinVertex vertex{{}, mesh_.places[static_cast<std::size_t>(v)], mesh_.uv[static_cast<std::size_t>(v)]};
+        SkinVertex vertex{{}, mesh_.places[v], mesh_.uv[v]};
         const dvec3 x = sides_.inCells(vertex.rest);
         if (const mechanics::LatticeCell& cell = sides_.cellAt(x); sides_.isWhole(cell)) {
             const mechanics::CarriedPoint carried = mechanics::carriedBy(cell, x);
             for (std::size_t k = 0; k < 8; ++k)
                 vertex.terms.push_back({carried.points[k], static_cast<float>(carried.weights[k])});
         } else {
-            const int carrier = carriers_[static_cast<std::size_t>(v)];
+            const int carrier = carriers_[v];
             if (carrier < 0) return -1;
             remains_.carry(vertex, carrier);
         }
@@ -161,7 +158,7 @@ class MeshCutter {
             (sides_.areJoined(carriers_[low], sides_.carrierAt(from + middle * way)) ? left : right) = middle;
         }
         int carrier = sides_.carrierAt(from + (isForward ? left : right) * way);
-        if (const int own = carriers_[static_cast<std::size_t>(v)]; !sides_.areJoined(carrier, own)) carrier = own;
+        if (const int own = carriers_[v]; !sides_.areJoined(carrier, own)) carrier = own;
         if (carrier < 0) return -1;
         SkinVertex vertex{{}, from + left * way, mesh_.uv[low] + left * (mesh_.uv[high] - mesh_.uv[low])};
         remains_.carry(vertex, carrier);
@@ -172,7 +169,7 @@ class MeshCutter {
     template <class Visit>
     void addFaces(const Skin& faces, const Visit& visit) {
         std::map<int, int> numbers;
-        const auto at = [&](int v) -> const SkinVertex& { return faces.vertices[static_cast<std::size_t>(v)]; };
+        const auto at = [&](int v) -> const SkinVertex& { return faces.vertices[v]; };
         for (const SkinTriangle& face : faces.triangles) {
             Triangle t = face.vertices;
             const std::array<SkinVertex, 3> corners{at(t[0]), at(t[1]), at(t[2])};
@@ -225,7 +222,7 @@ class MeshCutter {
     SkinVertex between(const SkinVertex& a, const SkinVertex& b, double share) const {
         SkinVertex vertex{{}, glm::mix(a.rest, b.rest, share), dvec2(0.0)};
         for (const SkinVertex* end : {&a, &b})
-            if (end->above != 0.0F) {  // no sum of points is between what stands above some
+            if (end->above != 0.0F) {  // no sum of points lies between points above some
                 remains_.carry(vertex, end->base[0]);
                 return vertex;
             }
@@ -271,7 +268,7 @@ class MeshCutter {
         return polygon;
     }
 
-    // Points at which nothing is whole, as in a slice that is one layer of them, touch by themselves; those outside of
+    // Points without any complete cell, as in a slice of one layer of points, touch by themselves; points outside of
     // the mesh where a spring to one inside comes out of it.
     void addLoosePoints() {
         for (int i = 0; i < model_.pointCount(); ++i) {

@@ -56,7 +56,7 @@ struct Damage::Index {
         for (std::size_t c = 0; c < model.cells.size(); ++c)
             for (const int i : model.cells[c].points) cells[at(i)].push_back(c);
     }
-    const std::vector<Way>& from(int point) const { return springs[static_cast<std::size_t>(point)]; }
+    const std::vector<Way>& from(int point) const { return springs[point]; }
     // Whether a spring other than a bending spring joins them.
     bool areJoined(int a, int b) const {
         return std::any_of(
@@ -102,9 +102,8 @@ void Damage::assess(const mechanics::Model& model) {
         gone[number] = !isConnected(corners, holds);
     };
     for (const auto& [a, b] : fresh_) {
-        for (const std::size_t t : index.triangles[static_cast<std::size_t>(a)])
-            look(model.triangles[t], triangles_, t, b);
-        for (const std::size_t c : index.cells[static_cast<std::size_t>(a)])
+        for (const std::size_t t : index.triangles[a]) look(model.triangles[t], triangles_, t, b);
+        for (const std::size_t c : index.cells[a])
             for (std::size_t n = 0; n < cellTetrahedra; ++n)
                 look(tetrahedronOf(model.cells[c], n), tetrahedra_, cellTetrahedra * c + n, b);
     }

@@ -11,7 +11,7 @@ Inside::Inside(std::vector<dvec3> places, std::span<const std::array<int, 3>> tr
       counts_(columns),
       columns_(static_cast<std::size_t>(columns.x) * static_cast<std::size_t>(columns.y)) {
     for (const std::array<int, 3>& t : triangles) {
-        const auto at = [&](std::size_t k) { return places_[static_cast<std::size_t>(t[k])]; };
+        const auto at = [&](std::size_t k) { return places_[t[k]]; };
         const glm::ivec2 low = columnAt(glm::min(at(0), glm::min(at(1), at(2)))),
                          high = columnAt(glm::max(at(0), glm::max(at(1), at(2))));
         for (int y = low.y; y <= high.y; ++y)
@@ -24,7 +24,7 @@ bool Inside::has(const dvec3& place) const {
     const dvec3 from = place + dvec3(1e-7, 0.618e-7, 0.0);
     int around = 0;
     for (const std::array<int, 3>& t : columns_[numberOf(columnAt(from))]) {
-        const auto way = [&](std::size_t k) { return places_[static_cast<std::size_t>(t[k])] - from; };
+        const auto way = [&](std::size_t k) { return places_[t[k]] - from; };
         const dvec3 a = way(0), b = way(1), c = way(2);
         const double ofA = b.x * c.y - b.y * c.x, ofB = c.x * a.y - c.y * a.x, ofC = a.x * b.y - a.y * b.x;
         const double all = ofA + ofB + ofC;

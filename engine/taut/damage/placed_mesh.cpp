@@ -45,14 +45,12 @@ void addParts(const Triangle& t, const std::map<Edge, int>& middles, std::vector
 }  // namespace
 
 void refine(PlacedMesh& mesh, double longest, const std::function<bool(const Triangle&)>& isWanted) {
-    const auto at = [&](int v) -> const dvec3& { return mesh.places[static_cast<std::size_t>(v)]; };
+    const auto at = [&](int v) -> const dvec3& { return mesh.places[v]; };
     std::map<std::array<double, 3>, int> known;
     std::vector<int> one;  // (vertices) the first in that place
     for (const dvec3& x : mesh.places)
         one.push_back(known.try_emplace({x.x, x.y, x.z}, static_cast<int>(one.size())).first->second);
-    const auto inPlace = [&](int v, int w) {
-        return edge(one[static_cast<std::size_t>(v)], one[static_cast<std::size_t>(w)]);
-    };
+    const auto inPlace = [&](int v, int w) { return edge(one[v], one[w]); };
     for (bool isDone = false; !isDone;) {
         std::map<Edge, int> places, middles;  // of edges in one place the first middle; of edges
         for (const Triangle& t : mesh.triangles)
@@ -69,8 +67,7 @@ void refine(PlacedMesh& mesh, double longest, const std::function<bool(const Tri
             if (first < 0) first = middle;
             one.push_back(first);
             mesh.places.push_back(0.5 * (at(ends.first) + at(ends.second)));
-            mesh.uv.push_back(
-                0.5 * (mesh.uv[static_cast<std::size_t>(ends.first)] + mesh.uv[static_cast<std::size_t>(ends.second)]));
+            mesh.uv.push_back(0.5 * (mesh.uv[ends.first] + mesh.uv[ends.second]));
         }
         std::vector<Triangle> parts;
         for (const Triangle& t : mesh.triangles) addParts(t, middles, parts);

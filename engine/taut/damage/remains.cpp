@@ -27,8 +27,8 @@ Remains::Remains(const mechanics::Model& model, const Damage& damage)
         return;
     }
     for (const auto& [a, b] : held_) {
-        beside_[static_cast<std::size_t>(a)].push_back(b);
-        beside_[static_cast<std::size_t>(b)].push_back(a);
+        beside_[a].push_back(b);
+        beside_[b].push_back(a);
     }
     const auto findCarriers = [&](const auto& canCarry) {
         for (int i = 0; i < model_.pointCount(); ++i) {
@@ -55,7 +55,7 @@ void Remains::addFan(const std::array<int, N>& corners) {
         Corners others;
         for (int other : corners)
             if (other != corner) others.push_back(other);
-        fans_[static_cast<std::size_t>(corner)].push_back(others);
+        fans_[corner].push_back(others);
     }
 }
 
@@ -86,7 +86,7 @@ void Remains::carry(SkinVertex& vertex, int point) const {
             weights[a] -= weight * part[i];
         }
     };
-    for (const Corners& others : fans_[static_cast<std::size_t>(a)]) {
+    for (const Corners& others : fans_[a]) {
         const std::vector<double> part = inCorners(a, others, way);
         if (part.empty()) continue;
         double size = 0;

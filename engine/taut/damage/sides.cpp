@@ -1,7 +1,6 @@
 #include "taut/damage/private/sides.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace taut::world {
@@ -17,7 +16,7 @@ Sides::Sides(const Damage& damage, const BlockFrame& frame, const Remains& remai
 }
 
 std::array<int, 4> Sides::cornersOf(const mechanics::LatticeCell& cell, int number) {
-    const auto& t = mechanics::cellTetrahedra[static_cast<std::size_t>(number)];
+    const auto& t = mechanics::cellTetrahedra[number];
     return {cell.points[t[0]], cell.points[t[1]], cell.points[t[2]], cell.points[t[3]]};
 }
 
@@ -30,7 +29,7 @@ void Sides::findStandIns() {
         eachCube(glm::ivec3(3), [&](const glm::ivec3& beside) {
             const glm::ivec3 way = beside - 1;
             const int cell = lattice.cellAt(at + way), square = way.x * way.x + way.y * way.y + way.z * way.z;
-            if (cell < 0 || square >= nearest || isWhole(lattice.cells[static_cast<std::size_t>(cell)])) return;
+            if (cell < 0 || square >= nearest || isWhole(lattice.cells[cell])) return;
             nearest = square;
             standIns_[lattice.indexOf(at)] = cell;
         });
@@ -41,14 +40,14 @@ const mechanics::LatticeCell& Sides::cellAt(const dvec3& x) const {
     const mechanics::Lattice& lattice = frame_.lattice();
     const glm::ivec3 at = glm::clamp(glm::ivec3(glm::floor(x)), glm::ivec3(0), lattice.counts - 1);
     const int standIn = standIns_[lattice.indexOf(at)];
-    return standIn >= 0 ? lattice.cells[static_cast<std::size_t>(standIn)] : lattice.carrierOf(x);
+    return standIn >= 0 ? lattice.cells[standIn] : lattice.carrierOf(x);
 }
 
 bool Sides::isWhole(const glm::ivec3& cube) const {
     const mechanics::Lattice& lattice = frame_.lattice();
     const std::size_t at = lattice.indexOf(cube);
     const int carrier = lattice.carriers[at];
-    return standIns_[at] < 0 && (carrier < 0 || isWhole(lattice.cells[static_cast<std::size_t>(carrier)]));
+    return standIns_[at] < 0 && (carrier < 0 || isWhole(lattice.cells[carrier]));
 }
 
 // It has the corners that lead from 0 to 7 along the axes by how far the place is along each. Outside of its cell it is

@@ -18,7 +18,7 @@ class Cutter {
         return faces(true);
     }
 
-    // What cuts have bared.
+    // Faces exposed by cuts.
     Skin faces(bool ofCrumbsToo) {
         const auto isCarried = [this](int corner) { return remains_.carrierOf(corner) >= 0; };
         remains_.eachTetrahedron(true, [&](const std::array<int, 4>& corners) {
@@ -26,7 +26,7 @@ class Cutter {
                 if (ofCrumbsToo || std::all_of(group.begin(), group.end(), isCarried)) addCutFace(corners, group);
         });
         for (const auto& [ends, number] : known_) {
-            SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
+            SkinVertex& vertex = skin_.vertices[number];
             if (ends.second >= 0) remains_.carry(vertex, ends.first);
         }
         return std::move(skin_);
@@ -51,7 +51,7 @@ class Cutter {
         for (const auto& [ends, number] : known_) {
             const auto found = cuts.find(ends.first);
             if (found == cuts.end() || !remains_.isAnyWholeAt(ends.first)) continue;
-            SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(number)];
+            SkinVertex& vertex = skin_.vertices[number];
             vertex.rest += wayOut(found->second, back);
             remains_.carry(vertex, ends.first);
         }
@@ -86,8 +86,8 @@ class Cutter {
         return (share * glm::dot(mean, normal) - back) * normal;
     }
 
-    // Of whole tetrahedra, those that neither another one nor the surface of the model has, counter-clockwise seen from
-    // outside.
+    // Faces of complete tetrahedra that neither another one nor the surface of the model has, counter-clockwise seen
+    // from outside.
     std::vector<std::array<int, 3>> bareFaces() const {
         using Face = std::array<int, 3>;
         const auto key = [](Face face) {
@@ -116,7 +116,7 @@ class Cutter {
     // The vertex at a point.
     int vertexAt(int point) {
         const auto [entry, isNew] = known_.try_emplace({point, -1}, static_cast<int>(skin_.vertices.size()));
-        if (isNew) skin_.vertices.push_back({{{point, 1.0F}}, rest(point), model_.uv[static_cast<std::size_t>(point)]});
+        if (isNew) skin_.vertices.push_back({{{point, 1.0F}}, rest(point), model_.uv[point]});
         return entry->second;
     }
 
@@ -127,7 +127,7 @@ class Cutter {
         const auto [entry, isNew] = known_.try_emplace({a, b}, static_cast<int>(skin_.vertices.size()));
         if (!isNew) return entry->second;
         const double share = damage_.share(a, b);
-        const dvec2 from = model_.uv[static_cast<std::size_t>(a)], to = model_.uv[static_cast<std::size_t>(b)];
+        const dvec2 from = model_.uv[a], to = model_.uv[b];
         skin_.vertices.push_back({{}, rest(a) + share * (rest(b) - rest(a)), from + share * (to - from)});
         return entry->second;
     }
@@ -137,7 +137,7 @@ class Cutter {
     }
 
     void addTriangle(int number) {
-        const std::array<int, 3>& t = model_.triangles[static_cast<std::size_t>(number)];
+        const std::array<int, 3>& t = model_.triangles[number];
         if (!damage_.isTriangleGone(static_cast<std::size_t>(number)))
             return add(vertexAt(t[0]), vertexAt(t[1]), vertexAt(t[2]), number);
         const std::vector<Corners> groups = remains_.groupsOf(t);
@@ -163,7 +163,7 @@ class Cutter {
         face.erase(std::unique(face.begin(), face.end()), face.end());
         if (face.size() > 1 && face.front() == face.back()) face.pop_back();
         if (face.size() < 3) return;
-        const auto at = [&](std::size_t i) { return skin_.vertices[static_cast<std::size_t>(face[i])].rest; };
+        const auto at = [&](std::size_t i) { return skin_.vertices[face[i]].rest; };
         dvec3 inside(0.0);
         for (int a : group) inside += rest(a) / static_cast<double>(group.size());
         dvec3 normal(0.0);  // some of its triangles may have no area
@@ -184,7 +184,7 @@ class Cutter {
 
 glm::vec3 SkinVertex::at(std::span<const glm::vec3> positions) const {
     glm::vec3 x(0.0F);
-    const auto place = [&](int point) { return positions[static_cast<std::size_t>(point)]; };
+    const auto place = [&](int point) { return positions[point]; };
     for (const Term& term : terms) x += term.weight * place(term.point);
     if (above == 0.0F) return x;
     const glm::vec3 normal = glm::cross(place(base[1]) - place(base[0]), place(base[2]) - place(base[0]));

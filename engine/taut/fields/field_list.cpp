@@ -151,7 +151,7 @@ void bindChoice(Field& row, std::size_t offset) {
     row.read = [=, choices = row.choices](const void* spec) -> Value {
         int number = 0;
         std::memcpy(&number, static_cast<const std::byte*>(spec) + offset, sizeof number);
-        return choices[static_cast<std::size_t>(number)];
+        return choices[number];
     };
 }
 

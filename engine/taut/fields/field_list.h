@@ -252,6 +252,12 @@ class FieldList {
         last().ramp = affects;
         return *this;
     }
+    // All fields so far that hold numbers.
+    FieldList& allRamp(Affects affects) {
+        for (Field& field : fields_)
+            if (field.kind != FieldKind::flag && field.kind != FieldKind::text) field.ramp = affects;
+        return *this;
+    }
 
     std::vector<Field> take() { return std::move(fields_); }
 

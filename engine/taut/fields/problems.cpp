@@ -64,7 +64,7 @@ std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
     return {shown, caret - first};
 }
 
-// What a text says must not move the cursor of a terminal.
+// A text must not move the cursor of a terminal.
 std::string printable(std::string text) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
@@ -149,7 +149,7 @@ std::vector<core::Finding> Problems::warnings() const {
 }
 
 std::vector<Problems::Problem> Problems::sorted(const std::vector<Problem>& problems) const {
-    // The file comes first, then those that it builds on, then the overrides.
+    // The file comes first, then the files that it builds on, then the overrides.
     const auto rank = [&](const Problem& problem) {
         const int origin = problem.place.origin;
         return std::tuple(origin <= 0 ? -origin : static_cast<int>(files_.size()) + origin, problem.place.line,
@@ -161,12 +161,12 @@ std::vector<Problems::Problem> Problems::sorted(const std::vector<Problem>& prob
     std::size_t first = 0;  // of those at the same place
     for (Problem& problem : all) {
         if (first < once.size() && rank(once[first]) != rank(problem)) first = once.size();
-        const bool isSaid =
+        const bool isReported =
             std::any_of(once.begin() + static_cast<std::ptrdiff_t>(first), once.end(), [&](const Problem& other) {
                 const bool isOfAnother = !other.subject.empty() && !problem.subject.empty();
                 return other.message == problem.message || (isOfAnother && other.subject != problem.subject);
             });
-        if (!isSaid) once.push_back(std::move(problem));
+        if (!isReported) once.push_back(std::move(problem));
     }
     return once;
 }

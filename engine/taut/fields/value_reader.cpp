@@ -34,7 +34,7 @@ class ValueReader {
                 if (node.kind == NodeKind::text) return Value(std::vector<std::string>{node.text});
                 if (node.kind == NodeKind::list && node.items.empty()) return failKind(node);
                 return texts(node);
-            case FieldKind::wholes: return wholes(node);
+            case FieldKind::wholes: return numberList(node);
             case FieldKind::numbers: return anyNumbers(node);
             case FieldKind::table:
             case FieldKind::tables: break;
@@ -69,7 +69,7 @@ class ValueReader {
         const Range& range = field_.range;
         if (node.number >= range.low && node.number <= range.high) return node.number;
         const std::string found = description(node);
-        // "Above 0" would not explain what is wrong with a number that is just too small or too large.
+        // "Above 0" would not explain the fault of a number that is just too small or too large.
         if (range.low == smallest && node.number > 0.0) {
             const std::string suffix = field_.unit.empty() ? "" : " " + field_.unit;
             return fail(node, name, fmt::format("between {:g} and {:g}{}", range.low, range.high, suffix), found);
@@ -187,7 +187,7 @@ class ValueReader {
         return Value(values);
     }
 
-    std::optional<Value> wholes(const Node& node) const {
+    std::optional<Value> numberList(const Node& node) const {
         if (node.kind != NodeKind::list) return failKind(node);
         std::vector<double> values;
         for (std::size_t i = 0; i < node.items.size(); ++i) {
@@ -198,21 +198,13 @@ class ValueReader {
         return Value(values);
     }
 
-    // Whether it fits is said by the field that it is for.
+    // The field that it is for checks whether it fits.
     std::optional<Value> anyNumbers(const Node& node) const {
         if (node.kind == NodeKind::text) return wrapped(colour(node));
-        std::vector<double> values;
-        if (node.kind != NodeKind::list) {
-            const auto value = number(node, field_.key);
-            if (!value) return std::nullopt;
-            return Value(std::vector<double>{*value});
-        }
-        for (std::size_t i = 0; i < node.items.size(); ++i) {
-            const auto value = number(node.items[i], fmt::format("{}[{}]", field_.key, i));
-            if (value) values.push_back(*value);
-        }
-        if (values.size() != node.items.size()) return std::nullopt;
-        return Value(values);
+        if (node.kind == NodeKind::list) return numberList(node);
+        const auto value = number(node, field_.key);
+        if (!value) return std::nullopt;
+        return Value(std::vector<double>{*value});
     }
 
     std::optional<Value> texts(const Node& node) const {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double nearlyStraight = 0.9995;  // cosine above which a chord is as good as an arc
 
-// [rad] whose cosine is given, 0 … 1. Each round adds the sine of what is missing, which triples the digits.
+// [rad] whose cosine is given, 0 … 1. Each round adds the sine of the remainder, which triples the digits.
 double arcCosine(double cosine) {
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     double angle = (1.0 - cosine) * (0.5 * core::pi);

@@ -54,12 +54,11 @@ int Figure::nodeNamed(std::string_view name) const {
 Posture postureAt(const Figure& figure, const Animation* animation, double seconds) {
     std::vector<Node> nodes = figure.nodes;
     if (animation != nullptr)
-        for (const Channel& channel : animation->channels)
-            apply(channel, seconds, nodes[static_cast<std::size_t>(channel.node)]);
+        for (const Channel& channel : animation->channels) apply(channel, seconds, nodes[channel.node]);
     Posture posture;
     for (const Node& node : nodes) {
         const dmat4 local = localOf(node);
-        posture.world.push_back(node.parent < 0 ? local : posture.world[static_cast<std::size_t>(node.parent)] * local);
+        posture.world.push_back(node.parent < 0 ? local : posture.world[node.parent] * local);
         posture.weights.push_back(node.weights);
     }
     return posture;
@@ -72,25 +71,25 @@ void placeVertices(const Figure& figure, const Posture& posture, std::span<dvec3
         const std::span<dvec3> own = places.subspan(first, part.positions.size());
         first += part.positions.size();
         std::copy(part.positions.begin(), part.positions.end(), own.begin());
-        const std::vector<double>& weights = posture.weights[static_cast<std::size_t>(part.node)];
+        const std::vector<double>& weights = posture.weights[part.node];
         for (std::size_t t = 0; t < part.targets.size(); ++t)
             if (weights[t] != 0)
                 for (std::size_t i = 0; i < own.size(); ++i) own[i] += weights[t] * part.targets[t][i];
 
-        const dmat4& node = posture.world[static_cast<std::size_t>(part.node)];
+        const dmat4& node = posture.world[part.node];
         if (part.skin < 0) {
             for (dvec3& x : own) x = dvec3(node * glm::dvec4(x, 1.0));
             continue;
         }
-        const Skin& skin = figure.skins[static_cast<std::size_t>(part.skin)];
+        const Skin& skin = figure.skins[part.skin];
         joints.clear();
         for (std::size_t j = 0; j < skin.joints.size(); ++j)
-            joints.push_back(posture.world[static_cast<std::size_t>(skin.joints[j])] * skin.inverseBind[j]);
+            joints.push_back(posture.world[skin.joints[j]] * skin.inverseBind[j]);
         for (std::size_t i = 0; i < own.size(); ++i) {
             dvec3 sum(0.0);
             for (std::size_t k = part.firstInfluence[i]; k < part.firstInfluence[i + 1]; ++k) {
                 const Part::Influence& of = part.influences[k];
-                sum += of.weight * dvec3(joints[static_cast<std::size_t>(of.joint)] * glm::dvec4(own[i], 1.0));
+                sum += of.weight * dvec3(joints[of.joint] * glm::dvec4(own[i], 1.0));
             }
             own[i] = sum;
         }

@@ -42,7 +42,7 @@ class AnchorForce final : public ForceOf<AnchorForce> {
     std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan& plan) const {
         std::map<int, int> times;  // by point
         for (const Body* body : plan.bodies)
-            for (int i : pointsIn(target_, *body)) ++times[body->pointOf[static_cast<std::size_t>(i)]];
+            for (int i : pointsIn(target_, *body)) ++times[body->pointOf[i]];
         if (times.empty()) return nullptr;
         std::vector<int> points;
         std::vector<double> stiffness, damping;

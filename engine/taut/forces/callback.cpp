@@ -25,8 +25,7 @@ std::vector<Seen> pointsSeen(const std::vector<std::string>& targets, const Isla
         std::vector<bool> isWanted(body->pointOf.size(), targets.empty());
         for (const std::string& target : targets)
             if (names(target, *body))
-                for (int i : selectPoints(body->model, parseTarget(target).selector))
-                    isWanted[static_cast<std::size_t>(i)] = true;
+                for (int i : selectPoints(body->model, parseTarget(target).selector)) isWanted[i] = true;
         for (std::size_t i = 0; i < isWanted.size(); ++i) {
             if (!isWanted[i]) continue;
             const auto point = static_cast<std::size_t>(body->pointOf[i]);
@@ -66,8 +65,7 @@ class Callback final : public mechanics::ForceGenerator<Real> {
         double sum = 0;
         for (std::size_t i = 0; i < seen_.size(); ++i) {
             if (!std::isfinite(energies[i])) fail("energy of", i, motion.t);
-            if (seen_[i].isFirst && (only.empty() || only[static_cast<std::size_t>(seen_[i].point)]))
-                sum += energies[i];
+            if (seen_[i].isFirst && (only.empty() || only[seen_[i].point])) sum += energies[i];
         }
         return sum;
     }
@@ -77,8 +75,8 @@ class Callback final : public mechanics::ForceGenerator<Real> {
     void addStability(const Motion&, mechanics::StabilityShare& share) const override {
         for (const Seen& each : seen_) {
             if (!each.isFirst) continue;
-            share.stiffness[static_cast<std::size_t>(each.point)] += spec_->stiffness;
-            share.dampingRate[static_cast<std::size_t>(each.point)] += spec_->dampingRate;
+            share.stiffness[each.point] += spec_->stiffness;
+            share.dampingRate[each.point] += spec_->dampingRate;
         }
     }
 

@@ -31,16 +31,16 @@ bool isIn(const FillingSpec& filling, const Body& body) {
                filling.in.begin(), filling.in.end(), [&](const std::string& target) { return names(target, body); });
 }
 
-// (points) One of those that welds keep in one place, and seams, also before they are closed.
+// (points) One of the points that welds keep in one place, or seams, also before they are closed.
 std::vector<int> sewnPoints(const IslandPlan& plan) {
     std::vector<int> one(plan.points.size());
     std::iota(one.begin(), one.end(), 0);
     const auto isPin = [&](const JointTie::Part& part) {
-        return dynamic_cast<const Pins*>(plan.constraints[static_cast<std::size_t>(part.constraint)].get()) != nullptr;
+        return dynamic_cast<const Pins*>(plan.constraints[part.constraint].get()) != nullptr;
     };
     for (const JointTie& tie : plan.ties) {
         if (tie.b < 0 || !holds(plan, tie) || std::none_of(tie.parts.begin(), tie.parts.end(), isPin)) continue;
-        const int kept = one[static_cast<std::size_t>(tie.a)], other = one[static_cast<std::size_t>(tie.b)];
+        const int kept = one[tie.a], other = one[tie.b];
         std::replace(one.begin(), one.end(), other, kept);
     }
     return one;
@@ -61,19 +61,18 @@ class FillingForce final : public ForceOf<FillingForce> {
           law_{filling.keeps, world.airPressure, world.sealedPressure, filling.bulkModulus},
           pressure_{filling.pressure, filling.pressure} {}
 
-    // What is cut or torn open holds nothing any more.
+    // A body that is cut or torn open holds nothing any more.
     template <class Real>
     std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan& plan) const {
         std::vector<std::array<int, 3>> triangles;
         std::vector<dvec3> places(plan.points.size(), dvec3(0.0));
         for (const Body* body : plan.bodies) {
             if (!isIn(spec_, *body)) continue;
-            for (std::size_t i = 0; i < body->pointOf.size(); ++i)
-                places[static_cast<std::size_t>(body->pointOf[i])] = body->model.positions[i];
+            for (std::size_t i = 0; i < body->pointOf.size(); ++i) places[body->pointOf[i]] = body->model.positions[i];
             for (std::size_t t = 0; t < body->model.triangles.size(); ++t) {
                 if (body->damage.isTriangleGone(t)) continue;
                 triangles.push_back(body->model.triangles[t]);
-                for (int& i : triangles.back()) i = body->pointOf[static_cast<std::size_t>(i)];
+                for (int& i : triangles.back()) i = body->pointOf[i];
             }
         }
         std::vector<Chamber> chambers = mechanics::chambersOf(triangles, places, sewnPoints(plan));
@@ -105,7 +104,7 @@ class FillingForce final : public ForceOf<FillingForce> {
     void check(const Chamber& chamber, const IslandPlan& plan, const std::vector<dvec3>& places) const {
         const auto fail = [&](const std::string& what) {
             const int point = chamber.triangles.front()[0];
-            const dvec3& place = places[static_cast<std::size_t>(point)];
+            const dvec3& place = places[point];
             throw core::Error(core::ErrorKind::badContent,
                               at(spec_.source) + fmt::format("{}: the surface of {} at [{:.3g}, {:.3g}, {:.3g}] {}",
                                                              name(), authored(plan, point).first->fullName(), place.x,

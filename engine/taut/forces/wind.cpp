@@ -23,7 +23,7 @@ namespace {
 void addTo(mechanics::WindTargets& targets, const Body& body, const mechanics::RigidPart& surface) {
     const mechanics::Model& model = body.model;
     const bool hasInside = body.spec->isRigid() || !model.cells.empty();
-    const auto pointOf = [&](int i) { return body.pointOf[static_cast<std::size_t>(i)]; };
+    const auto pointOf = [&](int i) { return body.pointOf[i]; };
     const auto isOfSurface = [&](int i) { return i >= surface.first && i < surface.last; };
     const double rounding = surface.rounding;
     std::vector<dvec3> rounded;  // corners of faces that lie farther out than the triangles
@@ -35,7 +35,7 @@ void addTo(mechanics::WindTargets& targets, const Body& body, const mechanics::R
         hasTriangles = true;
         if (body.damage.isTriangleGone(t)) continue;
         const auto areaOf = [&](std::span<const dvec3> x) {
-            const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(corners[k])]; };
+            const auto at = [&](std::size_t k) { return x[corners[k]]; };
             return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
         };
         const double area = areaOf(model.positions);

@@ -31,7 +31,7 @@ Pieces piecesOf(const view::FrameView& view) {
     return pieces;
 }
 
-// What has other triangles, and why.
+// The surfaces with other triangles, and why.
 std::set<std::string> changesBetween(const view::FrameView& from, const view::FrameView& to) {
     std::set<std::string> changes;
     const Pieces before = piecesOf(from), after = piecesOf(to);

@@ -53,7 +53,7 @@ bool isMapped(const view::Finish& finish) {
     return finish.pattern != view::Pattern::plain || finish.weave > 0 || finish.anisotropy > 0;
 }
 
-// What glTF's materials have no place for, by the words of view::Finish.
+// The fields of view::Finish that glTF's materials do not have.
 std::string finishExtras(const view::Finish& finish) {
     constexpr std::array<const char*, 5> patterns = {"plain", "checker", "stripes", "tartan", "image"};
     return fmt::format(
@@ -100,7 +100,7 @@ struct GlbWriter::Impl {
     std::vector<FarLight> lights;
     std::vector<glm::vec3> cameraTargets;  // (keys) [m]
     std::vector<float> fieldsOfView;       // (keys) [rad]
-    view::Camera camera;                   // as it was at first, like the rest of what is around
+    view::Camera camera;                   // as it was at first, like the light and the background
     view::Light light;
     view::Background background;
     std::optional<view::Ground> ground;
@@ -142,7 +142,7 @@ void GlbWriter::Impl::addTrack(const Part& part) {
         track.attributes += fmt::format(R"(,"TEXCOORD_0":{})", data.addVectors(uv));
     }
     track.indices = data.addIndices(part.topology->triangles);
-    // What comes later is hidden until then.
+    // Later parts are hidden until then.
     track.targetOf.assign(times.size() - 1, 0);
     track.transforms.assign(times.size() - 1, part.transform);
     track.isThere.assign(times.size() - 1, false);
@@ -297,7 +297,7 @@ void GlbWriter::Impl::addNode(const Track& track) {
     nodes.add(fmt::format(R"({{"name":{},"mesh":{},{}}})", name, mesh, placed));
 }
 
-// What glTF's scenes have no place for, by the words of view::FrameView. Of the camera there is one value a key, or one
+// The fields of view::FrameView that glTF's scenes do not have. Of the camera there is one value a key, or one
 // for all.
 std::string GlbWriter::Impl::sceneExtras() const {
     const std::size_t keys = isConstant(cameraTargets) && isConstant(fieldsOfView) ? 1 : cameraTargets.size();

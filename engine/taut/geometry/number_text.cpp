@@ -57,7 +57,7 @@ void appendVectors(std::string& text, std::span<const glm::vec3> vectors, int di
     }
     if (!vectors.empty()) --at;
     *at++ = ']';
-    text.resize(static_cast<std::size_t>(at - text.data()));
+    text.resize(at - text.data());
 }
 
 void appendExactly(std::string& text, double value) {

@@ -113,7 +113,7 @@ class NpzPoints : public PointsWriter {
     }
 
   private:
-    // What comes frame by frame and stands together in the file.
+    // Data that comes frame by frame and is contiguous in the file.
     struct Series {
         std::vector<ScratchFile::Piece> pieces;
         std::uint64_t size = 0;
@@ -161,7 +161,7 @@ class NpzPoints : public PointsWriter {
                 crc = libdeflate_crc32(crc, bytes.data(), bytes.size());
             });
 
-        std::string common;  // of both headers
+        std::string common;  // of the two headers
         append(common, 20, 2);
         for (const int zero : {0, 0, 0}) append(common, static_cast<std::uint64_t>(zero), 2);
         append(common, 0x21, 2);  // 1 January 1980, the first day that there is

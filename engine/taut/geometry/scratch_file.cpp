@@ -47,11 +47,11 @@ void ScratchFile::visit(Piece piece, const std::function<void(std::span<const st
     TAUT_EXPECTS(piece.offset + piece.size <= size());
     if (!buffer_.empty()) flush();
     while (piece.size > 0) {
-        copied_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size, blockBytes)));
+        copied_.resize(std::min<std::uint64_t>(piece.size, blockBytes));
         const ssize_t got = ::pread(reader_, copied_.data(), copied_.size(), static_cast<off_t>(piece.offset));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) failReading(file_);
-        take(std::span(copied_).first(static_cast<std::size_t>(got)));
+        take(std::span(copied_).first(got));
         piece.offset += static_cast<std::uint64_t>(got);
         piece.size -= static_cast<std::uint64_t>(got);
     }

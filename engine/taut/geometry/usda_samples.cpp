@@ -7,7 +7,7 @@
 namespace taut::geometry {
 namespace {
 
-constexpr std::size_t shortText = 2048;  // [bytes] what is kept in memory
+constexpr std::size_t shortText = 2048;  // [bytes] kept in memory
 constexpr std::size_t blockText = std::size_t{1} << 18U;
 
 }  // namespace
@@ -28,7 +28,7 @@ void UsdaText::flush() {
 }
 
 void UsdaSamples::set(std::int64_t frame, std::string_view value, ScratchFile& scratch) {
-    // What stayed and then moves does not begin to move before.
+    // A part that stayed and then moves does not begin to move before.
     if (!isHeld_ && !samples_.empty() && samples_.back().frame < now_ && now_ < frame) {
         samples_.push_back(samples_.back());
         samples_.back().frame = now_;

@@ -43,7 +43,7 @@ std::string colourText(glm::vec3 colour) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", colour.x, colour.y, colour.z);
 }
 
-// Frames of one size, so that what moves in it needs no search.
+// Frames of one size, so that moving parts need no search.
 std::string extentText(const std::vector<glm::vec3>& positions, int digits) {
     glm::vec3 bounds[2] = {positions.front(), positions.front()};
     for (const glm::vec3& x : positions) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <utility>
 
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
@@ -113,10 +112,8 @@ std::optional<std::uint32_t> checksumOf(const std::vector<FramePattern>& files, 
 
 std::vector<std::optional<std::uint32_t>> checksumsOf(const std::vector<FramePattern>& files, std::int64_t first,
                                                       std::int64_t last) {
-    std::vector<std::optional<std::uint32_t>> sums(
-        static_cast<std::size_t>(std::max<std::int64_t>(0, last + 1 - first)));
-    core::parallelFor(static_cast<int>(sums.size()),
-                      [&](int i) { sums[static_cast<std::size_t>(i)] = checksumOf(files, first + i); });
+    std::vector<std::optional<std::uint32_t>> sums(std::max<std::int64_t>(0, last + 1 - first));
+    core::parallelFor(static_cast<int>(sums.size()), [&](int i) { sums[i] = checksumOf(files, first + i); });
     return sums;
 }
 

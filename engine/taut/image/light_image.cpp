@@ -20,7 +20,7 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;  // red, green, blue over 256 · 2^(128 - last)
 
-// Reads a Radiance file from front to back; whatever is not as the format has it is an error.
+// Reads a Radiance file from front to back; any deviation from the format is an error.
 class RadianceFile {
   public:
     RadianceFile(const std::filesystem::path& path, std::string_view content) : path_(path), content_(content) {}
@@ -63,7 +63,7 @@ bool isRadiance(std::string_view content) {
     return first == "#?RADIANCE" || first == "#?RGBE";
 }
 
-// Lines up to an empty one, and then the size. Those that are not known change nothing that is needed here.
+// Lines up to an empty one, and then the size. Unknown ones change nothing that is needed here.
 void RadianceFile::readHead() {
     constexpr std::string_view format = "FORMAT=", exposure = "EXPOSURE=";
     line();
@@ -153,7 +153,7 @@ ImageSize RadianceFile::size(std::int64_t maxPixels) {
 }
 
 void RadianceFile::skim(ImageSize size) {
-    std::vector<Rgbe> line(static_cast<std::size_t>(size.width));
+    std::vector<Rgbe> line(size.width);
     for (int y = 0; y < size.height; ++y) readScanline(line);
 }
 
@@ -163,8 +163,7 @@ LightImage RadianceFile::read(std::int64_t maxPixels) {
     const std::size_t width = static_cast<std::size_t>(image.width);
     std::array<float, 256> units{};
     for (int e = 1; e < 256; ++e)
-        units[static_cast<std::size_t>(e)] =
-            static_cast<float>(std::clamp(std::ldexp(1.0, e - 136) / exposure_, 0.0, double{brightest}));
+        units[e] = static_cast<float>(std::clamp(std::ldexp(1.0, e - 136) / exposure_, 0.0, double{brightest}));
     std::vector<Rgbe> line(width);
     image.rgb.reserve(3 * width * static_cast<std::size_t>(image.height));
     for (int y = 0; y < image.height; ++y) {

@@ -16,7 +16,8 @@
 namespace taut::image {
 namespace {
 
-constexpr std::size_t mostExtra = std::size_t{1} << 26U;  // [bytes] of what a PNG file has beside its pixels, unpacked
+constexpr std::size_t mostExtra = std::size_t{1}
+                                  << 26U;  // [bytes] of the data in a PNG file beside its pixels, unpacked
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
     throw core::Error(core::ErrorKind::badContent, path.string() + ": not a whole PNG or JPEG picture: " + reason);
@@ -79,7 +80,7 @@ Image jpegImage(const std::filesystem::path& path, const std::string& content, s
     expect(tjDecompressHeader3(jpeg.get(), bytes, content.size(), &image.width, &image.height, &sampling, &colours));
     if (colours == TJCS_CMYK || colours == TJCS_YCCK) fail(path, "its colours are CMYK: save it as RGB");
     image.rgb.resize(3 * fittingCount(path, {image.width, image.height}, maxPixels));
-    // Without the last two it would fill up what is missing, and take hours for a few bytes.
+    // Without the last two it would fill up missing data, and take hours for a few bytes.
     expect(tjDecompress2(jpeg.get(), bytes, content.size(), image.rgb.data(), 0, 0, 0, TJPF_RGB,
                          TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS));
     return image;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <span>
+#include <sstream>
 #include <vector>
 
 #include "taut/core/error.h"
@@ -26,81 +28,39 @@ std::string containerOf(const std::filesystem::path& path) {
     return "";
 }
 
-std::vector<std::string> filmEncoding(const std::string& container, int quality) {
-    std::vector<std::string> arguments = {"-vf",
-                                          matching,
-                                          "-c:v",
-                                          "libx264",
-                                          "-preset",
-                                          "veryfast",
-                                          "-crf",
-                                          fmt::format("{}", quality),
-                                          "-pix_fmt",
-                                          "yuv420p",
-                                          "-colorspace",
-                                          "bt709",
-                                          "-color_primaries",
-                                          "bt709",
-                                          "-color_trc",
-                                          "iec61966-2-1"};
-    if (container != "matroska") arguments.insert(arguments.end(), {"-movflags", "+faststart"});
-    return arguments;
+// The words of a text.
+std::vector<std::string> wordsOf(const std::string& text) {
+    std::istringstream words(text);
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+std::string filmEncoding(const std::string& container, int quality) {
+    return fmt::format(
+        "-vf {} -c:v libx264 -preset veryfast -crf {} -pix_fmt yuv420p -colorspace bt709 -color_primaries bt709 "
+        "-color_trc iec61966-2-1{}",
+        matching, quality, container == "matroska" ? "" : " -movflags +faststart");
 }
 
 // VP9: its frames that are shown by none hold no alpha. At this rate factor its quality is about that of x264's 18.
-std::vector<std::string> webmEncoding(bool hasAlpha) {
-    std::vector<std::string> arguments = {"-vf",
-                                          matching,
-                                          "-c:v",
-                                          "libvpx-vp9",
-                                          "-deadline",
-                                          "good",
-                                          "-cpu-used",
-                                          "5",
-                                          "-row-mt",
-                                          "1",
-                                          "-crf",
-                                          "22",
-                                          "-b:v",
-                                          "0",
-                                          "-colorspace",
-                                          "bt709",
-                                          "-color_primaries",
-                                          "bt709",
-                                          "-color_trc",
-                                          "iec61966-2-1",
-                                          "-pix_fmt",
-                                          hasAlpha ? "yuva420p" : "yuv420p"};
-    if (hasAlpha) arguments.insert(arguments.end(), {"-auto-alt-ref", "0"});
-    return arguments;
+std::string webmEncoding(bool hasAlpha) {
+    return fmt::format(
+        "-vf {} -c:v libvpx-vp9 -deadline good -cpu-used 5 -row-mt 1 -crf 22 -b:v 0 -colorspace bt709 "
+        "-color_primaries bt709 -color_trc iec61966-2-1 -pix_fmt {}",
+        matching, hasAlpha ? "yuva420p -auto-alt-ref 0" : "yuv420p");
 }
 
 // ProRes 4444, which editors take. The encoder has the colours' meaning from the pictures alone.
-std::vector<std::string> proresEncoding() {
-    return {"-vf",
-            "scale=out_color_matrix=bt709:out_range=tv,format=yuva444p10le,"
-            "setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709",
-            "-c:v",
-            "prores_ks",
-            "-profile:v",
-            "4444",
-            "-alpha_bits",
-            "16",
-            "-vendor",
-            "apl0",
-            "-colorspace",
-            "bt709",
-            "-color_primaries",
-            "bt709",
-            "-color_trc",
-            "bt709"};
+std::string proresEncoding() {
+    return "-vf scale=out_color_matrix=bt709:out_range=tv,format=yuva444p10le,"
+           "setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709 -c:v prores_ks -profile:v 4444 "
+           "-alpha_bits 16 -vendor apl0 -colorspace bt709 -color_primaries bt709 -color_trc bt709";
 }
 
 // Each picture has its own 256 colours: for common ones ffmpeg would keep all pictures until the last. A GIF counts
 // hundredths of a second, and browsers slow down pictures of only one.
-std::vector<std::string> gifEncoding(double fps) {
+std::string gifEncoding(double fps) {
     const std::string palette = "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";
-    return {"-vf", (fps > mostGifFps ? fmt::format("fps={},", mostGifFps) : "") + palette, "-loop", "0"};
+    return "-vf " + (fps > mostGifFps ? fmt::format("fps={},", mostGifFps) : "") + palette + " -loop 0";
 }
 
 }  // namespace
@@ -131,7 +91,7 @@ VideoWriter::VideoWriter(std::filesystem::path path, VideoOptions options)
 
 VideoWriter::~VideoWriter() = default;
 
-// Not every ffmpeg is built with those that few need.
+// Not every ffmpeg is built with rarely needed encoders.
 void VideoWriter::expectEncoder() const {
     const bool isWebm = containerOf(path_) == "webm";
     if (!isWebm && !options_.alpha) return;
@@ -147,31 +107,17 @@ void VideoWriter::expectEncoder() const {
 void VideoWriter::start(int width, int height) {
     width_ = width;
     height_ = height;
-    std::vector<std::string> arguments = {options_.program,
-                                          "-hide_banner",
-                                          "-loglevel",
-                                          "error",
-                                          "-nostdin",
-                                          "-xerror",
-                                          "-y",
-                                          "-f",
-                                          "rawvideo",
-                                          "-pixel_format",
-                                          options_.alpha ? "rgba" : "rgb24",
-                                          "-video_size",
-                                          fmt::format("{}x{}", width, height),
-                                          "-framerate",
-                                          fmt::format("{}", options_.fps),
-                                          "-i",
-                                          "pipe:0",
-                                          "-an"};
     const std::string container = containerOf(path_);
-    const std::vector<std::string> encoding = container == "gif"    ? gifEncoding(options_.fps)
-                                              : container == "webm" ? webmEncoding(options_.alpha)
-                                              : options_.alpha      ? proresEncoding()
-                                                                    : filmEncoding(container, options_.quality);
-    arguments.insert(arguments.end(), encoding.begin(), encoding.end());
-    arguments.insert(arguments.end(), {"-f", container, "file:" + file_->temporary().string()});
+    const std::string encoding = container == "gif"    ? gifEncoding(options_.fps)
+                                 : container == "webm" ? webmEncoding(options_.alpha)
+                                 : options_.alpha      ? proresEncoding()
+                                                       : filmEncoding(container, options_.quality);
+    std::vector<std::string> arguments = wordsOf(fmt::format(
+        "-hide_banner -loglevel error -nostdin -xerror -y -f rawvideo -pixel_format {} -video_size {}x{} -framerate {} "
+        "-i pipe:0 -an {} -f {}",
+        options_.alpha ? "rgba" : "rgb24", width, height, options_.fps, encoding, container));
+    arguments.insert(arguments.begin(), options_.program);
+    arguments.push_back("file:" + file_->temporary().string());
 
     try {
         encoder_ = std::make_unique<core::ChildProcess>(core::ChildCommand{std::move(arguments)});

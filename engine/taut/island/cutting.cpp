@@ -15,12 +15,11 @@ struct Knife {
     dvec2 from{0.0}, upTo{0.0};  // of a segment
 
     std::optional<double> crossing(int a, int b) const {
-        const double sa = side[static_cast<std::size_t>(a)], sb = side[static_cast<std::size_t>(b)];
+        const double sa = side[a], sb = side[b];
         if ((sa >= 0) == (sb >= 0)) return std::nullopt;
         const double share = sa / (sa - sb);
         if (place.empty()) return share;
-        const dvec2 at = place[static_cast<std::size_t>(a)] +
-                         share * (place[static_cast<std::size_t>(b)] - place[static_cast<std::size_t>(a)]);
+        const dvec2 at = place[a] + share * (place[b] - place[a]);
         const dvec2 way = upTo - from;
         const double along = glm::dot(at - from, way) / glm::dot(way, way);
         if (along < 0 || along > 1) return std::nullopt;
@@ -117,8 +116,8 @@ void breakSevered(IslandPlan& plan, const std::function<void(int)>& before) {
     for (std::size_t s = 0; s < plan.springs.size(); ++s) {
         const SpringOrigin& origin = plan.origins[s];
         if (origin.body < 0 || plan.broken[s]) continue;
-        const Body& body = *plan.bodies[static_cast<std::size_t>(origin.body)];
-        const mechanics::Spring& spring = body.model.springs[static_cast<std::size_t>(origin.spring)];
+        const Body& body = *plan.bodies[origin.body];
+        const mechanics::Spring& spring = body.model.springs[origin.spring];
         if (!body.damage.isSevered(spring.a, spring.b)) continue;
         if (before) before(static_cast<int>(s));
         plan.broken[s] = true;

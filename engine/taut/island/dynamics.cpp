@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "taut/island/private/constraint_slot.h"
@@ -258,7 +257,7 @@ class DynamicsOf final : public Dynamics {
     }
     dvec3 position(int point) const override { return at(state_.x, point); }
     void positions(std::vector<dvec3>& x) const override {
-        x.resize(static_cast<std::size_t>(state_.layout.count));
+        x.resize(state_.layout.count);
         positions(std::span(x));
     }
     void positions(std::span<dvec3> x) const override {
@@ -327,7 +326,7 @@ class DynamicsOf final : public Dynamics {
         std::vector<mechanics::PointMass> points = plan.points;
         for (const Grip& grip : plan.grips)
             if (grip.rigid)
-                for (int i : grip.points) points[static_cast<std::size_t>(i)].held = true;
+                for (int i : grip.points) points[i].held = true;
         return points;
     }
 
@@ -335,8 +334,7 @@ class DynamicsOf final : public Dynamics {
     static std::vector<dvec3> restPositionsOf(const IslandPlan& plan) {
         std::vector<dvec3> rest(plan.points.size(), dvec3(0.0));
         for (const Body* body : plan.bodies)
-            for (std::size_t i = 0; i < body->pointOf.size(); ++i)
-                rest[static_cast<std::size_t>(body->pointOf[i])] = body->model.positions[i];
+            for (std::size_t i = 0; i < body->pointOf.size(); ++i) rest[body->pointOf[i]] = body->model.positions[i];
         return rest;
     }
 
@@ -455,8 +453,7 @@ class DynamicsOf final : public Dynamics {
         if (body.carried.empty() || body.clamped.empty()) return {};
         return [this, &body, back = glm::conjugate(body.carriedFrom)](double t) {
             for (int i : body.carried)
-                if (const Grip* grip = carrierOf(plan_, body.pointOf[static_cast<std::size_t>(i)]))
-                    return grip->path.at(t).rotation * back;
+                if (const Grip* grip = carrierOf(plan_, body.pointOf[i])) return grip->path.at(t).rotation * back;
             return glm::dquat(1, 0, 0, 0);
         };
     }
@@ -472,7 +469,7 @@ class DynamicsOf final : public Dynamics {
     void findVelocities(double t, std::span<const collision::Contact> contacts,
                         std::span<const ContactAcceleration> pressed) {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
-        // Tied points share what forces have added, and contacts bear what is left. Those of a solid are pushed alike.
+        // Tied points share the change by forces, and contacts bear the rest. The points of a solid are pushed alike.
         if (plan_.constraints.size() > plan_.solids.size()) constraints_.projectVelocities(t, velocity_);
         contacts_.bear(pressed, 0.5 * step_, velocity_);
         contacts_.bear(contacts, velocity_);

@@ -42,15 +42,14 @@ SceneSpec extreme(const SceneSpec& spec, bool largest) {
 std::vector<int> pointsOf(const IslandPlan& plan, const std::string& target) {
     std::vector<int> points;
     for (const Body* body : matchBodies(plan.bodies, target))
-        for (int i : selectPoints(body->model, parseTarget(target).selector))
-            points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
+        for (int i : selectPoints(body->model, parseTarget(target).selector)) points.push_back(body->pointOf[i]);
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     return points;
 }
 
 auto& point(IslandPlan& plan, int i) {
-    return plan.points[static_cast<std::size_t>(i)];
+    return plan.points[i];
 }
 
 // Whether [hand] anywhere already allows for this grab: a grip has at least the mass of each of its points. So a
@@ -83,7 +82,7 @@ void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec
     std::vector<bool> mayBeHeld;
     for (const auto& p : start.points) mayBeHeld.push_back(p.held);
     const auto mayHold = [&](const PointsAction& action) {
-        for (int i : pointsOf(start, action.target)) mayBeHeld[static_cast<std::size_t>(i)] = true;
+        for (int i : pointsOf(start, action.target)) mayBeHeld[i] = true;
     };
     foreseen<HoldAction>(spec.actions, mayHold);
     foreseen<GrabAction>(spec.actions, [&](const GrabAction& grab) {
@@ -97,7 +96,7 @@ void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec
         double mass = 0, lightest = HUGE_VAL;
         for (int i : named) {
             lightest = std::min(lightest, point(envelope.plan, i).mass);
-            if (!mayBeHeld[static_cast<std::size_t>(i)]) mass += point(envelope.plan, i).mass;
+            if (!mayBeHeld[i]) mass += point(envelope.plan, i).mass;
         }
         if (action.near || mass == 0) mass = lightest;
         const GripRates rates = gripRates(action.strength, action.dampingRatio, mass);
@@ -106,7 +105,7 @@ void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec
         // With a radius any point of the bodies may come near.
         const std::string bodies(withoutSelector(action.target));
         for (int i : action.radius > 0 ? pointsOf(envelope.plan, bodies) : named) {
-            GripRates& most = hand[static_cast<std::size_t>(i)];
+            GripRates& most = hand[i];
             most.omega2 = std::max(most.omega2, rates.omega2);
             most.damping = std::max(most.damping, rates.damping);
         }

@@ -13,7 +13,7 @@ namespace taut::world {
 namespace {
 
 constexpr int mostToPress = 1024;  // steps of contact in a tick
-constexpr int leastParts = 4;      // of a tick of bodies that touch others, whatever step their method could take
+constexpr int leastParts = 4;      // of a tick of bodies that touch others, even if their method allows longer steps
 
 std::string insideWarning(const Body& body, const std::string& collider, int points, double depth) {
     char text[200];
@@ -314,8 +314,8 @@ Fault Island::giveUp(double t) const {
     int fastest = -1;
     double most = -1;
     for (int i = 0; i < static_cast<int>(v.size()); ++i) {
-        const double speed = glm::length(v[static_cast<std::size_t>(i)]);
-        const bool isHeld = plan_.points[static_cast<std::size_t>(i)].held;  // 0 times infinity is no number
+        const double speed = glm::length(v[i]);
+        const bool isHeld = plan_.points[i].held;  // 0 times infinity is no number
         if (!std::isfinite(speed) && !isHeld) return {.point = i, .time = t, .isNumber = false};
         if (speed > most) fastest = i;
         most = std::max(most, speed);
@@ -334,14 +334,15 @@ std::optional<Fault> Island::overstrained(double t) {
         const double strain = std::abs(lengthOf(s, x_) - s.restLength) / s.restLength;
         if (strain <= std::max(fault.strain, plan_.solver.freezeStrain)) continue;
         fault.strain = strain;
-        fault.point = plan_.points[static_cast<std::size_t>(s.a)].held ? s.b : s.a;
+        fault.point = plan_.points[s.a].held ? s.b : s.a;
     }
     if (fault.point < 0) return std::nullopt;
     fault.time = t;
     return fault;
 }
 
-// Beyond the working stretch a fixed step may not hold, and a collapsed cell may not recover. Each is said once.
+// Beyond the working stretch a fixed step may not hold, and a collapsed cell may not recover. Each is
+// reported once.
 void Island::watchVolumes(double t) {
     const bool stretches = !choice_.need && stretchWarning_.empty();
     if (!stretches && !collapseWarning_.empty()) return;
@@ -401,7 +402,7 @@ IslandPlan& Island::change(const TickTime& time, Change what) {
 void Island::push(const TickTime& time, std::span<const int> points, const dvec3& velocity) {
     open(time);
     const std::vector<dvec3> v = dynamics_->velocities();
-    for (int i : points) dynamics_->setVelocity(i, v[static_cast<std::size_t>(i)] + velocity);
+    for (int i : points) dynamics_->setVelocity(i, v[i] + velocity);
 }
 
 void Island::stop(const TickTime& time, std::span<const int> points) {
@@ -473,8 +474,8 @@ void Island::setForces(const TickTime& time, const ForceList& forces) {
         dynamics_->steer(forces_);
 }
 
-// A change during the run may lower the limit below a fixed step; that is said once. Rest lengths have no part in the
-// limit.
+// A change during the run may lower the limit below a fixed step; that is reported once. The limit does not depend on
+// rest lengths.
 void Island::watchLimit(double t) {
     if (choice_.need || changes_ == Changes{}.add(Change::lengths) || !limitWarning_.empty() ||
         !(now_.step <= choice_.limit))

@@ -27,7 +27,7 @@ void addPoints(const IslandPlan& plan, std::span<const dvec3> x, std::span<const
 void addSprings(const IslandPlan& plan, std::span<const dvec3> x, const std::vector<bool>& only, Metrics& metrics) {
     for (std::size_t i = 0; i < plan.springs.size(); ++i) {
         const mechanics::Spring& s = plan.springs[i];
-        if (!only[static_cast<std::size_t>(s.a)] || !only[static_cast<std::size_t>(s.b)]) continue;
+        if (!only[s.a] || !only[s.b]) continue;
         if (plan.broken[i]) {
             ++metrics.brokenSprings;
             continue;
@@ -39,8 +39,7 @@ void addSprings(const IslandPlan& plan, std::span<const dvec3> x, const std::vec
     }
     // Ties of joints of other kinds.
     for (const JointTie& tie : plan.ties)
-        if (tie.springs.empty() && only[static_cast<std::size_t>(tie.a)] &&
-            only[static_cast<std::size_t>(tie.b < 0 ? tie.a : tie.b)] && !holds(plan, tie))
+        if (tie.springs.empty() && only[tie.a] && only[tie.b < 0 ? tie.a : tie.b] && !holds(plan, tie))
             ++metrics.brokenSprings;
 }
 
@@ -56,7 +55,7 @@ double penetrationOf(const Island& island, const std::vector<bool>& wanted) {
     double depth = 0;
     if (island.colliders().size() == 0) return depth;
     const auto look = [&](int point) {
-        if (wanted[static_cast<std::size_t>(point)] && isFree(island.plan(), point))
+        if (wanted[point] && isFree(island.plan(), point))
             depth = std::max(depth, -island.colliders().distance(island.position(point)));
     };
     if (island.hasMoved()) {
@@ -96,7 +95,7 @@ void addMetrics(Island& island, const TickTime& time, const std::function<bool(c
     std::vector<bool> counts(plan.points.size(), false);
     for (const Body* body : plan.bodies)
         if (wanted(*body))
-            for (int i : body->pointOf) counts[static_cast<std::size_t>(i)] = true;
+            for (int i : body->pointOf) counts[i] = true;
     std::vector<dvec3> x;
     dynamics.positions(x);
     const std::vector<dvec3> v = island.velocities(time);
@@ -112,8 +111,7 @@ void addMetrics(Island& island, const TickTime& time, const std::function<bool(c
     dynamics.addEnergies(time.start(), counts, metrics.gravitational, metrics.elastic);
     for (const Body* body : plan.bodies)
         if (wanted(*body)) addCells(*body, x, metrics);
-    for (const collision::Contact& contact : island.contacts())
-        metrics.contacts += counts[static_cast<std::size_t>(contact.point)] ? 1 : 0;
+    for (const collision::Contact& contact : island.contacts()) metrics.contacts += counts[contact.point] ? 1 : 0;
     metrics.penetration = std::max(metrics.penetration, penetrationOf(island, counts));
     metrics.work += island.work();
     if (island.isAsleep()) metrics.asleep += static_cast<int>(std::count(counts.begin(), counts.end(), true));

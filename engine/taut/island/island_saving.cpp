@@ -1,4 +1,4 @@
-// An island as bytes. It does not write what the scene builds again: of an unchanged plan, nothing.
+// An island as bytes. The scene builds an unchanged plan again, so only changes are written.
 #include <algorithm>
 #include <cmath>
 
@@ -15,10 +15,10 @@ constexpr std::uint64_t poseMark = 0xfff8'7461'7574'0003ULL;
 // Marks the largest forces of a grip; differs from the other marks and from any length of a name.
 constexpr std::uint64_t mostForceMark = 0xfff8'7461'7574'0006ULL;
 
-// Marks the tie of a grip that belongs to one tie; differs likewise.
+// Marks the tie of a grip that belongs to one tie; also different.
 constexpr std::uint64_t tieMark = 0xfff8'7461'7574'0005ULL;
 
-// Marks the lengths of a grip's springs; differs likewise.
+// Marks the lengths of a grip's springs; also different.
 constexpr std::uint64_t lengthsMark = 0xfff8'7461'7574'0008ULL;
 
 void visitPart(StateBytes& bytes, Grip& grip, const IslandPlan& plan) {
@@ -125,7 +125,7 @@ void visitPart(StateBytes& bytes, Divergence& d) {
 // length.
 constexpr std::uint64_t insideMark = 0xfff8'7461'7574'0002ULL;
 
-// Marks an island that may sleep. Differs likewise.
+// Marks an island that may sleep; also different.
 constexpr std::uint64_t sleepMark = 0xfff8'7461'7574'0007ULL;
 
 }  // namespace
@@ -151,8 +151,8 @@ void Island::visitPlan(StateBytes& bytes) {
     for (const Grip& grip : plan_.grips) {
         if (!grip.rigid) continue;
         for (int i : grip.points) {
-            bytes.require(!isLed[static_cast<std::size_t>(i)]);
-            isLed[static_cast<std::size_t>(i)] = true;
+            bytes.require(!isLed[i]);
+            isLed[i] = true;
         }
     }
 }
@@ -240,7 +240,7 @@ void Island::visitStep(StateBytes& bytes) {
 
 void Island::visit(StateBytes& bytes) {
     const std::string name = plan_.bodies.front()->fullName();
-    // What must be as the scene makes it, and the steps.
+    // The facts that must agree with the scene, and the steps.
     visitInside(bytes);
     visitSleep(bytes);
     bytes.expect(name, "the bodies are others");
@@ -265,7 +265,7 @@ void Island::visit(StateBytes& bytes) {
         bytes(carrier.path.t1);
         bytes.require(carrier.path.t0 < carrier.path.t1);
     }
-    // The moving points, and what the last tick has left.
+    // The moving points, and the state after the last tick.
     dynamics_->visit(bytes);
     bool isPending = changes_.any() || haveForcesJumped_;
     for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);
@@ -287,8 +287,8 @@ void Island::visit(StateBytes& bytes) {
         visitPart(bytes, frozen.divergence);
     });
     if (!bytes.isReading()) return;
-    // Makes the island anew from what was read.
-    haveForcesJumped_ = false;  // the forces were set for what is read; a pending jump is in isPending
+    // Makes the island anew from the values read.
+    haveForcesJumped_ = false;  // the forces were set for these values; a pending jump is in isPending
     workElsewhere_ = done;
     bytes.require(!frozen_ || mayFreeze_);
     if (frozen_) {

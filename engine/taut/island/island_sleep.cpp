@@ -1,8 +1,7 @@
-// How an island comes to rest, sleeps, and what wakes it. Which islands sleep together is the world's to say.
+// How an island comes to rest, sleeps and wakes. The world decides which islands sleep together.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr double stillShare = 0.01;    // of the error: how far a point may go in a window that friction holds
 constexpr double holdingShare = 0.98;  // of Coulomb's limit: up to there all friction of a solid holds it
 
-// (points) The places of those that constraints hold in one place with others, as weighted sums of the remaining
+// (points) The places of points that constraints hold in one place with others, as weighted sums of the remaining
 // points; empty if constraints do anything else.
 std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t) {
     std::vector<std::vector<Spot::Share>> leaders;
@@ -23,9 +22,7 @@ std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t
     for (const auto& constraint : plan.constraints) {
         const auto pairs = constraint->joinedFrom(t);
         if (!pairs) return {};
-        const auto numberOf = [&](int end) {
-            return static_cast<std::size_t>(constraint->points()[static_cast<std::size_t>(end)]);
-        };
+        const auto numberOf = [&](int end) { return static_cast<std::size_t>(constraint->points()[end]); };
         for (const Constraint::Pair& pair : *pairs) {
             std::vector<Spot::Share> sum;
             for (const auto& [b, weight] : pair.b.shares())
@@ -76,9 +73,9 @@ bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Footho
     for (std::size_t s = 0; s < plan.solids.size(); ++s)
         for (const Body* body : plan.solids[s])
             for (const int point : body->pointOf) {
-                solidOf[static_cast<std::size_t>(point)] = static_cast<int>(s);
-                points[s].push_back(x[static_cast<std::size_t>(point)]);
-                if (isHeld[static_cast<std::size_t>(point)]) heldAt[s].push_back(points[s].back());
+                solidOf[point] = static_cast<int>(s);
+                points[s].push_back(x[point]);
+                if (isHeld[point]) heldAt[s].push_back(points[s].back());
             }
     if (std::count(solidOf.begin(), solidOf.end(), -1) > 0) return false;
     // Pairs that are one, or as far apart as they may be: the solid at either end, none for a collider.
@@ -90,14 +87,14 @@ bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Footho
     for (const auto& constraint : plan.constraints) {
         const std::span<const int> own = constraint->points();
         std::vector<dvec3> at;  // as in Constraint::Moment
-        for (const int point : own) at.push_back(x[static_cast<std::size_t>(point)]);
+        for (const int point : own) at.push_back(x[point]);
         for (const Constraint::Place& place : constraint->places()) {
             const mechanics::PosePath::Frame frame = pathOf(plan, place.collider).at(t);
             at.push_back(frame.place + frame.arm(place.offset));
         }
         const auto solidAt = [&](const Spot& end) {
             const auto number = static_cast<std::size_t>(end.nearest());
-            return number < own.size() ? solidOf[static_cast<std::size_t>(own[number])] : -1;
+            return number < own.size() ? solidOf[own[number]] : -1;
         };
         for (const Constraint::Pair& pair : constraint->copy()->pairs(t))
             if (pair.length == 0 ||
@@ -117,7 +114,7 @@ bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Footho
             for (const auto& [ends, place] : pins)
                 for (const std::size_t own : {std::size_t{0}, std::size_t{1}})
                     if (const int other = ends[1 - own];
-                        ends[own] == static_cast<int>(s) && (other < 0 || stays[static_cast<std::size_t>(other)]))
+                        ends[own] == static_cast<int>(s) && (other < 0 || stays[other]))
                         held.push_back(place);
             stays[s] = staysPut(pressed, held, points[s]);
             isAny = isAny || stays[s];
@@ -139,7 +136,7 @@ void Island::watchRest(bool isMiddle) {
     rest_.look(x_, plan_.solver.sleepError / 3, isMiddle);
 }
 
-// What a hand or a collider moves stays awake.
+// Islands moved by a hand or a collider stay awake.
 bool Island::isCalm() {
     const auto moves = [](const auto& holder) { return holder.path.moves(); };
     return rest_.isCalm() && now_.inside.empty() && !isOpen_ &&
@@ -162,7 +159,7 @@ bool Island::rests(double t, double seconds, std::vector<Support> supports, std:
     if (leaders.empty()) return false;
     supports.resize(n);
     for (const collision::Contact& contact : now_.contacts) {
-        Support& support = supports[static_cast<std::size_t>(contact.point)];
+        Support& support = supports[contact.point];
         support.mayStick = (support.push == dvec3(0.0) || support.mayStick) && contact.friction > 0;
         support.push = contact.normal;
     }
@@ -195,12 +192,12 @@ bool Island::rests(double t, double seconds, std::vector<Support> supports, std:
     const auto ofLeaders = [&](std::span<const dvec3> in, std::span<dvec3> sum) {
         for (std::size_t i = 0; i < n; ++i) {
             ways[i] = dvec3(0.0);
-            for (const auto& [leader, weight] : leaders[i]) ways[i] += weight * in[static_cast<std::size_t>(leader)];
+            for (const auto& [leader, weight] : leaders[i]) ways[i] += weight * in[leader];
         }
         std::fill(forces.begin(), forces.end(), dvec3(0.0));
         stiffness(ways, forces);
         for (std::size_t i = 0; i < n; ++i)
-            for (const auto& [leader, weight] : leaders[i]) sum[static_cast<std::size_t>(leader)] += weight * forces[i];
+            for (const auto& [leader, weight] : leaders[i]) sum[leader] += weight * forces[i];
     };
     return restBound(inverseMasses, normals, v, r, still, ofLeaders) <= error / 3;
 }

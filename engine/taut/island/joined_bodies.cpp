@@ -65,8 +65,7 @@ void JoinedBodies::findGiven(std::span<const dvec3> at, std::span<const double> 
 bool JoinedBodies::isEmpty() const {
     const auto isOfBody = [&](const Spot& end) {
         return std::any_of(
-            end.shares().begin(), end.shares().end(),
-            [&](const Spot::Share& own) { return bodyOf_[static_cast<std::size_t>(own.point)] >= 0; });
+            end.shares().begin(), end.shares().end(), [&](const Spot::Share& own) { return bodyOf_[own.point] >= 0; });
     };
     return std::none_of(pairs_.begin(), pairs_.end(),
                         [&](const Pair& pair) { return isOfBody(pair.a) || isOfBody(pair.b); });
@@ -78,7 +77,7 @@ void JoinedBodies::respond(std::span<const dvec3> at, std::span<const double> in
     turn_.assign(bodies_.size(), dvec3(0.0));
     for (const Pair& pair : pairs_)
         for (const Spot* end : {&pair.a, &pair.b})
-            for (const Spot::Share& own : end->shares()) force_[static_cast<std::size_t>(own.point)] = dvec3(0.0);
+            for (const Spot::Share& own : end->shares()) force_[own.point] = dvec3(0.0);
     const auto pushPoint = [&](std::size_t point, const dvec3& impulse) {
         if (!(inverseMass[point] > 0)) return;
         force_[point] += impulse;
@@ -126,7 +125,7 @@ bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> 
                              std::span<const dvec3> values, bool arePlaces, double settled) {
     // Redundant constraints, such as some rods, agree to second order only. Solves end there.
     constexpr double exactly = 1e-4;
-    // Of what pairs respond to each alone. n links in a row, of which only the ends are held, have 1/n².
+    // Share of the response of single pairs. n links in a row, held at both ends only, have 1/n².
     constexpr double leastResponse = 1e-6;
     const std::size_t count = pairs_.size();
     p_.assign(count, dvec3(0.0));
@@ -138,7 +137,7 @@ bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> 
         const auto point = static_cast<std::size_t>(end.nearest());
         if (bodyOf_[point] < 0) return end.ease(inverseMass);
         if (!(inverseMass[point] > 0)) return 0.0;
-        const core::RigidMotion& body = bodies_[static_cast<std::size_t>(bodyOf_[point])];
+        const core::RigidMotion& body = bodies_[bodyOf_[point]];
         const dvec3 arm = end.of(at) - body.centre;
         const glm::dmat3& i = body.inverseInertia;
         return 1.0 / body.mass + glm::dot(arm, arm) * (i[0][0] + i[1][1] + i[2][2]) / 3.0;
@@ -178,7 +177,7 @@ bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> 
         respond(at, inverseMass);
         double along = 0;
         for (std::size_t k = 0; k < count; ++k) along += glm::dot(way_[k], moved_[k]);
-        double eased = 0;  // what `along` is about, where rods do not ask for what no motion gives
+        double eased = 0;  // `along` by the estimates, except for rods with demands that no motion satisfies
         for (std::size_t k = 0; k < count; ++k) eased += ease_[k] * glm::dot(way_[k], way_[k]);
         if (!(along > leastResponse * eased)) break;
         const double share = size / along;
@@ -194,18 +193,18 @@ bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> 
         least = size;
         best_ = p_;
     }
-    p_ = best_;  // what redundant pairs ask for in vain drives later ones away
+    p_ = best_;  // redundant pairs that cannot be satisfied make later iterates worse
     return true;
 }
 
 double JoinedBodies::turning(std::span<const dvec3> at, std::span<const double> forces) const {
-    // [rad] in a step: of a body that turns, of one that swings on what it is joined to, and of a spring.
+    // [rad] in a step: of a turning body, of a body that swings on its joint, and of a spring.
     constexpr double mostTurn = 0.25, mostJoined = 0.025, mostSwing = 1.5;
     constexpr double joined = mostSwing * mostSwing / (mostJoined * mostJoined);
     std::vector<double> sum(bodies_.size(), 0.0);
     for (std::size_t k = 0; k < pairs_.size(); ++k)
         for (const Spot* end : {&pairs_[k].a, &pairs_[k].b}) {
-            const int body = bodyOf_[static_cast<std::size_t>(end->nearest())];
+            const int body = bodyOf_[end->nearest()];
             if (body < 0) continue;
             const auto own = static_cast<std::size_t>(body);
             const dvec3 arm = end->of(at) - bodies_[own].centre;

@@ -80,16 +80,16 @@ std::span<const Metric> metricTable() {
          ofMember<&M::penetration>, 1},
         {"body_contacts", "body_contacts", "",
          "Number of places where bodies with `touch` press on each other, or on themselves.",
-         ofMember<&M::bodyContacts>, 1, Measures::butCrossings, Counts::whatTouches},
+         ofMember<&M::bodyContacts>, 1, Measures::butCrossings, Counts::touchingBodies},
         {"crossings", "crossings", "",
          "Number of edges of bodies with `touch` that go through triangles of such, and of edges through figures.",
-         ofMember<&M::crossings>, 1, Measures::all, Counts::whatTouches},
+         ofMember<&M::crossings>, 1, Measures::all, Counts::touchingBodies},
         {"face_penetration_m", "face_penetration", "m",
          "Largest height that a collider's corner or sharp edge stands out of a triangle, of bodies that meet those.",
-         ofMember<&M::facePenetration>, 1, Measures::all, Counts::whatMeetsFaces},
+         ofMember<&M::facePenetration>, 1, Measures::all, Counts::bodiesMeetingFaces},
         {"squeezed", "squeezed", "",
          "Number of points that parts of a figure close upon from both sides, and are let through one of them.",
-         ofMember<&M::squeezed>, 1, Measures::butCrossings, Counts::whatTouches},
+         ofMember<&M::squeezed>, 1, Measures::butCrossings, Counts::touchingBodies},
         {"max_speed_m_per_s", "", "m/s", "Largest speed of a point.", {.measure = largestSpeed}},
         {"asleep", "asleep", "", "Number of points that sleep.", ofMember<&M::asleep>},
         {"slept_J", "slept_energy", "J", "Energy of motion that falling asleep has taken since the start.",
@@ -124,7 +124,7 @@ void eachNumber(Metrics& metrics, const NumberVisitor& visit) {
 
 bool isCounted(Counts counts, const BodySpec& body) {
     return counts == Counts::everyBody || body.touch != Touch::nothing || body.meetsFigures ||
-           (counts == Counts::whatMeetsFaces && body.meetsFaces);
+           (counts == Counts::bodiesMeetingFaces && body.meetsFaces);
 }
 
 bool isCounted(Counts counts, const SceneSpec& scene) {

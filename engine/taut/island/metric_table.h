@@ -20,20 +20,20 @@ struct SceneSpec;
 using MetricValue = std::variant<double, std::int64_t, glm::dvec3>;
 
 // The bodies for which a value can be other than 0.
-enum class Counts { everyBody, whatTouches, whatMeetsFaces };
+enum class Counts { everyBody, touchingBodies, bodiesMeetingFaces };
 
 // A number of Metrics, to be read or written.
 using MetricNumber = std::variant<double*, int*, std::int64_t*>;
 using NumberVisitor = std::function<void(MetricNumber)>;
 
-// What a row measures: an island at a published tick, velocities synchronised.
+// The input of a row: an island at a published tick, velocities synchronised.
 struct MeasuredIsland {
     const IslandPlan& plan;
     std::span<const glm::dvec3> x, v;  // (points) [m], [m/s]
     const std::vector<bool>& counts;   // (points) whether the metric counts this point
 };
 
-// A row either reads what Metrics has a member for, or measures by itself.
+// A row either reads a member of Metrics, or measures by itself.
 struct MetricSource {
     MetricValue (*value)(const Metrics& metrics) = nullptr;
     // Visits the numbers that make up the value; null: other rows visit them.
@@ -49,7 +49,7 @@ struct Metric {
     std::string_view help;
     MetricSource source;
     int extreme = 0;  // which body a claim names as the place: 1 the one with the largest value, -1 smallest, 0 none
-    Measures measures = Measures::butCrossings;  // what has to be measured for it
+    Measures measures = Measures::butCrossings;  // required measurements
     Counts counts = Counts::everyBody;
 
     MetricValue value(const Metrics& metrics) const;

@@ -1,4 +1,4 @@
-// What islands report: energies, steps, why a run ended. It knows no island.
+// The reports of islands: energies, steps, why a run ended. It knows no island.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +52,7 @@ struct Metrics {                      // at a published tick, velocities synchro
     double penetration = 0;         // [m] largest depth of a free, colliding point inside a collider
     int asleep = 0;                 // points of islands that sleep
     double sleptEnergy = 0;         // [J] of motion, which falling asleep has taken since the start
-    glm::dvec3 sleptMomentum{0.0};  // [kg m/s] likewise
+    glm::dvec3 sleptMomentum{0.0};  // [kg m/s] taken in the same way
     double facePenetration =
         0;  // [m] largest height of a collider's corner or edge out of a triangle of a body that meets faces
     double minVolumeRatio = 1;  // smallest V/V0
@@ -60,7 +60,8 @@ struct Metrics {                      // at a published tick, velocities synchro
     int squeezed = 0;           // points that parts of a figure closed upon, and were let through, in the last tick
     int bodyContacts = 0;       // pairs of parts of bodies that pressed each other at the end of the last tick
     int crossings = 0;          // edges of touching bodies through triangles of touching bodies; 0 if not looked for
-    std::vector<double> measured{};  // (rows of metric_table.h) what rows measure by themselves; empty: none yet
+    std::vector<double>
+        measured{};  // (rows of metric_table.h) values of rows that measure by themselves; empty: none yet
 
     double energy() const { return kinetic + elastic + gravitational; }  // [J]
 };
@@ -82,15 +83,15 @@ struct IslandInfo {
     double omegaBound = 0;       // B1 [1/s]
     double omegaNow = 0;         // B2 as it is now [1/s]
     double omegaEstimate = 0;    // Lanczos, as it is now [1/s]
-    ode::FastestMode fastest{};  // what stepLimit is computed from, omegaBound among it
+    ode::FastestMode fastest{};  // source of stepLimit, with omegaBound
     double stepLimit = 0;        // [s] largest stable step by B1 with damping
     double step = 0;             // [s] chosen
     int substeps = 1;
     bool followsState = false;            // the step may change during the run
     bool splitsDashpots = false;          // the dashpots act apart from the other forces
     std::vector<StepChange> stepChanges;  // so far
-    std::string limitingSpring;           // what sets the limit, in words
-    std::vector<std::string> advice;      // what would allow a longer step
+    std::string limitingSpring;           // cause of the limit, in words
+    std::vector<std::string> advice;      // changes that would allow a longer step
     std::uint64_t bytes = 0;
     ode::Work work{};  // of its method since the start
 };

@@ -72,7 +72,7 @@ double longestSplit(const ode::MethodInfo& method, const ode::FastestMode& undam
     return pairs > 0 ? std::min(limit, mostY / pairs) : limit;
 }
 
-// The longest step [s] at which the mode does not certainly grow beyond all bounds, whatever damps it. Methods with a
+// The longest step [s] at which the mode does not certainly grow beyond all bounds, with any damping. Methods with a
 // caution get steps at which undamped motion grows slowly; at four times those it grows 64 times as much or more.
 double longestBearable(const ode::MethodInfo& method, ode::FastestMode mode) {
     const double damped = method.automaticStep(mode);
@@ -125,10 +125,10 @@ std::string lengthText(double length) {
 void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
     constexpr double shortEdge = 0.2;  // of the median; the step grows with the square of an edge
     if (!choice.anywhere.bySprings || choice.anywhere.spring < 0) return;
-    const mechanics::Spring& limiting = plan.springs[static_cast<std::size_t>(choice.anywhere.spring)];
-    const int number = plan.origins[static_cast<std::size_t>(choice.anywhere.spring)].body;
+    const mechanics::Spring& limiting = plan.springs[choice.anywhere.spring];
+    const int number = plan.origins[choice.anywhere.spring].body;
     if (number < 0) return;
-    const Body& body = *plan.bodies[static_cast<std::size_t>(number)];
+    const Body& body = *plan.bodies[number];
     const MeshSource* source = std::as_const(*body.spec).meshSource();
     if (source == nullptr || source->meshData == nullptr || source->mesh.empty()) return;
     if (dynamic_cast<const BlockSpec*>(body.spec.get()) != nullptr) return;  // its points are not the vertices
@@ -182,8 +182,7 @@ void adviseOnDamping(const IslandPlan& plan, StepChoice& choice, const std::func
 }  // namespace
 
 const Body& limitingBody(const IslandPlan& plan, const mechanics::FrequencyBound& bound) {
-    const int body =
-        bound.bySprings && bound.spring >= 0 ? plan.origins[static_cast<std::size_t>(bound.spring)].body : -1;
+    const int body = bound.bySprings && bound.spring >= 0 ? plan.origins[bound.spring].body : -1;
     return *plan.bodies[body < 0 ? 0 : static_cast<std::size_t>(body)];
 }
 

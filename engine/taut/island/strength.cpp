@@ -15,13 +15,13 @@ constexpr double evenShare = 0.08;
 constexpr double beyond = 1 + 1e-6;
 
 const PlasticitySpec* limitsIn(const IslandPlan& plan, int spring) {
-    const SpringOrigin& origin = plan.origins[static_cast<std::size_t>(spring)];
-    return origin.body < 0 ? nullptr : &plan.bodies[static_cast<std::size_t>(origin.body)]->plasticity;
+    const SpringOrigin& origin = plan.origins[spring];
+    return origin.body < 0 ? nullptr : &plan.bodies[origin.body]->plasticity;
 }
 
 const mechanics::Spring& madeAs(const IslandPlan& plan, int spring) {
-    const SpringOrigin& origin = plan.origins[static_cast<std::size_t>(spring)];
-    return plan.bodies[static_cast<std::size_t>(origin.body)]->model.springs[static_cast<std::size_t>(origin.spring)];
+    const SpringOrigin& origin = plan.origins[spring];
+    return plan.bodies[origin.body]->model.springs[origin.spring];
 }
 
 // [m] side of the cell that a spring belongs to.
@@ -39,8 +39,8 @@ Strength::Strength(const IslandPlan& plan) : plan_(plan), first_(plan.points.siz
     ways_.resize(first_.back());
     for (std::size_t s = 0; s < plan.springs.size(); ++s) {
         const auto [a, b] = std::pair(plan.springs[s].a, plan.springs[s].b);
-        ways_[next[static_cast<std::size_t>(a)]++] = {b, static_cast<int>(s)};
-        ways_[next[static_cast<std::size_t>(b)]++] = {a, static_cast<int>(s)};
+        ways_[next[a]++] = {b, static_cast<int>(s)};
+        ways_[next[b]++] = {a, static_cast<int>(s)};
     }
 }
 
@@ -54,12 +54,11 @@ bool Strength::anyNear(int point, Each&& each) const {
 }
 
 bool Strength::isAtTip(int spring) const {
-    const mechanics::Spring& s = plan_.springs[static_cast<std::size_t>(spring)];
+    const mechanics::Spring& s = plan_.springs[spring];
     // A broken diagonal has the sides of its cell beside it. They lie along the tear.
     const auto counts = [&](int other) {
-        const auto kind = plan_.springs[static_cast<std::size_t>(other)].kind;
-        return plan_.broken[static_cast<std::size_t>(other)] &&
-               (kind == mechanics::SpringKind::structural || kind == s.kind);
+        const auto kind = plan_.springs[other].kind;
+        return plan_.broken[other] && (kind == mechanics::SpringKind::structural || kind == s.kind);
     };
     return anyNear(s.a, [&](int a) {
         // Looks for a broken spring that starts near one end and ends near the other.
@@ -106,7 +105,7 @@ double Strength::overload(int spring, double l) const {
 }
 
 double Strength::yieldedLength(int spring, double l) const {
-    const double restLength = plan_.springs[static_cast<std::size_t>(spring)].restLength;
+    const double restLength = plan_.springs[spring].restLength;
     const PlasticitySpec* limits = limitsIn(plan_, spring);
     if (limits == nullptr || !limits->yieldStrain) return restLength;
     const double y = *limits->yieldStrain, strain = (l - restLength) / restLength;
@@ -122,12 +121,12 @@ std::vector<int> Strength::firstToBreak(std::vector<Break> over) const {
     std::vector<bool> isRelieved(plan_.points.size(), false);
     std::vector<int> first;
     for (const Break& candidate : over) {
-        const mechanics::Spring& s = plan_.springs[static_cast<std::size_t>(candidate.spring)];
-        if (isRelieved[static_cast<std::size_t>(s.a)] || isRelieved[static_cast<std::size_t>(s.b)]) continue;
+        const mechanics::Spring& s = plan_.springs[candidate.spring];
+        if (isRelieved[s.a] || isRelieved[s.b]) continue;
         first.push_back(candidate.spring);
         for (const int end : {s.a, s.b})
             anyNear(end, [&](int point) {
-                isRelieved[static_cast<std::size_t>(point)] = true;
+                isRelieved[point] = true;
                 return false;
             });
     }

@@ -33,7 +33,7 @@ double pullOf(const Constraint& constraint, int tie, const IslandPlan& plan, con
     if (pulls.empty()) return 0.0;
     const std::span<const int> points = constraint.points();
     dvec3 d(0.0);
-    const Constraint::Pull& pull = pulls[static_cast<std::size_t>(tie)];
+    const Constraint::Pull& pull = pulls[tie];
     for (const auto& [number, weight] : TieEnds::difference(pull.a, pull.b)) {
         const auto own = static_cast<std::size_t>(number);
         if (own < points.size()) {
@@ -61,10 +61,9 @@ void TieLoad::add(const IslandPlan& plan, const Dynamics& dynamics, double t) {
     ++steps_;
     for (std::size_t w = 0; w < watched_.size(); ++w) {
         const JointTie& tie = plan.ties[watched_[w]];
-        for (const int s : tie.springs) sum_[w].x += pullOf(plan.springs[static_cast<std::size_t>(s)], dynamics);
+        for (const int s : tie.springs) sum_[w].x += pullOf(plan.springs[s], dynamics);
         for (const JointTie::Part& part : tie.parts)
-            sum_[w].x +=
-                pullOf(*plan.constraints[static_cast<std::size_t>(part.constraint)], part.tie, plan, dynamics, t);
+            sum_[w].x += pullOf(*plan.constraints[part.constraint], part.tie, plan, dynamics, t);
         if (!tie.isGrip) continue;
         for (const Grip& grip : plan.grips)
             if (grip.tie == static_cast<int>(watched_[w])) sum_[w] += pullOf(grip, dynamics, t);

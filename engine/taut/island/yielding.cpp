@@ -17,15 +17,15 @@ bool Yielding::giveWay(IslandPlan& plan, Dynamics& dynamics, const ForceList& fo
     std::vector<Strength::Break> over;
     std::vector<int> changed;
     for (const int s : beyond_) {
-        const double l = lengthOf(plan.springs[static_cast<std::size_t>(s)], x_);
+        const double l = lengthOf(plan.springs[s], x_);
         if (const double overload = strength_->overload(s, l); overload > 1) {
             over.push_back({s, overload});
             continue;
         }
         const double next = strength_->yieldedLength(s, l);
-        if (next == plan.springs[static_cast<std::size_t>(s)].restLength) continue;
+        if (next == plan.springs[s].restLength) continue;
         remember(plan, s);
-        plan.springs[static_cast<std::size_t>(s)].restLength = next;
+        plan.springs[s].restLength = next;
         changed.push_back(s);
     }
     if (!over.empty()) {
@@ -40,9 +40,9 @@ bool Yielding::giveWay(IslandPlan& plan, Dynamics& dynamics, const ForceList& fo
 
 void Yielding::tear(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces, const std::vector<int>& springs) {
     for (const int s : springs) {
-        const SpringOrigin& origin = plan.origins[static_cast<std::size_t>(s)];
-        Body& body = *plan.bodies[static_cast<std::size_t>(origin.body)];
-        const mechanics::Spring& made = body.model.springs[static_cast<std::size_t>(origin.spring)];
+        const SpringOrigin& origin = plan.origins[s];
+        Body& body = *plan.bodies[origin.body];
+        const mechanics::Spring& made = body.model.springs[origin.spring];
         remember(body);
         body.damage.sever(made.a, made.b, 0.5);
     }
@@ -66,7 +66,7 @@ void Yielding::remember(Body& body) {
 }
 
 void Yielding::keep() {
-    for (const Spring& was : before_) isRemembered_[static_cast<std::size_t>(was.number)] = false;
+    for (const Spring& was : before_) isRemembered_[was.number] = false;
     before_.clear();
     damaged_.clear();
     hasTorn_ = false;

@@ -65,8 +65,7 @@ bool Adaptation::judge() {
         return true;
     }
     const bool isTop = level_ + 1 == static_cast<int>(costs_.size());
-    const double more =
-        isTop ? 1.0 : costs_[static_cast<std::size_t>(level_) + 1] / costs_[static_cast<std::size_t>(level_)];
+    const double more = isTop ? 1.0 : costs_[static_cast<std::size_t>(level_) + 1] / costs_[level_];
     if (isTop || std::max(turn, more * drawing) > spare * goal_) {
         atEase_ = 0.0;
         return false;

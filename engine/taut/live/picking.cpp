@@ -1,6 +1,5 @@
 #include "taut/live/picking.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -102,7 +101,7 @@ std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> s
             if (body.name == hit.surface->name && !body.positions.empty())
                 return nearestTo(body, ray.from + ray.along * hit.distance);
 
-    // Beside everything that is drawn, or before a collider: whatever is near enough to the ray and not behind it.
+    // Beside everything that is drawn, or before a collider: any point near enough to the ray and not behind it.
     std::optional<PickedPoint> best;
     double least = reach;
     for (const BodyPoints& body : bodies)

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -72,7 +71,7 @@ struct Entry {
     const world::ActionSpec* action;
 };
 
-// What happens, by tick: what the hand did at a tick comes before what the scene does then, as it did when played.
+// Events by tick: those of the hand come before those of the scene at the same tick, as when played.
 std::vector<Entry> entriesOf(const Recording& recording) {
     std::vector<Entry> entries;
     for (const auto* actions : {&recording.deeds, &recording.timeline})

@@ -59,7 +59,7 @@ struct Session::Impl {
     std::optional<world::Divergence> divergence;
     std::vector<std::string> faults;
 
-    Worker worker;  // last, so that it ends before what it works at
+    Worker worker;  // last, so that it ends before the data it uses
 
     Impl(const world::SceneSpec& spec, int threads)
         : world(spec, {.threads = threads}),

@@ -113,7 +113,7 @@ double Anchor<Real>::potentialEnergy(const Motion<Real>& motion, const std::vect
     const bool isPlain = most_.empty() && lengths_.empty();
     double energy = 0.0;
     for (std::size_t p = 0; p < points_.size(); ++p) {
-        if (!only.empty() && !only[static_cast<std::size_t>(points_[p])]) continue;
+        if (!only.empty() && !only[points_[p]]) continue;
         const glm::dvec3 arm = frame.arm(offsets_[p]);
         double square = 0.0;
         for (int axis = 0; axis < 3; ++axis) {

@@ -1,7 +1,6 @@
 #include "taut/mechanics/bending.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "taut/core/error.h"

@@ -79,12 +79,11 @@ class LatticeBuilder {
   private:
     std::size_t indexOf(ivec3 p) const { return indexIn(n_ + 1, p); }
     int at(ivec3 p) const { return numbers_[indexOf(p)]; }
-    // What the cell at a place has at a corner.
+    // The share of the cell at a place in a corner.
     double share(ivec3 cell, ivec3 corner) const {
         const int number = lattice_.cellAt(cell);
         if (number < 0) return 0.0;
-        return lattice_.cells[static_cast<std::size_t>(number)]
-            .shares[static_cast<std::size_t>(corner.x + 2 * corner.y + 4 * corner.z)];
+        return lattice_.cells[number].shares[corner.x + 2 * corner.y + 4 * corner.z];
     }
 
     // Calls visit(p) for all p from `first` to `last` inclusive, x fastest.

@@ -39,9 +39,9 @@ CellStiffness stiffnessOf(const ClothMaterial& material, double a, double b) {
 
 // The same for a warp that is turned from a. The sheet is one of fibres n of strength σ: warp, weft, and 2 k_d along
 // each of the diagonals between them. Springs of the grid take its Σ σ n⊗n⊗n⊗n over: C1122 by the diagonals, which
-// alone have it, C1111 and C2222 by what sides add, and of C1112 and C1222 what the difference of the diagonals comes
-// nearest to. They cannot push: where one would have to, it is left out. Woven cloth is worst off at 22.5°: 0.7 times
-// as stiff along its threads as it should be, and five times in shear.
+// alone have it, C1111 and C2222 by the sum of the sides, and C1112 and C1222 as closely as the difference of the
+// diagonals can. They cannot push: where one would have to, it is left out. Woven cloth is worst off at 22.5°: 0.7
+// times as stiff along its threads as it should be, and five times in shear.
 CellStiffness turnedStiffness(const ClothMaterial& material, double grain, double a, double b) {
     const double strengths[] = {material.stretch, 2.0 * material.shear, material.weftStretch.value_or(material.stretch),
                                 2.0 * material.shear};

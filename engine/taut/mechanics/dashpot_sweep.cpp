@@ -28,9 +28,8 @@ double pairRate(Real k, Real tau, Real wa, Real wb) {
 template <class Real, class Each>
 void forEachOf(const SpringNetwork<Real>& network, const SpringRun<Real>& run, const Real* w, Each&& each) {
     for (int i = 0; i < run.count; ++i)
-        each(network.stiffness[static_cast<std::size_t>(run.table + i)],
-             run.mixed < 0 ? run.tau : network.mixed[static_cast<std::size_t>(run.mixed + run.count + i)], w[run.a + i],
-             w[run.a + i + run.offset]);
+        each(network.stiffness[run.table + i], run.mixed < 0 ? run.tau : network.mixed[run.mixed + run.count + i],
+             w[run.a + i], w[run.a + i + run.offset]);
 }
 
 }  // namespace
@@ -242,10 +241,10 @@ void DashpotSweep<Real>::damp(const SpringNetwork<Real>& network, const Points& 
     for (int turn = 0; turn < 2; ++turn) {
         const int parity = isForwards ? turn : 1 - turn;
         core::parallelFor((chunks + 1 - parity) / 2, [&](int number) {
-            const SpringChunk& chunk = network.chunks[static_cast<std::size_t>(2 * number + parity)];
+            const SpringChunk& chunk = network.chunks[2 * number + parity];
             for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) {
                 const int at = isForwards ? i : chunk.lastBlock - 1 - (i - chunk.firstBlock);
-                const SpringBlock& block = network.blocks[static_cast<std::size_t>(at)];
+                const SpringBlock& block = network.blocks[at];
                 if (!isForwards) dampSingles(block);
                 dampRuns(block);
                 if (isForwards) dampSingles(block);

@@ -128,8 +128,8 @@ void ElementBending<Real>::set(std::vector<BendingElement> elements, double damp
                 pulls[slot].push_back({number, beta});
             }
             for (int c = 0; c < 3 && !element.isOfRope; ++c) {
-                const std::size_t slot = slotOf(element.corners[static_cast<std::size_t>(c)]);
-                corners[static_cast<std::size_t>(c)] = static_cast<int>(slot);
+                const std::size_t slot = slotOf(element.corners[c]);
+                corners[c] = static_cast<int>(slot);
                 pulls[slot].push_back({number + 1 + c, 1});
             }
             curved_.push_back(curved);
@@ -146,7 +146,7 @@ void ElementBending<Real>::set(std::vector<BendingElement> elements, double damp
                   [](const Coupling& a, const Coupling& b) { return a.to < b.to; });
         for (const auto& [to, weight] : couplings[i]) {
             rows[i].push_back({to, static_cast<Real>(weight)});
-            rows[static_cast<std::size_t>(to)].push_back({static_cast<int>(i), static_cast<Real>(weight)});
+            rows[to].push_back({static_cast<int>(i), static_cast<Real>(weight)});
         }
     }
     matrix_ = rowsOf(rows);
@@ -194,9 +194,8 @@ auto ElementBending<Real>::frameOf(const int* corners, const Four& y) const -> F
         if (frame.length > 0) frame.normal = 1 / frame.length * y;
         return frame;
     }
-    const Four from = places_[static_cast<std::size_t>(corners[0])];
-    const Four b = places_[static_cast<std::size_t>(corners[1])] - from,
-               c = places_[static_cast<std::size_t>(corners[2])] - from;
+    const Four from = places_[corners[0]];
+    const Four b = places_[corners[1]] - from, c = places_[corners[2]] - from;
     const Four n = crossOf(b, c);
     const Real length = std::sqrt(dotOf(n, n));
     if (!(length > 0)) return frame;
@@ -236,7 +235,7 @@ auto ElementBending<Real>::framesAt(double t) const -> std::vector<Frame> {
 }
 
 // As if the element were at rest but for its place (Gauss and Newton): d = κ - rest n, δd = δκ - rest δn, and
-// -Σ δdᵀ M δd beyond what the matrix gives. It is never positive.
+// -Σ δdᵀ M δd beyond the product of the matrix. It is never positive.
 template <class Real>
 void ElementBending<Real>::findPulls(const std::vector<Frame>& frames) const {
     findSums();
@@ -250,9 +249,9 @@ void ElementBending<Real>::findPulls(const std::vector<Frame>& frames) const {
             const Real most = std::max(frame.length, curved.square);
             if (most > 0) turn = 1 / most * (y - dotOf(frame.normal, y) * frame.normal);
         } else {
-            const Four from = places_[static_cast<std::size_t>(corners[0])];
-            turn -= dotOf(frame.normal, places_[static_cast<std::size_t>(corners[1])] - from) * frame.toB;
-            turn -= dotOf(frame.normal, places_[static_cast<std::size_t>(corners[2])] - from) * frame.toC;
+            const Four from = places_[corners[0]];
+            turn -= dotOf(frame.normal, places_[corners[1]] - from) * frame.toB;
+            turn -= dotOf(frame.normal, places_[corners[2]] - from) * frame.toC;
         }
         const Four left = y - curved.square * turn;
         const Real b = dotOf(frame.toB, left), c = dotOf(frame.toC, left);
@@ -304,8 +303,7 @@ template <class Real>
 double ElementBending<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
     double energy = 0;
     for (const BendingElement& element : elements_) {
-        if (!only.empty() && !std::all_of(element.points.begin(), element.points.end(),
-                                          [&](int i) { return only[static_cast<std::size_t>(i)]; }))
+        if (!only.empty() && !std::all_of(element.points.begin(), element.points.end(), [&](int i) { return only[i]; }))
             continue;
         glm::dmat3 off = curvatureOf(element, motion);
         if (element.isCurved()) {
@@ -352,12 +350,11 @@ template <class Real>
 void ElementBending<Real>::addDiagonal(int stride, Real* out) const {
     const auto factor = static_cast<Real>(productFactor_);
     const auto add = [&](int slot, int axis, Real more) {
-        out[static_cast<std::ptrdiff_t>(axis) * stride + points_[static_cast<std::size_t>(slot)]] += factor * more;
+        out[static_cast<std::ptrdiff_t>(axis) * stride + points_[slot]] += factor * more;
     };
     for (std::size_t slot = 0; slot < points_.size(); ++slot) {
         Real sum = 0;
-        for (int k = matrix_.first[slot]; k < matrix_.first[slot + 1]; ++k)
-            sum += matrix_.entries[static_cast<std::size_t>(k)].weight;
+        for (int k = matrix_.first[slot]; k < matrix_.first[slot + 1]; ++k) sum += matrix_.entries[k].weight;
         for (int axis = 0; axis < 3; ++axis) add(static_cast<int>(slot), axis, sum);
     }
     // 2 β g n + square |g|² n² of a corner, as ∂n/∂x_i = -g_i nᵀ; of a rope -β² (1 - n²) over the length.
@@ -368,7 +365,7 @@ void ElementBending<Real>::addDiagonal(int stride, Real* out) const {
         const Four gradients[3] = {Real(-1) * (frame.toB + frame.toC), frame.toB, frame.toC};
         const Real most = std::max(frame.length, curved.square);
         for (int k = sums_.first[e]; k < sums_.first[e + 1]; ++k) {
-            const auto& [slot, beta] = sums_.entries[static_cast<std::size_t>(k)];
+            const auto& [slot, beta] = sums_.entries[k];
             for (int axis = 0; axis < 3; ++axis) {
                 const Real n = frame.normal[axis];
                 if (corners[0] < 0 && most > 0) add(slot, axis, -beta * beta / most * (1 - n * n));
@@ -382,8 +379,8 @@ void ElementBending<Real>::addDiagonal(int stride, Real* out) const {
     }
 }
 
-// Rows of the matrix, and what the normals of curved elements add at most: β ∂n/∂x both ways, square |∂n/∂x|², and the
-// change of ∂n/∂x times y.
+// Rows of the matrix, and the largest share of the normals of curved elements: β ∂n/∂x both ways, square |∂n/∂x|², and
+// the change of ∂n/∂x times y.
 template <class Real>
 void ElementBending<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
     const auto add = [&](std::size_t slot, double row) {
@@ -394,7 +391,7 @@ void ElementBending<Real>::addStability(const Motion<Real>& motion, StabilitySha
     for (std::size_t slot = 0; slot < points_.size(); ++slot) {
         double diagonal = 0, others = 0;
         for (int k = matrix_.first[slot]; k < matrix_.first[slot + 1]; ++k) {
-            const auto weight = static_cast<double>(matrix_.entries[static_cast<std::size_t>(k)].weight);
+            const auto weight = static_cast<double>(matrix_.entries[k].weight);
             diagonal += weight;
             others += std::abs(weight);
         }
@@ -413,7 +410,7 @@ void ElementBending<Real>::addStability(const Motion<Real>& motion, StabilitySha
         const double pull = glm::length(vectorOf(y_[e])) + static_cast<double>(curved.square);
         double betas = 0;
         for (int k = sums_.first[e]; k < sums_.first[e + 1]; ++k) {
-            const auto& [slot, weight] = sums_.entries[static_cast<std::size_t>(k)];
+            const auto& [slot, weight] = sums_.entries[k];
             const double beta = std::abs(static_cast<double>(weight));
             betas += beta;
             add(static_cast<std::size_t>(slot), beta * steepness);

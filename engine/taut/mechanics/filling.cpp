@@ -42,11 +42,11 @@ using Edges = std::map<std::pair<int, int>, std::vector<EdgeSide>>;
 // By the points that stand for theirs.
 Triangle known(Triangle t, std::span<const int> one) {
     if (!one.empty())
-        for (int& i : t) i = one[static_cast<std::size_t>(i)];
+        for (int& i : t) i = one[i];
     return t;
 }
 
-// Without those that have no area for good, as in a gathered seam, and those that lie on each other, as where two
+// Without triangles that never have an area, as in a gathered seam, and triangles that lie on each other, as where two
 // sheets are sewn through a corner.
 std::vector<Triangle> thatEnclose(std::span<const Triangle> triangles, std::span<const int> one) {
     std::map<Triangle, int> times;
@@ -83,12 +83,12 @@ bool isShared(const std::vector<EdgeSide>& sides) {
     return sides.size() > 2 && 2 * static_cast<std::size_t>(forward) == sides.size();
 }
 
-// What closes the gaps between edges that are sewn and not yet together: of points that are `one`, as triangles that
-// are turned as those of the surface are. An edge has a strip; where strips meet, a fan from the first of their points.
+// Triangles that close the gaps between edges that are sewn and not yet together: of points that are `one`, turned as
+// the triangles of the surface are. An edge has a strip; where strips meet, a fan from the first of their points.
 std::vector<Triangle> gapsIn(std::span<const Triangle> triangles, std::span<const int> one) {
     using Ends = std::array<int, 2>;
     std::map<std::pair<int, int>, std::array<std::vector<Ends>, 2>>
-        edges;  // by what they are, the one way and the other
+        edges;  // by their points, in the one and the other direction
     for (const Triangle& t : triangles) {
         const Triangle corners = known(t, one);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -101,9 +101,7 @@ std::vector<Triangle> gapsIn(std::span<const Triangle> triangles, std::span<cons
     const auto add = [&](int a, int b, int c) {
         if (a != b && b != c && c != a) gaps.push_back({a, b, c});
     };
-    const auto addStripEnd = [&](int from, int to) {
-        add(first.try_emplace(one[static_cast<std::size_t>(from)], from).first->second, to, from);
-    };
+    const auto addStripEnd = [&](int from, int to) { add(first.try_emplace(one[from], from).first->second, to, from); };
     for (const auto& [key, sides] : edges)
         for (std::size_t i = 0; i < std::min(sides[0].size(), sides[1].size()); ++i) {
             const auto& [u, v] = sides[0][i];
@@ -165,11 +163,10 @@ std::vector<Chamber> chambersOf(std::span<const Triangle> all, std::span<const d
             const std::vector<Triangle> gaps = gapsIn(chamber.triangles, one);
             chamber.triangles.insert(chamber.triangles.end(), gaps.begin(), gaps.end());
         }
-        const double volume = enclosed(chamber.triangles, [&](int i) { return places[static_cast<std::size_t>(i)]; });
+        const double volume = enclosed(chamber.triangles, [&](int i) { return places[i]; });
         double size = 0.0;  // of a cube with as much surface
         for (const Triangle& t : chamber.triangles)
-            size += glm::length(areaOf(places[static_cast<std::size_t>(t[0])], places[static_cast<std::size_t>(t[1])],
-                                       places[static_cast<std::size_t>(t[2])]));
+            size += glm::length(areaOf(places[t[0]], places[t[1]], places[t[2]]));
         size = std::sqrt(size / 6.0) * size / 6.0;
         const bool isFlat = !(std::abs(volume) > 1e-9 * size);
         if (isFlat ? 2 * turned > found.size() : volume < 0)
@@ -248,7 +245,7 @@ double Filling<Real>::potentialEnergy(const Motion<Real>& motion, const std::vec
     const double pressure = pressure_.at(motion.t);
     for (const Chamber& chamber : chambers_) {
         const auto isLeftOut = [&](const Triangle& t) {
-            return !std::all_of(t.begin(), t.end(), [&](int i) { return only[static_cast<std::size_t>(i)]; });
+            return !std::all_of(t.begin(), t.end(), [&](int i) { return only[i]; });
         };
         if (!only.empty() && std::any_of(chamber.triangles.begin(), chamber.triangles.end(), isLeftOut)) continue;
         const double v = volumeOf(chamber, motion), v0 = chamber.firstVolume;
@@ -353,12 +350,12 @@ void Filling<Real>::addStability(const Motion<Real>& motion, StabilityShare& sha
         std::map<int, double> areas;
         for (const auto& t : chamber.triangles) {
             dvec3 corners[3];
-            for (std::size_t k = 0; k < 3; ++k) corners[k] = places_[static_cast<std::size_t>(t[k])];
+            for (std::size_t k = 0; k < 3; ++k) corners[k] = places_[t[k]];
             const double perimeter = glm::length(corners[1] - corners[0]) + glm::length(corners[2] - corners[1]) +
                                      glm::length(corners[0] - corners[2]);
             const double third = glm::length(areaOf(corners[0], corners[1], corners[2])) / 3.0;
             for (const int i : t) {
-                share.stiffness[static_cast<std::size_t>(i)] += workingStretch * most.excess * perimeter / 6.0;
+                share.stiffness[i] += workingStretch * most.excess * perimeter / 6.0;
                 areas[i] += third * workingStretch * workingStretch;
             }
         }
@@ -367,7 +364,7 @@ void Filling<Real>::addStability(const Motion<Real>& motion, StabilityShare& sha
             eigenvalue += most.slope * area * area * static_cast<double>(motion.inverseMass[i]);
         for (const auto& [i, area] : areas)
             if (motion.inverseMass[i] > 0)
-                share.stiffness[static_cast<std::size_t>(i)] += eigenvalue / static_cast<double>(motion.inverseMass[i]);
+                share.stiffness[i] += eigenvalue / static_cast<double>(motion.inverseMass[i]);
     }
 }
 

@@ -23,7 +23,7 @@ double Gravity<Real>::potentialEnergy(const Motion<Real>& motion, const std::vec
     const Real* mass = masses(motion);
     double energy = 0.0;
     for (int i = 0; i < motion.count; ++i) {
-        if (!only.empty() && !only[static_cast<std::size_t>(i)]) continue;
+        if (!only.empty() && !only[i]) continue;
         const Real* x = motion.x + i;
         const std::ptrdiff_t stride = motion.stride;
         const glm::dvec3 position(x[0], x[stride], x[2 * stride]);

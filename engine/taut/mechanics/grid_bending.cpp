@@ -28,12 +28,12 @@ dvec3 at(const Real* x, std::ptrdiff_t stride, int point) {
             static_cast<double>(x[2 * stride + point])};
 }
 
-// What each cell's twist has, if all have the same.
+// The coefficient of twist, if all cells have the same.
 std::optional<double> evenTwist(const Bending& bending) {
     const double first = bending.twist.front();
     for (int j = 0; j + 1 < bending.rows; ++j)
         for (int i = 0; i + 1 < bending.columns; ++i)
-            if (bending.twist[static_cast<std::size_t>(j * bending.columns + i)] != first) return std::nullopt;
+            if (bending.twist[j * bending.columns + i] != first) return std::nullopt;
     return first;
 }
 
@@ -124,7 +124,7 @@ void GridBending<Real>::apply(const Coefficients& coefficients, Planes x, int st
         BendingBatch<Real> own = batch;
         own.first = task * rowsATask;
         own.last = std::min(own.first + rowsATask, bending_.rows);
-        own.room = rooms_[static_cast<std::size_t>(task)].data();
+        own.room = rooms_[task].data();
         add_(own);
     };
     if (rooms_.size() == 1)
@@ -148,8 +148,7 @@ void GridBending<Real>::addForces(const Motion<Real>& motion, int first, int las
     const int stride = motion.stride;
     apply(forces_, gathered(motion.x, motion.v, bending_.dampingTime, stride), stride, f);
     for (const Bending::Clamp& clamp : bending_.clamps) {
-        const int held = points_[static_cast<std::size_t>(clamp.held)],
-                  next = points_[static_cast<std::size_t>(clamp.next)];
+        const int held = points_[clamp.held], next = points_[clamp.next];
         const dvec3 off = at(motion.x, stride, next) - at(motion.x, stride, held) - armAt(clamp, motion.t);
         const dvec3 drift = at(motion.v, stride, next) - at(motion.v, stride, held);
         const dvec3 force = -clamp.stiffness * (off + bending_.dampingTime * drift);
@@ -160,8 +159,8 @@ void GridBending<Real>::addForces(const Motion<Real>& motion, int first, int las
 
 template <class Real>
 double GridBending<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
-    const auto numberOf = [&](int point) { return points_[static_cast<std::size_t>(point)]; };
-    const auto counts = [&](int point) { return only.empty() || only[static_cast<std::size_t>(numberOf(point))]; };
+    const auto numberOf = [&](int point) { return points_[point]; };
+    const auto counts = [&](int point) { return only.empty() || only[numberOf(point)]; };
     double energy = 0;
     eachTerm(bending_, [&](const BendingTerm& term) {
         if (!std::all_of(term.points, term.points + term.count, counts)) return;
@@ -184,7 +183,7 @@ void GridBending<Real>::addStiffnessProduct(const Motion<Real>& motion, const Re
     apply(stiffness_, gathered(u, nullptr, 0, motion.stride), motion.stride, out);
     for (const Bending::Clamp& clamp : bending_.clamps)
         for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
-            const auto next = axis * motion.stride + points_[static_cast<std::size_t>(clamp.next)];
+            const auto next = axis * motion.stride + points_[clamp.next];
             out[next] += static_cast<Real>(clamp.stiffness) * u[next];
         }
 }
@@ -202,7 +201,7 @@ void GridBending<Real>::addProduct(int stride, const Real* u, Real* out) const {
     apply(products_, gathered(u, nullptr, 0, stride), stride, out);
     for (const Bending::Clamp& clamp : bending_.clamps)
         for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
-            const auto next = axis * stride + points_[static_cast<std::size_t>(clamp.next)];
+            const auto next = axis * stride + points_[clamp.next];
             out[next] += static_cast<Real>(productFactor_ * clamp.stiffness) * u[next];
         }
 }
@@ -211,7 +210,7 @@ template <class Real>
 void GridBending<Real>::addDiagonal(int stride, Real* out) const {
     const auto add = [&](int point, double more) {
         for (std::ptrdiff_t axis = 0; axis < 3; ++axis)
-            out[axis * stride + points_[static_cast<std::size_t>(point)]] += static_cast<Real>(productFactor_ * more);
+            out[axis * stride + points_[point]] += static_cast<Real>(productFactor_ * more);
     };
     eachTerm(bending_, [&](const BendingTerm& term) {
         for (int k = 0; k < term.count; ++k) add(term.points[k], term.coefficient * term.weights[k] * term.weights[k]);
@@ -223,7 +222,7 @@ void GridBending<Real>::addDiagonal(int stride, Real* out) const {
 template <class Real>
 void GridBending<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
     const auto add = [&](int point, double row) {
-        const auto own = static_cast<std::size_t>(points_[static_cast<std::size_t>(point)]);
+        const auto own = static_cast<std::size_t>(points_[point]);
         share.stiffness[own] += row;
         share.dampingRate[own] += bending_.dampingTime * row * static_cast<double>(motion.inverseMass[own]);
     };

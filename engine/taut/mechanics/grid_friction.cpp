@@ -156,11 +156,12 @@ void GridFriction<Real>::slide(const Motion<Real>& motion) {
     }
 }
 
-// The slope of the energy of both folds, m their moments over a² and b²:
+// The slope of the energy of the two folds, m their moments over a² and b²:
 //
 //   m_u n·δd + m_v n·δe + (m_u d + m_v e)·δn,   δn = (1 - n nᵀ)(δu × w + u × δw)/|u × w|
 //
-// Where a neighbour is missing c itself stands for it. Its fold has no moment then, and what turns n goes to c.
+// Where a neighbour is missing c itself stands for it. Its fold has no moment then, and the force that turns n goes to
+// c.
 template <class Real>
 void GridFriction<Real>::findPulls(const Part& part) const {
     const Real *along = sliders_.data(), *across = along + size();
@@ -192,7 +193,7 @@ void GridFriction<Real>::findPulls(const Part& part) const {
     }
 }
 
-// Each point takes what pulls at its neighbours, and is itself the neighbour of four. Pulls at rows and columns that
+// Each point takes the pulls at its neighbours, and is itself the neighbour of four. Pulls at rows and columns that
 // are not there are 0.
 template <class Real>
 void GridFriction<Real>::addPulls(const Part& part, int stride, Real* f) const {
@@ -231,7 +232,7 @@ void GridFriction<Real>::addForces(const Motion<Real>& motion, int first, int la
 
 template <class Real>
 double GridFriction<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
-    const auto counts = [&](int i) { return only.empty() || only[static_cast<std::size_t>(numberOf(i))]; };
+    const auto counts = [&](int i) { return only.empty() || only[numberOf(i)]; };
     const auto stored = [](double stiffness, Real most, Real stretch) {
         const double held = within(most, stretch);
         return 0.5 * stiffness * held * held;

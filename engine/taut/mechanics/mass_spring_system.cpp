@@ -51,7 +51,7 @@ void MassSpringSystem<Real>::setPoints(std::span<const PointMass> points) {
     }
 }
 
-// Makes a window for each chunk. It holds the points of a block and those that the block's springs reach. Some slack
+// Makes a window for each chunk. It holds the points of a block and of its springs. Some slack
 // keeps it from sliding for each block. It never holds more than the points that the chunk touches.
 template <class Real>
 void MassSpringSystem<Real>::layOutLanes() {
@@ -65,18 +65,17 @@ void MassSpringSystem<Real>::layOutLanes() {
     for (const SpringChunk& chunk : network_.chunks) {
         int need = 0, reach = chunk.firstPoint, blocksWaiting = 0;
         for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) {
-            const SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
+            const SpringBlock& block = network_.blocks[i];
             reach = std::max(reach, block.reach);
             need = std::max(need, reach - block.firstPoint);
             if (block.firstPoint < chunk.firstPoint + incoming) ++blocksWaiting;
         }
         // Blocks whose points the chunk before spills onto wait until the end.
-        const SpringBlock& lastWaiting =
-            network_.blocks[static_cast<std::size_t>(chunk.firstBlock + std::max(0, blocksWaiting - 1))];
+        const SpringBlock& lastWaiting = network_.blocks[chunk.firstBlock + std::max(0, blocksWaiting - 1)];
         const int waiting = blocksWaiting > 0 ? lastWaiting.lastPoint - chunk.firstPoint : 0;
         const int all = chunk.lastPoint + chunk.spill - chunk.firstPoint;
         const int singles = network_.blocks[static_cast<std::size_t>(chunk.lastBlock) - 1].lastSingle -
-                            network_.blocks[static_cast<std::size_t>(chunk.firstBlock)].firstSingle;
+                            network_.blocks[chunk.firstBlock].firstSingle;
         const bool isPacked = 2 * singles >= chunk.lastPoint - chunk.firstPoint;
         lanes_.push_back(
             {window(chunk.firstPoint, std::min(need + slack, all)), window(chunk.firstPoint, waiting), blocksWaiting});
@@ -104,8 +103,7 @@ void MassSpringSystem<Real>::removeGenerators(std::size_t from) {
 
 template <class Real>
 void MassSpringSystem<Real>::lead(LedPoints led) {
-    for (const int i : led.points)
-        TAUT_EXPECTS(i >= 0 && i < layout_.count && inverseMass_[static_cast<std::size_t>(i)] == Real(0));
+    for (const int i : led.points) TAUT_EXPECTS(i >= 0 && i < layout_.count && inverseMass_[i] == Real(0));
     const std::size_t count = led.points.size();
     kinematic_.push_back({std::move(led), std::vector<glm::dvec3>(count), std::vector<glm::dvec3>(count)});
 }
@@ -158,7 +156,7 @@ void MassSpringSystem<Real>::sweep(std::size_t c, const Motion<Real>& now, ode::
     Window& window = lane.window;
     int reach = window.first = chunk.firstPoint;
     for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) {
-        const SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
+        const SpringBlock& block = network_.blocks[i];
         moveOn(lane, block, now, reach);
         applySprings(block, now, lane);
         if (lane.isPacked()) unpack(lane, block.firstPoint, block.lastPoint);
@@ -195,8 +193,8 @@ void MassSpringSystem<Real>::moveOn(Lane& lane, const SpringBlock& block, const 
 template <class Real>
 void MassSpringSystem<Real>::applySprings(const SpringBlock& block, const Motion<Real>& now, Lane& lane) {
     Window& window = lane.window;
-    for (int r = block.firstRun; r < block.lastRun; r += network_.runs[static_cast<std::size_t>(r)].together) {
-        const SpringRun<Real>& run = network_.runs[static_cast<std::size_t>(r)];
+    for (int r = block.firstRun; r < block.lastRun; r += network_.runs[r].together) {
+        const SpringRun<Real>& run = network_.runs[r];
         kernels_.bundle({&run, network_.stiffness.data(), network_.mixed.data(), now.stride, window.room, now.x + run.a,
                          now.v + run.a, window.at(0, run.a)});
     }
@@ -226,8 +224,7 @@ void MassSpringSystem<Real>::takeSpill(std::size_t c, const Motion<Real>& now, o
         const Real* more = spilt.at(p, chunk.firstPoint);
         for (int i = 0; i < network_.chunks[c - 1].spill; ++i) f[i] += more[i];
     }
-    for (int i = 0; i < lanes_[c].blocksWaiting; ++i)
-        finish(network_.blocks[static_cast<std::size_t>(chunk.firstBlock + i)], now, waiting, sink);
+    for (int i = 0; i < lanes_[c].blocksWaiting; ++i) finish(network_.blocks[chunk.firstBlock + i], now, waiting, sink);
 }
 
 // Adds the local forces, turns forces into accelerations, and hands them to the sink.
@@ -267,7 +264,7 @@ template <class Real>
 void MassSpringSystem<Real>::changeSprings(std::span<const int> which, std::span<const Spring> springs) {
     bool isOther = false;
     for (const int s : which) {
-        const Spring& now = springs[static_cast<std::size_t>(s)];
+        const Spring& now = springs[s];
         if (isSplit_) damped_.setSpring(s, now);
         isOther = network_.setSpring(s, now) || isOther;
     }

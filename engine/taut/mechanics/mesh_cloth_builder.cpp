@@ -17,7 +17,7 @@ struct EdgeUse {
     int uses = 0;       // triangles at the edge
     int forward = 0;    // how many of them run from the lower to the higher index
     int opposite[2]{};  // the third corners
-    double area = 0.0;  // [m²] sum of both triangles
+    double area = 0.0;  // [m²] sum of the two triangles
 };
 
 [[noreturn]] void reject(const std::string& what, std::size_t triangle) {
@@ -28,7 +28,7 @@ struct EdgeUse {
 }
 
 std::string numberOf(const MeshClothShape& shape, int vertex) {
-    return std::to_string(shape.numbers.empty() ? vertex + 1 : shape.numbers[static_cast<std::size_t>(vertex)]);
+    return std::to_string(shape.numbers.empty() ? vertex + 1 : shape.numbers[vertex]);
 }
 
 std::string nameOf(const MeshClothShape& shape, const Edge& edge) {
@@ -36,7 +36,7 @@ std::string nameOf(const MeshClothShape& shape, const Edge& edge) {
 }
 
 const dvec3& position(const MeshClothShape& shape, int i) {
-    return shape.positions[static_cast<std::size_t>(i)];
+    return shape.positions[i];
 }
 
 void checkIndices(const MeshClothShape& shape) {
@@ -52,7 +52,7 @@ void checkIndices(const MeshClothShape& shape) {
         for (int i : shape.triangles[t]) {
             if (i < 0 || i >= count)
                 reject("there is no vertex " + std::to_string(i + 1) + " of " + std::to_string(count), t);
-            isUsed[static_cast<std::size_t>(i)] = true;
+            isUsed[i] = true;
         }
     const auto unused = std::find(isUsed.begin(), isUsed.end(), false);
     if (unused != isUsed.end())
@@ -118,7 +118,7 @@ void addGroups(Model& model, const std::map<Edge, EdgeUse>& edges, const dvec3& 
     // Sides: points within a hundredth of the extent.
     const dvec3 near = 0.01 * (high - low);
     for (int i = 0; i < model.pointCount(); ++i) {
-        const dvec3& p = model.positions[static_cast<std::size_t>(i)];
+        const dvec3& p = model.positions[i];
         if (p.x <= low.x + near.x) model.groups["left"].push_back(i);
         if (p.x >= high.x - near.x) model.groups["right"].push_back(i);
         if (p.y <= low.y + near.y) model.groups["bottom"].push_back(i);
@@ -127,7 +127,7 @@ void addGroups(Model& model, const std::map<Edge, EdgeUse>& edges, const dvec3& 
     // Corners: the furthest point in each diagonal direction.
     const auto corner = [&](const char* name, double x, double y) {
         const auto reach = [&](int i) {
-            const dvec3& p = model.positions[static_cast<std::size_t>(i)];
+            const dvec3& p = model.positions[i];
             return x * (p.x - low.x) * (high.y - low.y) + y * (p.y - low.y) * (high.x - low.x);
         };
         int furthest = 0;
@@ -142,16 +142,13 @@ void addGroups(Model& model, const std::map<Edge, EdgeUse>& edges, const dvec3& 
 }
 
 void addSprings(Model& model, const std::map<Edge, EdgeUse>& edges, const ClothMaterial& material) {
-    auto distance = [&](int a, int b) {
-        return glm::length(model.positions[static_cast<std::size_t>(b)] - model.positions[static_cast<std::size_t>(a)]);
-    };
-    // Van Gelder (1998): k = E₂D (A1 + A2)/c². A square cloth has k_s = ¾ E₂D. An edge at φ to the warp takes what an
-    // orthotropic sheet has along it, without the share of its cross contraction; half the stretch as shear gives the
-    // same for every φ.
+    auto distance = [&](int a, int b) { return glm::length(model.positions[b] - model.positions[a]); };
+    // Van Gelder (1998): k = E₂D (A1 + A2)/c². A square cloth has k_s = ¾ E₂D. An edge at φ to the warp takes the
+    // stiffness of an orthotropic sheet along it, without the share of its cross contraction; half the stretch as shear
+    // gives the same for every φ.
     const double weft = material.weftStretch.value_or(material.stretch);
     const auto youngAlong = [&](const Edge& edge) {
-        const dvec2 e =
-            model.uv[static_cast<std::size_t>(edge.second)] - model.uv[static_cast<std::size_t>(edge.first)];
+        const dvec2 e = model.uv[edge.second] - model.uv[edge.first];
         const double length2 = glm::dot(e, e);
         if (!(length2 > 0.0)) return material.stretch * 4.0 / 3.0;
         const double cc = e.x * e.x / length2, ss = e.y * e.y / length2;
@@ -223,8 +220,7 @@ Model buildMeshCloth(const MeshClothShape& shape) {
     double total = 0.0;
     for (std::size_t t = 0; t < areas.size(); ++t) {
         total += areas[t];
-        for (int i : shape.triangles[t])
-            model.masses[static_cast<std::size_t>(i)] += shape.material.density * areas[t] / 3.0;
+        for (int i : shape.triangles[t]) model.masses[i] += shape.material.density * areas[t] / 3.0;
     }
     if (shape.material.lumping == Lumping::uniform)
         model.masses.assign(model.masses.size(), shape.material.density * total / model.pointCount());

@@ -320,7 +320,7 @@ class MeshElements {
     std::vector<std::array<dvec2, 3>> flat_;            // [m]
     std::vector<dvec3> normals_;                        // unit
     std::vector<double> areas_;                         // [m²]
-    std::vector<Slopes> slopes_;                        // empty for those that take no part
+    std::vector<Slopes> slopes_;                        // empty: takes no part
 };
 
 }  // namespace

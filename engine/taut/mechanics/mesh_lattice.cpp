@@ -24,7 +24,7 @@ constexpr double fullEnough = 1e-9;       // as near to 1 it is rounding
 constexpr double mostDrawnOut = 0.05;     // of a cube, where it then fits the mesh's box
 constexpr double smallShare = 0.25;       // less is left out where a neighbour can carry it,
 constexpr double muchFuller = 4;          // one that is not small, or has so many times as much
-constexpr double leastCorner = 1.0 / 16;  // of a cell: what a corner has at least, for the step; an even share is 1/8
+constexpr double leastCorner = 1.0 / 16;  // of a cell: least share of a corner, for the step; an even share is 1/8
 
 ivec3 bitsOf(std::size_t corner) {
     const int c = static_cast<int>(corner);
@@ -32,7 +32,7 @@ ivec3 bitsOf(std::size_t corner) {
 }
 
 const dvec3& at(std::span<const dvec3> positions, int i) {
-    return positions[static_cast<std::size_t>(i)];
+    return positions[i];
 }
 
 double sixfoldVolume(std::span<const dvec3> x, const Triangle& t) {
@@ -45,9 +45,9 @@ std::vector<int> partsOf(std::span<const Triangle> triangles, std::size_t vertic
     std::vector<int> root(vertices);
     std::iota(root.begin(), root.end(), 0);
     const auto rootOf = [&](int v) {
-        while (root[static_cast<std::size_t>(v)] != v) {
-            int& up = root[static_cast<std::size_t>(v)];
-            up = root[static_cast<std::size_t>(up)];
+        while (root[v] != v) {
+            int& up = root[v];
+            up = root[up];
             v = up;
         }
         return v;
@@ -55,7 +55,7 @@ std::vector<int> partsOf(std::span<const Triangle> triangles, std::size_t vertic
     for (const Triangle& t : triangles)
         for (const int other : {t[1], t[2]}) {
             const int a = rootOf(t[0]), b = rootOf(other);
-            root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+            root[std::max(a, b)] = std::min(a, b);
         }
     std::vector<int> parts;
     for (const Triangle& t : triangles) parts.push_back(rootOf(t[0]));
@@ -101,14 +101,14 @@ std::array<GaussPoint, 7> gaussPoints() {
         for (int k = 0; k < 3; ++k) {
             dvec3 corners(beta);
             corners[k] = 1.0 - 2.0 * beta;
-            all[static_cast<std::size_t>(1 + 3 * side + k)] = {corners, (155.0 + sign * root) / 1200.0};
+            all[1 + 3 * side + k] = {corners, (155.0 + sign * root) / 1200.0};
         }
     }
     return all;
 }
 
-// What is filled, from the surface alone (Gauss): what lies behind a piece of it, towards low x, is filled if it faces
-// high x, and taken away again if it faces low x. So each piece adds ∫ N dx up to where it is to its own cell, and all
+// The filled part, from the surface alone (Gauss): the space behind a piece of it, towards low x, is filled if it faces
+// high x, and subtracted again if it faces low x. So each piece adds ∫ N dx up to where it is to its own cell, and all
 // of N to the cells behind.
 class Filler {
   public:
@@ -170,7 +170,7 @@ double sumOf(const std::array<double, 8>& shares) {
     return std::accumulate(shares.begin(), shares.end(), 0.0);
 }
 
-// Which cells stay, and which carry what is in the others.
+// Which cells stay, and which carry the contents of the others.
 class Choice {
   public:
     Choice(const Lattice& lattice, std::vector<std::array<double, 8>>& shares)
@@ -190,12 +190,11 @@ class Choice {
             stays_[index] = false;
             carrier_[index] = static_cast<int>(lattice_.indexOf(placeOf(index) + *way));
         }
-        // What was carried goes along where its carrier is left out too.
+        // Carried contents go along where their carrier is left out too.
         for (const auto& [share, index] : small)
             if (carrier_[index] >= 0) carry(index, static_cast<std::size_t>(carrier_[index]));
         for (std::size_t k = small.size(); k-- > 0;)
-            if (int& carrier = carrier_[small[k].second]; carrier >= 0 && !stays_[static_cast<std::size_t>(carrier)])
-                carrier = carrier_[static_cast<std::size_t>(carrier)];
+            if (int& carrier = carrier_[small[k].second]; carrier >= 0 && !stays_[carrier]) carrier = carrier_[carrier];
     }
 
     bool stays(std::size_t index) const { return stays_[index]; }
@@ -235,7 +234,7 @@ class Choice {
         int parts = 0;
         const auto reach = [&](ivec3 p) {
             const ivec3 d = p - place;
-            bool& reached = isReached[static_cast<std::size_t>((d.z + 1) * 9 + (d.y + 1) * 3 + d.x + 1)];
+            bool& reached = isReached[(d.z + 1) * 9 + (d.y + 1) * 3 + d.x + 1];
             if (reached || d == ivec3(0) || !isThere(p)) return;
             reached = true;
             found.push_back(p);
@@ -275,7 +274,7 @@ class Choice {
     std::vector<int> carrier_;
 };
 
-// Eighths for what is full, no more than that where parts lie in each other, and enough for each corner.
+// Eighths for full cells, no more than that where parts overlap, and enough for each corner.
 void tidy(std::array<double, 8>& shares) {
     const double share = sumOf(shares);
     if (std::abs(share - 1.0) < fullEnough) {
@@ -341,12 +340,12 @@ Grid gridOf(const Box& box, double side) {
     std::vector<double> volumes(positions.size(), 0.0);
     std::vector<Box> boxes(positions.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        volumes[static_cast<std::size_t>(parts[t])] += sixfoldVolume(positions, triangles[t]);
-        for (const int v : triangles[t]) boxes[static_cast<std::size_t>(parts[t])].add(at(positions, v));
+        volumes[parts[t]] += sixfoldVolume(positions, triangles[t]);
+        for (const int v : triangles[t]) boxes[parts[t]].add(at(positions, v));
     }
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const Box& box = boxes[static_cast<std::size_t>(parts[t])];
-        if (volumes[static_cast<std::size_t>(parts[t])] < 0 && glm::all(glm::greaterThan(x + 0.5 * side, box.low)) &&
+        const Box& box = boxes[parts[t]];
+        if (volumes[parts[t]] < 0 && glm::all(glm::greaterThan(x + 0.5 * side, box.low)) &&
             glm::all(glm::lessThan(x - 0.5 * side, box.high)))
             throw MeshFault("the part of the mesh to which this face belongs is inside out; turn its faces over",
                             static_cast<int>(t));
@@ -366,12 +365,12 @@ double LatticeCell::share() const {
 int Lattice::cellAt(ivec3 place) const {
     if (glm::any(glm::lessThan(place, ivec3(0))) || glm::any(glm::greaterThanEqual(place, counts))) return -1;
     const int carrier = carriers[indexOf(place)];
-    return carrier >= 0 && cells[static_cast<std::size_t>(carrier)].at == place ? carrier : -1;
+    return carrier >= 0 && cells[carrier].at == place ? carrier : -1;
 }
 
 const LatticeCell& Lattice::carrierOf(const dvec3& x) const {
     const ivec3 inside = glm::clamp(ivec3(glm::floor(x)), ivec3(0), counts - 1);
-    if (const int carrier = carriers[indexOf(inside)]; carrier >= 0) return cells[static_cast<std::size_t>(carrier)];
+    if (const int carrier = carriers[indexOf(inside)]; carrier >= 0) return cells[carrier];
     // From cube to cube around it, of which the cells of each new one are no nearer than `radius` - 1. Of equally near
     // cells the first.
     std::pair nearest(std::numeric_limits<double>::infinity(), 0);
@@ -387,7 +386,7 @@ const LatticeCell& Lattice::carrierOf(const dvec3& x) const {
                     if (own >= 0) nearest = std::min(nearest, {glm::dot(way, way), own});
                 }
     }
-    return cells[static_cast<std::size_t>(nearest.second)];
+    return cells[nearest.second];
 }
 
 CarriedPoint carriedBy(const LatticeCell& cell, const dvec3& x) {
@@ -455,8 +454,7 @@ Lattice meshLattice(std::span<const dvec3> positions, std::span<const Triangle> 
         lattice.cells.push_back({choice.placeOf(i), shares[i], {}});
     }
     for (std::size_t i = 0; i < shares.size(); ++i)
-        if (const int carrier = choice.carrier(i); carrier >= 0)
-            lattice.carriers[i] = lattice.carriers[static_cast<std::size_t>(carrier)];
+        if (const int carrier = choice.carrier(i); carrier >= 0) lattice.carriers[i] = lattice.carriers[carrier];
     if (lattice.cells.empty()) throw MeshFault("the mesh fills next to nothing of its cells", -1);
     numberPoints(lattice);
     return lattice;

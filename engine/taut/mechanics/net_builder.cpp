@@ -23,8 +23,7 @@ Model buildNet(std::span<const NetPoint> points, std::span<const NetSpring> spri
     for (const NetSpring& spring : springs) {
         const auto a = indexOf.find(spring.a), b = indexOf.find(spring.b);
         TAUT_EXPECTS(a != indexOf.end() && b != indexOf.end() && a != b);
-        const double distance = glm::length(model.positions[static_cast<std::size_t>(b->second)] -
-                                            model.positions[static_cast<std::size_t>(a->second)]);
+        const double distance = glm::length(model.positions[b->second] - model.positions[a->second]);
         model.springs.push_back({a->second, b->second, spring.stiffness, spring.restLength.value_or(distance),
                                  spring.dampingTime, SpringKind::structural});
     }

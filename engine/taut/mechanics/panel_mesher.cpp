@@ -72,7 +72,7 @@ std::string nameOf(const Side& side) {
 
 // The side that ends where this one begins.
 const Side& before(const std::vector<Side>& sides, std::size_t i, const PanelShape& shape) {
-    const std::size_t count = shape.rings[static_cast<std::size_t>(sides[i].ring)].size();
+    const std::size_t count = shape.rings[sides[i].ring].size();
     return sides[sides[i].corner > 0 ? i - 1 : i + count - 1];
 }
 
@@ -117,7 +117,7 @@ void check(const PanelShape& shape, const std::vector<Side>& sides) {
 void addOutline(const PanelShape& shape, const std::vector<Side>& sides, PanelMesh& mesh) {
     mesh.corners.resize(shape.rings.size());
     for (const Side& side : sides) {
-        mesh.corners[static_cast<std::size_t>(side.ring)].push_back(static_cast<int>(mesh.points.size()));
+        mesh.corners[side.ring].push_back(static_cast<int>(mesh.points.size()));
         const auto ring = static_cast<std::size_t>(side.ring), corner = static_cast<std::size_t>(side.corner);
         const bool isGiven =
             ring < shape.edges.size() && corner < shape.edges[ring].size() && shape.edges[ring][corner] > 0;
@@ -128,7 +128,7 @@ void addOutline(const PanelShape& shape, const std::vector<Side>& sides, PanelMe
     mesh.outlinePoints = static_cast<int>(mesh.points.size());
 }
 
-// Rows of equilateral triangles from the middle of the panel, but for what lies outside or near the outline.
+// Rows of equilateral triangles from the middle of the panel, without points outside or near the outline.
 void addInside(const PanelShape& shape, const std::vector<Side>& sides, PanelMesh& mesh) {
     const dvec2 along = shape.along, up(-along.y, along.x);
     // As seen with the rows level.

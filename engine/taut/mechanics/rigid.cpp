@@ -1,6 +1,5 @@
 #include "taut/mechanics/rigid.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 
@@ -12,7 +11,7 @@ namespace {
 
 // Share of the mass at points that touch: the more, the less spread is left for the inner ones, which needs to be some.
 constexpr double touchingShare = 0.05;
-constexpr double leastTouching = 1e-9;  // likewise: with less, rounding would decide where they are
+constexpr double leastTouching = 1e-9;  // the same share: with less, rounding would decide where they are
 
 dmat3 outer(const dvec3& a, const dvec3& b) {
     return glm::outerProduct(a, b);
@@ -82,7 +81,7 @@ Model buildRigid(const RigidShape& shape) {
     const std::size_t count = shape.positions.size();
     const double density = shape.mass / shape.properties.volume;
     const dvec3& centre = shape.properties.centre;
-    // What the inner points have to make up for: the touching ones draw centre and spread towards them.
+    // The inner points compensate: the touching ones draw centre and spread towards them.
     dmat3 axes(0.0);
     dvec3 innerCentre(0.0);
     double share = touchingShare;
@@ -126,8 +125,7 @@ Model buildRigid(const RigidShape& shape) {
     for (const std::array<int, 2>& line : shape.lines)
         model.springs.push_back({.a = line[0] + innerPoints,
                                  .b = line[1] + innerPoints,
-                                 .restLength = glm::length(shape.positions[static_cast<std::size_t>(line[1])] -
-                                                           shape.positions[static_cast<std::size_t>(line[0])])});
+                                 .restLength = glm::length(shape.positions[line[1]] - shape.positions[line[0]])});
     for (int i = 0; i < model.pointCount(); ++i) model.groups["all"].push_back(i);
     for (int i = 0; i < innerPoints; ++i) model.groups["inner"].push_back(i);
     for (const auto& [name, points] : shape.groups)
@@ -137,19 +135,19 @@ Model buildRigid(const RigidShape& shape) {
     return model;
 }
 
-// A corner moves by what has `outward` along the normals of all faces there, in the sense of least squares; along what
-// none has, it stays.
+// A corner moves by the vector with `outward` along the normals of all faces there, by least squares; across all of
+// them it stays.
 std::vector<dvec3> withFacesOutward(std::span<const dvec3> positions, std::span<const std::array<int, 3>> triangles,
                                     double outward) {
     constexpr double none = 1e-6;
     std::vector<dmat3> squares(positions.size(), dmat3(none));
     std::vector<dvec3> sums(positions.size(), dvec3(0.0));
     for (const std::array<int, 3>& t : triangles) {
-        const auto at = [&](std::size_t k) { return positions[static_cast<std::size_t>(t[k])]; };
+        const auto at = [&](std::size_t k) { return positions[t[k]]; };
         const dvec3 normal = glm::normalize(glm::cross(at(1) - at(0), at(2) - at(0)));
         for (const int i : t) {
-            squares[static_cast<std::size_t>(i)] += glm::outerProduct(normal, normal);
-            sums[static_cast<std::size_t>(i)] += outward * normal;
+            squares[i] += glm::outerProduct(normal, normal);
+            sums[i] += outward * normal;
         }
     }
     std::vector<dvec3> moved(positions.begin(), positions.end());

@@ -164,8 +164,7 @@ void placePoints(const RopeShape& shape, double distance, double length, std::ve
         if (!hangCatenary(shape, length / n, positions)) bendArc(shape, distance, length / n, positions);
     } else {
         for (int i = 1; i < n; ++i)
-            positions[static_cast<std::size_t>(i)] =
-                shape.start + (shape.end - shape.start) * (static_cast<double>(i) / n);
+            positions[i] = shape.start + (shape.end - shape.start) * (static_cast<double>(i) / n);
     }
 }
 
@@ -217,9 +216,7 @@ Model buildRing(const RopeShape& shape) {
         model.positions[at] = detail::withoutNegativeZero(model.positions[at]);
         model.masses[at] = shape.mass / n;
         model.uv[at] = {link * i, 0.0};
-        const auto distance = [&](int point) {
-            return glm::length(model.positions[static_cast<std::size_t>(point)] - shape.end);
-        };
+        const auto distance = [&](int point) { return glm::length(model.positions[point] - shape.end); };
         if (distance(i) < distance(far)) far = i;
     }
     // Springs to the next point and to the one after it.

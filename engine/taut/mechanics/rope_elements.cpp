@@ -5,11 +5,10 @@
 namespace taut::mechanics {
 
 // E = ½ EI (|x''| - κ)² a length: the least that keeps a rest curvature without frames along the rope. It holds how
-// much the rope is bent, not which way. See clamped() in bending.h for what is held.
+// much the rope is bent, not which way. See clamped() in bending.h for held directions.
 std::vector<BendingElement> ropeElements(const Model& model, const std::vector<bool>& isHeld,
                                          const std::vector<bool>& isClamped,
                                          const std::function<bool(int, int)>& isSevered) {
-    using glm::dvec3;
     const FreeformBending& of = model.freeform;
     const int n = static_cast<int>(of.rest.size());
     const auto at = [](int i) { return static_cast<std::size_t>(i); };

@@ -27,10 +27,10 @@ StripModuli SheetStiffness::at(double angle) const {
 SheetStiffness sheetStiffness(const Model& model) {
     const dvec2 warp(std::cos(model.grain), std::sin(model.grain)), weft(-warp.y, warp.x);
     const auto at = [&](int point) {
-        const dvec2 uv = model.uv[static_cast<std::size_t>(point)];
+        const dvec2 uv = model.uv[point];
         return dvec2(glm::dot(uv, warp), glm::dot(uv, weft));
     };
-    const auto place = [&](int point) { return model.positions[static_cast<std::size_t>(point)]; };
+    const auto place = [&](int point) { return model.positions[point]; };
     double area = 0.0, flatArea = 0.0;
     for (const auto& [a, b, c] : model.triangles) {
         const dvec2 e = at(b) - at(a), f = at(c) - at(a);

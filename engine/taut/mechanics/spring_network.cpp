@@ -61,16 +61,16 @@ class Builder {
     }
 
     void shareOut(std::span<const Spring> springs) {
-        std::vector<int> blockOf(static_cast<std::size_t>(points_));
+        std::vector<int> blockOf(points_);
         for (std::size_t i = 0; i < network_.blocks.size(); ++i)
             for (int p = network_.blocks[i].firstPoint; p < network_.blocks[i].lastPoint; ++p)
-                blockOf[static_cast<std::size_t>(p)] = static_cast<int>(i);
+                blockOf[p] = static_cast<int>(i);
         sorted_.resize(network_.blocks.size());
         for (std::size_t i = 0; i < springs.size(); ++i) {
             const Spring& s = springs[i];
             TAUT_EXPECTS(s.a != s.b && s.a >= 0 && s.b >= 0 && s.a < points_ && s.b < points_);
             const int a = std::min(s.a, s.b), b = std::max(s.a, s.b);
-            const auto block = static_cast<std::size_t>(blockOf[static_cast<std::size_t>(a)]);
+            const auto block = static_cast<std::size_t>(blockOf[a]);
             sorted_[block].push_back({{b - a, s.restLength, s.dampingTime}, a, s.stiffness, static_cast<int>(i)});
             network_.blocks[block].reach = std::max(network_.blocks[block].reach, b + 1);
         }
@@ -86,7 +86,7 @@ class Builder {
         int reach = 0;
         const int count = static_cast<int>(network_.blocks.size());
         for (int i = 0; i < count; ++i) {
-            const SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
+            const SpringBlock& block = network_.blocks[i];
             if (i == chunk.firstBlock) chunk.firstPoint = block.firstPoint;
             reach = std::max(reach, block.reach);
             const bool full = block.lastPoint - chunk.firstPoint >= enough && block.lastPoint >= incoming;
@@ -192,7 +192,7 @@ SpringNetwork<Real>::SpringNetwork(int points, std::span<const Body> bodies, std
     Builder<Real>(*this, points, bodies, springs);
     places.assign(springs.size(), -1);
     for (std::size_t i = 0; i < order.size(); ++i)
-        if (order[i] >= 0) places[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+        if (order[i] >= 0) places[order[i]] = static_cast<int>(i);
     firstPlaces.push_back(0);
     for (const SpringRun<Real>& run : runs) firstPlaces.push_back(firstPlaces.back() + run.count);
     setSprings(springs);
@@ -215,13 +215,12 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
     std::vector<Real> k, lengths, taus;
     const int* next = order.data();
     for (SpringRun<Real>& run : runs) {
-        for (std::vector<Real>* table : {&k, &lengths, &taus})
-            table->assign(static_cast<std::size_t>(run.count), Real(0));
+        for (std::vector<Real>* table : {&k, &lengths, &taus}) table->assign(run.count, Real(0));
         bool isFirst = true;
         bool isMixed = false;
         for (std::size_t i = 0; i < k.size(); ++i, ++next) {
             if (*next < 0) continue;
-            const Spring& s = springs[static_cast<std::size_t>(*next)];
+            const Spring& s = springs[*next];
             k[i] = static_cast<Real>(s.stiffness);
             lengths[i] = static_cast<Real>(s.restLength);
             taus[i] = static_cast<Real>(s.dampingTime);
@@ -243,7 +242,7 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
     // The single springs.
     for (std::vector<Real>* table : {&singles.k, &singles.restLength, &singles.tau}) table->resize(singles.a.size());
     for (std::size_t i = 0; i < singles.a.size(); ++i, ++next) {
-        const Spring& s = springs[static_cast<std::size_t>(*next)];
+        const Spring& s = springs[*next];
         singles.k[i] = static_cast<Real>(s.stiffness);
         singles.restLength[i] = static_cast<Real>(s.restLength);
         singles.tau[i] = static_cast<Real>(s.dampingTime);
@@ -263,7 +262,7 @@ bool SpringNetwork<Real>::setSpring(int spring, const Spring& now) {
                                             firstPlaces.begin() - 1);
     SpringRun<Real>& run = runs[r];
     const int i = place - firstPlaces[r];
-    const bool isOther = stiffness[static_cast<std::size_t>(run.table + i)] != k;
+    const bool isOther = stiffness[run.table + i] != k;
     if (isOther) {
         if (!isOwn[r]) {
             const auto from = static_cast<std::size_t>(run.table);
@@ -273,7 +272,7 @@ bool SpringNetwork<Real>::setSpring(int spring, const Spring& now) {
                         stiffness.begin() + run.table);
             isOwn[r] = true;
         }
-        stiffness[static_cast<std::size_t>(run.table + i)] = k;
+        stiffness[run.table + i] = k;
     }
     if (run.mixed < 0 && run.restLength == restLength) return isOther;
     if (run.mixed < 0) {
@@ -281,7 +280,7 @@ bool SpringNetwork<Real>::setSpring(int spring, const Spring& now) {
         mixed.insert(mixed.end(), static_cast<std::size_t>(run.count), run.restLength);
         mixed.insert(mixed.end(), static_cast<std::size_t>(run.count), run.tau);
     }
-    mixed[static_cast<std::size_t>(run.mixed + i)] = restLength;
+    mixed[run.mixed + i] = restLength;
     return isOther;
 }
 

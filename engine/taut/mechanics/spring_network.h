@@ -62,8 +62,8 @@ struct SpringNetwork {
     bool setSpring(int spring, const Spring& now);
 
     // Where springs stand in `order`.
-    int placeOf(int spring) const { return places[static_cast<std::size_t>(spring)]; }
-    int placeOfRun(int run) const { return firstPlaces[static_cast<std::size_t>(run)]; }
+    int placeOf(int spring) const { return places[spring]; }
+    int placeOfRun(int run) const { return firstPlaces[run]; }
     int placeOfSingles() const { return firstPlaces.back(); }
 
     // Becomes a copy of `damped` without its dashpots.

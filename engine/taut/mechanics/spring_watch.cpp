@@ -35,19 +35,18 @@ void SpringWatch<Real>::set(const SpringNetwork<Real>& network, std::span<const 
     const auto isWatched = [&](std::size_t first, std::size_t last) {
         return std::any_of(network.order.begin() + static_cast<std::ptrdiff_t>(first),
                            network.order.begin() + static_cast<std::ptrdiff_t>(last),
-                           [&](int s) { return s >= 0 && limits[static_cast<std::size_t>(s)].isAny(); });
+                           [&](int s) { return s >= 0 && limits[s].isAny(); });
     };
     for (std::size_t s = 0; s < limits.size(); ++s) change(network, static_cast<int>(s), limits[s]);
     parts_.clear();
     const auto firstSingle = static_cast<std::size_t>(network.placeOfSingles());
     for (const SpringChunk& chunk : network.chunks) {
         Part& part = parts_.emplace_back();
-        const SpringBlock &first = network.blocks[static_cast<std::size_t>(chunk.firstBlock)],
+        const SpringBlock &first = network.blocks[chunk.firstBlock],
                           &last = network.blocks[static_cast<std::size_t>(chunk.lastBlock) - 1];
         for (int r = first.firstRun; r < last.lastRun; ++r) {
             const auto at = static_cast<std::size_t>(network.placeOfRun(r));
-            if (isWatched(at, at + static_cast<std::size_t>(network.runs[static_cast<std::size_t>(r)].count)))
-                part.runs.push_back(r);
+            if (isWatched(at, at + static_cast<std::size_t>(network.runs[r].count))) part.runs.push_back(r);
         }
         if (!isWatched(firstSingle + static_cast<std::size_t>(first.firstSingle),
                        firstSingle + static_cast<std::size_t>(last.lastSingle)))
@@ -66,7 +65,7 @@ void SpringWatch<Real>::change(const SpringNetwork<Real>& network, int spring, c
 
 template <class Real>
 bool SpringWatch<Real>::isRunBeyond(const SpringNetwork<Real>& network, int r, int stride, const Real* x) const {
-    const SpringRun<Real>& run = network.runs[static_cast<std::size_t>(r)];
+    const SpringRun<Real>& run = network.runs[r];
     const auto at = static_cast<std::size_t>(network.placeOfRun(r));
     return run_({run.count, run.offset, stride, x + run.a, leastFrom(at), most_.data() + at});
 }
@@ -111,12 +110,11 @@ void SpringWatch<Real>::find(const SpringNetwork<Real>& network, int stride, con
         if (isHit_[k] == 0) continue;
         for (const int r : parts_[k].runs) {
             if (!isRunBeyond(network, r, stride, x)) continue;
-            const SpringRun<Real>& run = network.runs[static_cast<std::size_t>(r)];
+            const SpringRun<Real>& run = network.runs[r];
             for (int i = 0; i < run.count; ++i) lookAt(network.placeOfRun(r) + i, run.a + i, run.a + i + run.offset);
         }
         for (int i = parts_[k].firstSingle; i < parts_[k].lastSingle; ++i)
-            lookAt(network.placeOfSingles() + i, network.singles.a[static_cast<std::size_t>(i)],
-                   network.singles.b[static_cast<std::size_t>(i)]);
+            lookAt(network.placeOfSingles() + i, network.singles.a[i], network.singles.b[i]);
     }
     std::sort(beyond.begin() + static_cast<std::ptrdiff_t>(before), beyond.end());
 }

@@ -54,7 +54,7 @@ FrequencyBound overElements(const NetworkView& network, std::span<const double> 
     double largest = 0;
     for (std::size_t s = 0; s < network.springs.size(); ++s) {
         const Spring& spring = network.springs[s];
-        const double sum = atPoint[static_cast<std::size_t>(spring.a)] + atPoint[static_cast<std::size_t>(spring.b)];
+        const double sum = atPoint[spring.a] + atPoint[spring.b];
         if (sum > largest) {
             largest = sum;
             bound.spring = static_cast<int>(s);
@@ -63,7 +63,7 @@ FrequencyBound overElements(const NetworkView& network, std::span<const double> 
     bound.bySprings = largest >= more;
     for (const VolumeCell& cell : network.cells) {
         double sum = 0;
-        for (int i : cell.points) sum += atPoint[static_cast<std::size_t>(i)];
+        for (int i : cell.points) sum += atPoint[i];
         if (sum <= largest) continue;
         largest = sum;
         bound.bySprings = false;
@@ -74,8 +74,7 @@ FrequencyBound overElements(const NetworkView& network, std::span<const double> 
 
 void addOuter(Matrix& sum, double factor, const glm::dvec3& n) {
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            sum[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] += factor * n[i] * n[j];
+        for (int j = 0; j < 3; ++j) sum[i][j] += factor * n[i] * n[j];
 }
 void addToAll(Matrix& sum, double factor) {
     for (std::size_t i = 0; i < 3; ++i) sum[i][i] += factor;
@@ -100,7 +99,7 @@ struct PressureCouplings {
 
     explicit PressureCouplings(std::size_t points) : higher(points) {}
     void add(int a, int b, const glm::dvec3& h) {
-        auto& of = higher[static_cast<std::size_t>(std::min(a, b))];
+        auto& of = higher[std::min(a, b)];
         const int other = std::max(a, b);
         auto found = std::find_if(of.begin(), of.end(), [&](const auto& pair) { return pair.first == other; });
         if (found == of.end()) found = of.insert(found, {other, glm::dvec3(0.0)});
@@ -114,10 +113,9 @@ void addCell(std::vector<Matrix>& sum, const VolumeCell& cell, std::span<const d
     const auto add = [&](const auto& corners, const auto& gradients, double volume) {
         double weight = weights.empty() ? 1.0 : 0.0;
         if (!weights.empty())
-            for (std::size_t c : corners) weight += weights[static_cast<std::size_t>(cell.points[c])];
+            for (std::size_t c : corners) weight += weights[cell.points[c]];
         for (std::size_t k = 0; k < corners.size(); ++k)
-            addOuter(sum[static_cast<std::size_t>(cell.points[corners[k]])], weight * cell.bulkModulus / volume,
-                     gradients[k]);
+            addOuter(sum[cell.points[corners[k]]], weight * cell.bulkModulus / volume, gradients[k]);
     };
     add(cellCorners, gradientsOf(p), cell.restVolume);
     forEachFold(p, cell.restVolume,
@@ -160,14 +158,12 @@ std::vector<Matrix> stiffnessAtPoints(const NetworkView& network, std::span<cons
     std::vector<Matrix> sum(network.inverseMasses.size(), Matrix{});
     for (std::size_t s = 0; s < network.springs.size(); ++s) {
         const Spring& spring = network.springs[s];
-        const double factor =
-            weights.empty() ? 1.0
-                            : weights[static_cast<std::size_t>(spring.a)] + weights[static_cast<std::size_t>(spring.b)];
+        const double factor = weights.empty() ? 1.0 : weights[spring.a] + weights[spring.b];
         if (loose.empty() || !loose[s]) {
             addSpring(sum, spring, factor, positions);
         } else {
-            addToAll(sum[static_cast<std::size_t>(spring.a)], factor * spring.stiffness);
-            addToAll(sum[static_cast<std::size_t>(spring.b)], factor * spring.stiffness);
+            addToAll(sum[spring.a], factor * spring.stiffness);
+            addToAll(sum[spring.b], factor * spring.stiffness);
         }
     }
     for (const VolumeCell& cell : network.cells) addCell(sum, cell, weights, cornersOf(cell, positions));
@@ -235,8 +231,8 @@ FrequencyBound boundAnywhere(const NetworkView& network, std::span<const double>
     TAUT_EXPECTS(network.cells.empty());
     std::vector<double> sum(network.inverseMasses.size(), 0.0);
     for (const Spring& spring : network.springs) {
-        sum[static_cast<std::size_t>(spring.a)] += spring.stiffness;
-        sum[static_cast<std::size_t>(spring.b)] += spring.stiffness;
+        sum[spring.a] += spring.stiffness;
+        sum[spring.b] += spring.stiffness;
     }
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] *= network.inverseMasses[i];
     return overElements(network, sum, largestExtra(network, extraStiffness));
@@ -252,9 +248,8 @@ FrequencyBound boundWithin(const NetworkView& network, std::span<const double> e
     if (network.cells.empty()) return boundAnywhere(network, extraStiffness);
     std::vector<bool> isCorner(network.inverseMasses.size(), false), loose;
     for (const VolumeCell& cell : network.cells)
-        for (int i : cell.points) isCorner[static_cast<std::size_t>(i)] = true;
-    for (const Spring& spring : network.springs)
-        loose.push_back(!isCorner[static_cast<std::size_t>(spring.a)] || !isCorner[static_cast<std::size_t>(spring.b)]);
+        for (int i : cell.points) isCorner[i] = true;
+    for (const Spring& spring : network.springs) loose.push_back(!isCorner[spring.a] || !isCorner[spring.b]);
     FrequencyBound largest;
     std::vector<glm::dvec3> positions(restPositions.size());
     const auto lookAt = [&](const glm::dvec3& scale) {

@@ -89,9 +89,7 @@ void StateBound<Real>::setCells(std::span<const VolumeCell> cells, std::span<con
     rest_ = core::AlignedArray<Real>(3 * static_cast<std::size_t>(stride_));
     weights_ = core::AlignedArray<Real>(static_cast<std::size_t>(stride_));
     for (int axis = 0; axis < 3; ++axis)
-        for (int i = 0; i < points_; ++i)
-            rest_[static_cast<std::size_t>(axis * stride_ + i)] =
-                static_cast<Real>(restPositions[static_cast<std::size_t>(i)][axis]);
+        for (int i = 0; i < points_; ++i) rest_[axis * stride_ + i] = static_cast<Real>(restPositions[i][axis]);
     cells_.assign(cells.begin(), cells.end());
     looks_.resize(cells_.size());
     pairs_.clear();
@@ -107,7 +105,7 @@ void StateBound<Real>::setCells(std::span<const VolumeCell> cells, std::span<con
         }
     }
     pressed_.resize(pairs_.size());
-    rows_.resize(static_cast<std::size_t>(points_));
+    rows_.resize(points_);
 }
 
 template <class Real>
@@ -160,11 +158,11 @@ void StateBound<Real>::sumSingles(const SpringSingles<Real>& s, const Real* x, O
             }
         }
         for (int i = 0; i < n; ++i) {
-            k[i] = s.k[static_cast<std::size_t>(first + i)];
-            rest[i] = s.restLength[static_cast<std::size_t>(first + i)];
+            k[i] = s.k[first + i];
+            rest[i] = s.restLength[first + i];
             if (weights != nullptr) k[i] *= weights[a[i]] + weights[b[i]];
             if (what != Of::dashpots) continue;
-            k[i] *= s.tau[static_cast<std::size_t>(first + i)];
+            k[i] *= s.tau[first + i];
             rest[i] = std::numeric_limits<Real>::max();
         }
         const Real *const from[3] = {ends[0][0], ends[0][1], ends[0][2]}, *const to[3] = {ends[1][0], ends[1][1],
@@ -266,7 +264,7 @@ double StateBound<Real>::largestShare() const {
     return static_cast<double>(most);
 }
 
-// The largest row sum of what the cells' pressures add, see B2 in stability.h.
+// The largest row sum of the share of the cells' pressures, see B2 in stability.h.
 template <class Real>
 double StateBound<Real>::largestRow(const Real* inverseMass) {
     std::fill(pressed_.begin(), pressed_.end(), glm::dvec3(0.0));
@@ -277,7 +275,7 @@ double StateBound<Real>::largestRow(const Real* inverseMass) {
         const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0);
         for (std::size_t e = 0; e < cellPairs.size(); ++e) {
             const CellPair& pair = cellPairs[e];
-            pressed_[static_cast<std::size_t>(pairsOf_[c][e])] +=
+            pressed_[pairsOf_[c][e]] +=
                 (cell.points[pair.i] < cell.points[pair.j] ? pressure : -pressure) * pair.coupling(p);
         }
     }

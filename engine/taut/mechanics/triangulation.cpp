@@ -11,7 +11,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-// Places are whole numbers below 2³⁰, so that a turn has at most 62 bits and what is compared in a circle 125.
+// Places are whole numbers below 2³⁰, so that a turn has at most 62 bits and the terms of a circle 125.
 constexpr std::int64_t most = std::int64_t{1} << 30;
 
 }  // namespace
@@ -38,7 +38,7 @@ void Triangulation::keepRings(std::vector<int> next) {
 // The other corners of the triangles around a point of no ring, against the clock.
 template <class Visit>
 void Triangulation::eachAround(int point, const Visit& visit) const {
-    const int first = triangleOf_[static_cast<std::size_t>(point)];
+    const int first = triangleOf_[point];
     int t = first;
     do {
         const std::size_t k = slotOf(at(t), point);
@@ -54,8 +54,8 @@ void Triangulation::relax(std::span<glm::dvec2> points) {
         glm::dvec2 sum(0.0);  // of middles from here times four areas
         double area = 0;      // twice
         eachAround(static_cast<int>(i), [&](int a, int b) {
-            const glm::dvec2 p = points[static_cast<std::size_t>(a)] - points[i];
-            const glm::dvec2 q = points[static_cast<std::size_t>(b)] - points[i];
+            const glm::dvec2 p = points[a] - points[i];
+            const glm::dvec2 q = points[b] - points[i];
             const double pp = p.x * p.x + p.y * p.y, qq = q.x * q.x + q.y * q.y;
             sum += glm::dvec2(q.y * pp - p.y * qq, p.x * qq - q.x * pp);
             area += p.x * q.y - p.y * q.x;
@@ -63,10 +63,8 @@ void Triangulation::relax(std::span<glm::dvec2> points) {
         const glm::dvec2 to = points[i] + 0.5 / area * sum;
         const Place place = placeOf(to);
         bool turnsOver = false;
-        eachAround(static_cast<int>(i), [&](int a, int b) {
-            turnsOver = turnsOver ||
-                        turn(places_[static_cast<std::size_t>(a)], places_[static_cast<std::size_t>(b)], place) <= 0;
-        });
+        eachAround(static_cast<int>(i),
+                   [&](int a, int b) { turnsOver = turnsOver || turn(places_[a], places_[b], place) <= 0; });
         if (turnsOver) continue;
         points[i] = to;
         places_[i] = place;
@@ -96,17 +94,16 @@ std::int64_t Triangulation::turn(const Place& a, const Place& b, const Place& c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 std::int64_t Triangulation::turn(int a, int b, int c) const {
-    return turn(places_[static_cast<std::size_t>(a)], places_[static_cast<std::size_t>(b)],
-                places_[static_cast<std::size_t>(c)]);
+    return turn(places_[a], places_[b], places_[c]);
 }
 
 // Whether the point is within the circle through the corners, by the determinant of Guibas and Stolfi (1985).
 bool Triangulation::isInCircle(const Triangle& of, int point) const {
-    const Place& d = places_[static_cast<std::size_t>(point)];
+    const Place& d = places_[point];
     std::array<Place, 3> p{};
     std::array<std::int64_t, 3> square{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const Place& corner = places_[static_cast<std::size_t>(of.corners[k])];
+        const Place& corner = places_[of.corners[k]];
         p[k] = {corner.x - d.x, corner.y - d.y};
         square[k] = p[k].x * p[k].x + p[k].y * p[k].y;
     }
@@ -119,9 +116,7 @@ bool Triangulation::isInCircle(const Triangle& of, int point) const {
 }
 
 bool Triangulation::isKept(int a, int b) const {
-    const auto leads = [&](int from, int to) {
-        return from < static_cast<int>(next_.size()) && next_[static_cast<std::size_t>(from)] == to;
-    };
+    const auto leads = [&](int from, int to) { return from < static_cast<int>(next_.size()) && next_[from] == to; };
     return leads(a, b) || leads(b, a);
 }
 
@@ -132,7 +127,7 @@ std::size_t Triangulation::slotOf(const Triangle& triangle, int point) {
 // The triangle to the left of the way from a to b; -1: there is no such edge. Looks at those around a, against the
 // clock, and if that ends at the side of the square, with it.
 int Triangulation::triangleAt(int a, int b) const {
-    const int first = triangleOf_[static_cast<std::size_t>(a)];
+    const int first = triangleOf_[a];
     for (const std::size_t side : {1U, 2U}) {
         int t = first;
         do {
@@ -153,7 +148,7 @@ int Triangulation::apexBeyond(int t, std::size_t k) const {
 void Triangulation::set(int t, const std::array<int, 3>& corners, const std::array<int, 3>& beyond) {
     at(t).corners = corners;
     at(t).beyond = beyond;
-    for (const int corner : corners) triangleOf_[static_cast<std::size_t>(corner)] = t;
+    for (const int corner : corners) triangleOf_[corner] = t;
 }
 
 void Triangulation::relink(int t, int from, int to) {
@@ -182,7 +177,7 @@ void Triangulation::insert(int point) {
     relink(beyondA, t, u);
     relink(beyondB, t, v);
     restoreDelaunay({{a, b}, {b, c}, {c, a}});
-    last_ = triangleOf_[static_cast<std::size_t>(point)];
+    last_ = triangleOf_[point];
 }
 
 //       b              b
@@ -223,7 +218,7 @@ void Triangulation::restoreDelaunay(std::vector<Edge> edges) {
 // The edges that cross the way from a to b.
 std::vector<Triangulation::Edge> Triangulation::edgesAcross(int a, int b) const {
     // Among the triangles around a the one that the way leads through.
-    int t = triangleOf_[static_cast<std::size_t>(a)], right = 0, left = 0;
+    int t = triangleOf_[a], right = 0, left = 0;
     for (const int first = t;;) {
         const std::size_t k = slotOf(at(t), a);
         right = at(t).corners[(k + 1) % 3];
@@ -247,7 +242,7 @@ std::vector<Triangulation::Edge> Triangulation::edgesAcross(int a, int b) const 
     return edges;
 }
 
-// Flips what lies across the way from a to b until it is an edge (Sloan 1993).
+// Flips the edges across the line from a to b until it is an edge (Sloan 1993).
 void Triangulation::makeEdge(int a, int b) {
     if (triangleAt(a, b) >= 0) return;
     const std::vector<Edge> found = edgesAcross(a, b);
@@ -279,14 +274,14 @@ void Triangulation::makeEdge(int a, int b) {
 void Triangulation::dropOutside() {
     std::vector<bool> isKnown(triangles_.size(), false);
     std::deque<int> toDo{triangleOf_.back()};
-    at(toDo.front()).isDropped = isKnown[static_cast<std::size_t>(toDo.front())] = true;
+    at(toDo.front()).isDropped = isKnown[toDo.front()] = true;
     while (!toDo.empty()) {
         const int t = toDo.front();
         toDo.pop_front();
         for (std::size_t k = 0; k < 3; ++k) {
             const int u = at(t).beyond[k];
-            if (u < 0 || isKnown[static_cast<std::size_t>(u)]) continue;
-            isKnown[static_cast<std::size_t>(u)] = true;
+            if (u < 0 || isKnown[u]) continue;
+            isKnown[u] = true;
             at(u).isDropped = at(t).isDropped != isKept(at(t).corners[(k + 1) % 3], at(t).corners[(k + 2) % 3]);
             toDo.push_back(u);
         }

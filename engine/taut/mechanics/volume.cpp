@@ -68,7 +68,7 @@ void VolumePreservation<Real>::setBulkModuli(std::span<const VolumeCell> cells) 
     for (std::size_t lane = 0; lane < runs_.sources().size(); ++lane) {
         const int source = runs_.sources()[lane];
         if (source < 0) continue;
-        const VolumeCell& cell = cells_[static_cast<std::size_t>(source)];
+        const VolumeCell& cell = cells_[source];
         twelfthOfBulk_[lane] = static_cast<Real>(cell.bulkModulus / 12.0);
         inverseRestTwelvefold_[lane] = static_cast<Real>(1.0 / (12.0 * cell.restVolume));
     }
@@ -110,7 +110,7 @@ template <class Real>
 double VolumePreservation<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
     double energy = 0.0;
     for (const VolumeCell& cell : cells_) {
-        const auto isLeftOut = [&](int point) { return !only.empty() && !only[static_cast<std::size_t>(point)]; };
+        const auto isLeftOut = [&](int point) { return !only.empty() && !only[point]; };
         if (std::any_of(cell.points.begin(), cell.points.end(), isLeftOut)) continue;
         energy += volumeEnergy(cell, cornersOf(cell, motion.x, motion.stride));
     }

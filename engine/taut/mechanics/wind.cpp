@@ -50,7 +50,7 @@ Wind<Real>::Wind(const WindTargets& targets, const LinearPath& velocity, const W
     if (sides_.empty()) sides_.assign(triangles_.size(), 1.0);
     for (std::size_t lane = 0; lane < weight_.size(); ++lane) {
         const int source = runs_.sources()[lane];
-        weight_[lane] = source >= 0 ? static_cast<Real>(sides_[static_cast<std::size_t>(source)]) : Real(0);
+        weight_[lane] = source >= 0 ? static_cast<Real>(sides_[source]) : Real(0);
     }
     if (triangles_.empty()) return;
     firstPoint_ = triangles_[0][0];
@@ -266,8 +266,7 @@ void Wind<Real>::addStability(const Motion<Real>& motion, StabilityShare& share)
         const double area = 0.5 * glm::length(glm::cross(at(b) - at(a), at(c) - at(a)));
         const double damping =
             0.5 * settings_.airDensity * sides_[t] * area * speed * slope / 3.0;  // [kg/s] of a corner
-        for (int i : {a, b, c})
-            share.dampingRate[static_cast<std::size_t>(i)] += damping * static_cast<double>(motion.inverseMass[i]);
+        for (int i : {a, b, c}) share.dampingRate[i] += damping * static_cast<double>(motion.inverseMass[i]);
         if (plateAir_.empty()) continue;
         const Facet<double> facet(at(a), at(b), at(c));
         double steepness[3];
@@ -286,7 +285,7 @@ void Wind<Real>::addStability(const Motion<Real>& motion, StabilityShare& share)
         const double damping =
             0.5 * settings_.airDensity * std::abs(settings_.drag) * across * speed;  // [kg/s] of an end
         for (const int i : {round.a, round.b})
-            share.dampingRate[static_cast<std::size_t>(i)] += damping * static_cast<double>(motion.inverseMass[i]);
+            share.dampingRate[i] += damping * static_cast<double>(motion.inverseMass[i]);
     }
 }
 

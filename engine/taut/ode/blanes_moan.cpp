@@ -78,9 +78,9 @@ class BlanesMoan final : public Method<Real> {
                 const double at = t + s6.time[i] * h;
                 predict(i, h, n);
                 system.prescribe(at, x, seen_.data());
-                evaluate(system, at, x, seen_.data(), slopes_[static_cast<std::size_t>(i)].data());
+                evaluate(system, at, x, seen_.data(), slopes_[i].data());
             }
-            add(n, s6.kick[i] * h, slopes_[static_cast<std::size_t>(i)].data(), v);
+            add(n, s6.kick[i] * h, slopes_[i].data(), v);
             if (i + 1 < kicks) add(n, s6.drift[i] * h, v, x);
         }
         std::copy_n(slopes_.back().data(), n, state.memory[slope].data());
@@ -118,8 +118,7 @@ class BlanesMoan final : public Method<Real> {
     // Computes w_i -> seen_.
     void predict(int i, double h, std::size_t n) {
         std::copy_n(start_.data(), n, seen_.data());
-        for (int j = 0; j < i; ++j)
-            add(n, s6.ahead[i][j] * h, slopes_[static_cast<std::size_t>(j)].data(), seen_.data());
+        for (int j = 0; j < i; ++j) add(n, s6.ahead[i][j] * h, slopes_[j].data(), seen_.data());
     }
 
     // to += h from

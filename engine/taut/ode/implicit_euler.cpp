@@ -87,8 +87,7 @@ class ImplicitEuler final : public Method<Real> {
 
     void touch(State<Real>& state, std::span<const int> points) override {
         for (int p = 0; p < state.layout.planes; ++p)
-            for (int i : points)
-                state.memory[0][static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * state.layout.stride + i)] = 0;
+            for (int i : points) state.memory[0][static_cast<std::ptrdiff_t>(p) * state.layout.stride + i] = 0;
     }
 
   private:

@@ -111,7 +111,7 @@ class Leapfrog final : public Method<Real> {
         void take(int first, int last, const Real* const* a) override {
             for (int p = 0; p < this->layout.planes; ++p)
                 for (int i = first; i < last; ++i) {
-                    Real& v = state.v[static_cast<std::size_t>(this->plane(p) + i)];
+                    Real& v = state.v[this->plane(p) + i];
                     v -= Real(0.5) * h * (a[p][i - first] - drag[i] * v);
                 }
         }
@@ -125,7 +125,7 @@ class Leapfrog final : public Method<Real> {
         void take(int first, int last, const Real* const* a) override {
             for (int p = 0; p < this->layout.planes; ++p)
                 for (int i = first; i < last; ++i) {
-                    const Real before = state.v[static_cast<std::size_t>(this->plane(p) + i)];
+                    const Real before = state.v[this->plane(p) + i];
                     const auto k = static_cast<std::size_t>(i);
                     const Real after = this->method.keep_[k] * before + this->method.gain_[k] * a[p][i - first];
                     out[this->plane(p) + i] = Real(0.5) * (before + after);

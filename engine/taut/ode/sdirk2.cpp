@@ -18,7 +18,6 @@
 // s. The forces are taken where the points will be, so a stage also undoes most of the stretch that motion across a
 // spring causes. This keeps very stiff springs calm. Places predicted by a slope would be off by more than that.
 #include <algorithm>
-#include <cmath>
 
 #include "taut/ode/private/implicit_solve.h"
 
@@ -73,8 +72,7 @@ class Sdirk2 final : public Method<Real> {
 
     void touch(State<Real>& state, std::span<const int> points) override {
         for (int p = 0; p < state.layout.planes; ++p)
-            for (int i : points)
-                state.memory[0][static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * state.layout.stride + i)] = 0;
+            for (int i : points) state.memory[0][static_cast<std::ptrdiff_t>(p) * state.layout.stride + i] = 0;
     }
 
   private:

@@ -6,18 +6,18 @@
 // once h times this rate is large. So a strong dashpot sets the step although it moves nothing. An implicit step would
 // have to solve for all points at once.
 //
-// What is split. The kick, at fixed positions, solves v' = A v + r(t, x, v) - γ v. A is the sum of the dashpots. Each
+// The split. The kick, at fixed positions, solves v' = A v + r(t, x, v) - γ v. A is the sum of the dashpots. Each
 // dashpot acts on only two points, so each alone is solved in closed form (mechanics/dashpot_sweep.h).
 //   D    half a step of most dashpots, one after the other
 //   R    a whole step of the forces r and the drag γ, which constraints share out; then of dashpots solved as chains
 //   D*   half a step of the dashpots of D, in the opposite order: the adjoint of D
 //
-// What order it keeps. D alone composes flows that do not commute: order 1 (Lie and Trotter). D* R D is the same in
+// The order. D alone composes flows that do not commute: order 1 (Lie and Trotter). D* R D is the same in
 // both directions if R is, and a symmetric method has even order: 2 (Strang 1968; Hairer, Lubich and Wanner, Geometric
 // Numerical Integration, II.5). In R, drag takes the mean of the velocities before and after it, and chains take the
 // mean of the velocities before the kick and after the chains. Each alone is symmetric. If drag and chains act on the
-// same points, an error of first order remains: γ h/2 of what the chains do. Forces that depend on velocity take w,
-// which is extrapolated to the time of the positions with an error O(h²).
+// same points, an error of first order remains: γ h/2 of the effect of the chains. Forces that depend on velocity take
+// w, which is extrapolated to the time of the positions with an error O(h²).
 //
 // Why it is stable. D and D* never raise the kinetic energy, for any h and any c. Without them the method is leap-frog.
 // For large h c they are wrong only in how fast they damp. So the dashpots limit the step by accuracy, not by stability

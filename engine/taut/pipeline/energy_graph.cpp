@@ -50,7 +50,7 @@ void paintLegend(Painting& painting, const PictureBox& box, float em, const Mome
     const float type = legendType * em, half = 0.5F * (box.high.x - box.low.x - legendGap * em);
     constexpr std::array order{2, 1, 0, 3};  // kinetic, elastic / gravity, total
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const Curve& curve = curves[static_cast<std::size_t>(order[i])];
+        const Curve& curve = curves[order[i]];
         const float left = box.low.x + static_cast<float>(i % 2) * (half + legendGap * em);
         const float y = box.high.y + (1.35F + 1.35F * static_cast<float>(i / 2)) * em;
         const float middle = y - 0.32F * type;

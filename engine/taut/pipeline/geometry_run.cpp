@@ -24,7 +24,7 @@ struct Delivery {
     std::vector<world::PointsNow> points;  // (targets)
 };
 
-// The simulating side; what it learns may be asked for when it has ended.
+// The simulating side; its results are valid after it has ended.
 class Source {
   public:
     Source(world::World& world, const GeometryRun& run, bool needsPoints, const std::atomic<bool>& stop)

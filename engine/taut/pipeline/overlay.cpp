@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -21,7 +19,7 @@ constexpr float plateStrength = 0.84F;
 constexpr float panelWidth = 19.5F, edge = 0.8F, margin = 0.8F, lineHeight = 1.4F, graphHeight = 5.2F;
 constexpr float largestPart = 0.6F;  // of a picture's height that figures and graph may take
 
-// What lay under a box before it was painted over.
+// The picture under a box before it was painted over.
 class Behind {
   public:
     Behind(const image::Image& picture, const PictureBox& box) {
@@ -34,7 +32,7 @@ class Behind {
         }
     }
 
-    // `opacity` of what is painted now.
+    // `opacity` of the present painting.
     void shineThrough(image::Image& picture, float opacity) const {
         std::size_t i = 0;
         for (int y = low_.y; y < high_.y; ++y) {

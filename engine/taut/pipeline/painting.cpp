@@ -59,8 +59,7 @@ std::array<std::array<std::uint8_t, 256>, 3> Painting::mixed(const glm::vec3& li
     std::array<std::array<std::uint8_t, 256>, 3> table{};
     for (int c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < 256; ++i)
-            table[static_cast<std::size_t>(c)][i] =
-                curve().byte(glm::mix(curve().light(static_cast<std::uint8_t>(i)), light[c], part));
+            table[c][i] = curve().byte(glm::mix(curve().light(static_cast<std::uint8_t>(i)), light[c], part));
     return table;
 }
 
@@ -125,8 +124,7 @@ void Painting::text(glm::vec2 at, Side side, std::string_view text, float pixels
     const glm::vec3 light = lightOf(ink);
     for (int y = 0; y < letters.height; ++y)
         for (int x = 0; x < letters.width; ++x)
-            lay(left + x, top + y, light,
-                static_cast<float>(letters.letters[static_cast<std::size_t>(y * letters.width + x)]) / 255.0F);
+            lay(left + x, top + y, light, static_cast<float>(letters.letters[y * letters.width + x]) / 255.0F);
 }
 
 void Painting::pair(float left, float right, float baseLine, std::string_view name, Ink nameInk, std::string_view value,

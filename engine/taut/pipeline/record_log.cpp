@@ -99,7 +99,7 @@ void writeWords(int descriptor, off_t at, std::span<const Word> words, const std
         if (done < 0 && errno == EINTR) continue;
         if (done < 0) fail(path, "write", errno);
         at += done;
-        bytes = bytes.subspan(static_cast<std::size_t>(done));
+        bytes = bytes.subspan(done);
     }
 }
 
@@ -112,7 +112,7 @@ bool readWords(int descriptor, off_t at, std::span<Word> words, const std::files
         if (got < 0) fail(path, "read", errno);
         if (got == 0) return false;
         at += got;
-        bytes = bytes.subspan(static_cast<std::size_t>(got));
+        bytes = bytes.subspan(got);
     }
     return true;
 }
@@ -127,8 +127,8 @@ int namelessFile() {
 
 }  // namespace
 
-RecordLog::RecordLog(int descriptor, std::filesystem::path path) : descriptor_(descriptor), path_(std::move(path)) {
-    if (descriptor_ < 0) fail(path_, "open the records of frames", errno);
+RecordLog::RecordLog(int descriptor, std::filesystem::path path) : file_(descriptor), path_(std::move(path)) {
+    if (descriptor < 0) fail(path_, "open the records of frames", errno);
 }
 
 RecordLog::RecordLog(const FigureColumns& figures) : RecordLog(namelessFile(), "records of frames") {
@@ -144,7 +144,7 @@ RecordLog::RecordLog(const std::filesystem::path& path, const FigureColumns& fig
 void RecordLog::begin(const FigureColumns& figures) {
     figures_ = figures;
     const Word head[headWords] = {mark, version, fixedWords(), figures.count, figures.key};
-    writeWords(descriptor_, 0, head, path_);
+    writeWords(file_.get(), 0, head, path_);
 }
 
 std::size_t RecordLog::recordWords() const {
@@ -158,7 +158,7 @@ RecordLog RecordLog::opened(const std::filesystem::path& path, int mode, std::si
         throw core::Error(core::ErrorKind::badContent, fmt::format("{}: the records are missing", path.string()));
     RecordLog log(descriptor, path);
     Word head[headWords] = {};
-    if (!readWords(log.descriptor_, 0, head, path) || head[0] != mark || head[1] != version ||
+    if (!readWords(log.file_.get(), 0, head, path) || head[0] != mark || head[1] != version ||
         head[2] != fixedWords() || head[3] > mostFigures)
         throw core::Error(core::ErrorKind::badContent,
                           fmt::format("{}: these are no records of frames that this taut reads", path.string()));
@@ -170,7 +170,7 @@ RecordLog RecordLog::opened(const std::filesystem::path& path, int mode, std::si
 RecordLog RecordLog::continuing(const std::filesystem::path& path, std::size_t count, const FigureColumns& figures) {
     RecordLog log = opened(path, O_RDWR, count);
     if (log.figures_ == figures) {
-        if (::ftruncate(log.descriptor_, placeOf(count, log.recordWords())) != 0) fail(path, "write", errno);
+        if (::ftruncate(log.file_.get(), placeOf(count, log.recordWords())) != 0) fail(path, "write", errno);
         return log;
     }
     // Under another name until all of them are there.
@@ -202,46 +202,24 @@ std::uint64_t RecordLog::digestOf(const std::filesystem::path& path, std::size_t
 void RecordLog::readDigest(std::size_t count) {
     std::vector<Word> words(recordWords());
     for (; size_ < count; ++size_) {
-        if (!readWords(descriptor_, placeOf(size_, recordWords()), words, path_))
+        if (!readWords(file_.get(), placeOf(size_, recordWords()), words, path_))
             throw core::Error(core::ErrorKind::badContent,
                               fmt::format("{}: the records end with frame {}", path_.string(), size_));
         for (std::size_t i = 0; i < fixedWords(); ++i) digest_.add(words[i]);
     }
 }
 
-RecordLog::RecordLog(RecordLog&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      path_(std::move(other.path_)),
-      isNameless_(other.isNameless_),
-      figures_(other.figures_),
-      size_(other.size_),
-      digest_(other.digest_) {}
-
-RecordLog& RecordLog::operator=(RecordLog&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    std::swap(path_, other.path_);
-    std::swap(isNameless_, other.isNameless_);
-    std::swap(figures_, other.figures_);
-    std::swap(size_, other.size_);
-    std::swap(digest_, other.digest_);
-    return *this;
-}
-
-RecordLog::~RecordLog() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 void RecordLog::moveToMemory() {
     isNameless_ = false;
-    const int memory = ::memfd_create("records", MFD_CLOEXEC);
-    if (memory < 0) fail(path_, "keep the records of frames", errno);
+    core::FileDescriptor memory(::memfd_create("records", MFD_CLOEXEC));
+    if (memory.get() < 0) fail(path_, "keep the records of frames", errno);
     std::vector<Word> words(headWords);
     for (off_t at = 0; at < placeOf(size_, recordWords()); at += static_cast<off_t>(words.size() * sizeof(Word))) {
         words.resize(at == 0 ? headWords : recordWords());
-        if (!readWords(descriptor_, at, words, path_)) fail(path_, "read", EIO);
-        writeWords(memory, at, words, path_);
+        if (!readWords(file_.get(), at, words, path_)) fail(path_, "read", EIO);
+        writeWords(memory.get(), at, words, path_);
     }
-    ::close(std::exchange(descriptor_, memory));
+    file_ = std::move(memory);
 }
 
 void RecordLog::add(const FrameRecord& record) {
@@ -251,11 +229,11 @@ void RecordLog::add(const FrameRecord& record) {
     for (const Word word : words) digest_.add(word);
     for (const double figure : record.figures) words.push_back(wordOf(figure));
     try {
-        writeWords(descriptor_, placeOf(size_, recordWords()), words, path_);
+        writeWords(file_.get(), placeOf(size_, recordWords()), words, path_);
     } catch (const core::Error&) {
         if (!isNameless_) throw;
         moveToMemory();  // the disk is full that nobody asked to write to
-        writeWords(descriptor_, placeOf(size_, recordWords()), words, path_);
+        writeWords(file_.get(), placeOf(size_, recordWords()), words, path_);
     }
     ++size_;
 }
@@ -263,7 +241,7 @@ void RecordLog::add(const FrameRecord& record) {
 FrameRecord RecordLog::operator[](std::size_t frame) const {
     TAUT_EXPECTS(frame < size_);
     std::vector<Word> words(recordWords());
-    if (!readWords(descriptor_, placeOf(frame, recordWords()), words, path_)) fail(path_, "read", EIO);
+    if (!readWords(file_.get(), placeOf(frame, recordWords()), words, path_)) fail(path_, "read", EIO);
     return recordIn(words, frame);
 }
 

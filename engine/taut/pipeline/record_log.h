@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "taut/core/private/file_descriptor.h"
 #include "taut/core/private/hash.h"
 #include "taut/island/report.h"
 
@@ -50,10 +51,6 @@ class RecordLog {
     // digest() of the first `count`.
     static std::uint64_t digestOf(const std::filesystem::path& path, std::size_t count);
 
-    RecordLog(RecordLog&& other) noexcept;
-    RecordLog& operator=(RecordLog&& other) noexcept;
-    ~RecordLog();
-
     void add(const FrameRecord& record);  // expects that its frame is the next, and its figures as many as columns
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
@@ -72,7 +69,7 @@ class RecordLog {
     void readDigest(std::size_t count);
     void addAll(const RecordLog& other);
 
-    int descriptor_ = -1;
+    core::FileDescriptor file_;
     std::filesystem::path path_;  // for messages
     bool isNameless_ = false;     // and not yet in memory
     FigureColumns figures_;

@@ -22,7 +22,7 @@ namespace {
     throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", folder.string(), what));
 }
 
-// The key and the name of the run that holds the folder; what is longer is cut.
+// The key and the name of the run that holds the folder; longer ones are cut.
 std::string contentOf(int descriptor) {
     char text[512];
     const ssize_t got = ::pread(descriptor, text, sizeof text, 0);
@@ -59,29 +59,22 @@ std::string nameIn(const std::string& content) {
 
 }  // namespace
 
-RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party, const std::string& part)
-    : path_(folder / (part.empty() ? ".taut-lock" : ".taut-lock_" + part)) {
-    hasMadeFolder_ = !core::isThere(folder);
-    core::prepareFolderOf(path_);
+RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party, const std::string& part) {
+    const std::filesystem::path path = folder / (part.empty() ? ".taut-lock" : ".taut-lock_" + part);
+    const bool hasMadeFolder = !core::isThere(folder);
+    core::prepareFolderOf(path);
     std::string other;
     // A part is refused for a moment while the first is saying who it is.
     for (int refusals = 0; refusals < 20;) {
-        const int descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-        if (descriptor < 0) fail(folder, fmt::format("cannot make {}: {}", path_.string(), std::strerror(errno)));
-        Turn turn = Turn::refused;
-        try {
-            turn = takeTurn(descriptor, path_, party);
-        } catch (...) {
-            ::close(descriptor);
-            throw;
-        }
+        core::FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
+        if (file.get() < 0) fail(folder, fmt::format("cannot make {}: {}", path.string(), std::strerror(errno)));
+        const Turn turn = takeTurn(file.get(), path, party);
         if (turn == Turn::taken || turn == Turn::unlocked) {
-            descriptor_ = descriptor;
+            held_ = std::unique_ptr<Held>(new Held{std::move(file), path, hasMadeFolder});
             excludesOthers_ = turn == Turn::taken;
             return;
         }
-        other = contentOf(descriptor);
-        ::close(descriptor);
+        other = contentOf(file.get());
         if (turn == Turn::again) continue;
         ++refusals;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -92,28 +85,12 @@ RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party, con
                              nameIn(other)));
 }
 
-RunLock::RunLock(RunLock&& other) noexcept
-    : path_(std::move(other.path_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      hasMadeFolder_(other.hasMadeFolder_),
-      excludesOthers_(other.excludesOthers_) {}
-
-RunLock& RunLock::operator=(RunLock&& other) noexcept {
-    std::swap(path_, other.path_);
-    std::swap(descriptor_, other.descriptor_);
-    std::swap(hasMadeFolder_, other.hasMadeFolder_);
-    std::swap(excludesOthers_, other.excludesOthers_);
-    return *this;
-}
-
-RunLock::~RunLock() {
-    if (descriptor_ < 0) return;
+RunLock::Held::~Held() {
     // The last one takes the file away: who has opened it meanwhile sees that it is no longer the one of that name.
-    if (core::tryLock(descriptor_, core::FileLock::exclusive) != core::LockOutcome::refused &&
-        core::isNamed(descriptor_, path_))
-        ::unlink(path_.c_str());
-    if (hasMadeFolder_) ::rmdir(path_.parent_path().c_str());  // refused where there is something
-    ::close(descriptor_);
+    if (core::tryLock(file.get(), core::FileLock::exclusive) != core::LockOutcome::refused &&
+        core::isNamed(file.get(), path))
+        ::unlink(path.c_str());
+    if (hasMadeFolder) ::rmdir(path.parent_path().c_str());  // refused where there is something
 }
 
 }  // namespace taut::pipeline

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+
+#include "taut/core/private/file_descriptor.h"
 
 namespace taut::pipeline {
 
@@ -23,17 +26,18 @@ class RunLock {
     // Makes the folder. Throws core::Error(inputOutput): another run writes there, or the folder cannot be written.
     RunLock(const std::filesystem::path& folder, const RunParty& party, const std::string& part = {});
 
-    RunLock(RunLock&& other) noexcept;
-    RunLock& operator=(RunLock&& other) noexcept;
-    ~RunLock();
-
-    std::filesystem::path folder() const { return path_.parent_path(); }
+    std::filesystem::path folder() const { return held_ ? held_->path.parent_path() : std::filesystem::path(); }
     bool excludesOthers() const { return excludesOthers_; }  // false on a file system that knows no locks
 
   private:
-    std::filesystem::path path_;
-    int descriptor_ = -1;
-    bool hasMadeFolder_ = false;  // it is removed again if it is still empty
+    struct Held {
+        core::FileDescriptor file;
+        std::filesystem::path path;
+        bool hasMadeFolder;  // it is removed again if it is still empty
+
+        ~Held();
+    };
+    std::unique_ptr<Held> held_;
     bool excludesOthers_ = true;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -73,7 +72,7 @@ PartRecord recordIn(const Json& json, const std::filesystem::path& path) {
     return record;
 }
 
-// What a file of that name records; none for other names. All of a run has no frames in its name.
+// The frames that a file of that name records; none for other names. All of a run has no frames in its name.
 bool isRecordName(const std::string& name) {
     if (name == "run.json") return true;
     if (!name.starts_with("run_") || !name.ends_with(".json")) return false;
@@ -117,7 +116,7 @@ PartRecord readPartRecord(const std::filesystem::path& path) {
 
 namespace {
 
-// Those of pictures, and those that cannot be read.
+// The records of pictures, and unreadable ones.
 std::vector<PartRecord> recordsIn(const std::filesystem::path& folder) {
     std::vector<PartRecord> records;
     std::error_code ignored;  // a missing folder has none
@@ -157,7 +156,7 @@ std::vector<PartRecord> partRecords(const image::FramePattern& pattern) {
     return records;
 }
 
-std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesDrawers) {
+std::string differenceOf(const PartRecord& a, const PartRecord& b) {
     if (a.bits != b.bits) return fmt::format("results of bits {} and {}", a.bits, b.bits);
     if (a.size != b.size) return fmt::format("{} and {} pixels", a.size, b.size);
     if (a.fps != b.fps) return fmt::format("{} and {} pictures a second", a.fps, b.fps);
@@ -165,9 +164,8 @@ std::string differenceOf(const PartRecord& a, const PartRecord& b, bool compares
     if (a.key.empty() || a.key != b.key)
         return a.scene == b.scene ? "other settings of scene, timeline or look"
                                   : fmt::format("scenes {} and {}", a.scene, b.scene);
-    if (comparesDrawers && a.program != b.program) return fmt::format("drawn by {} and by {}", a.program, b.program);
-    if (comparesDrawers && a.renderer != b.renderer)
-        return fmt::format("drawn by {} and by {}", a.renderer, b.renderer);
+    if (a.program != b.program) return fmt::format("drawn by {} and by {}", a.program, b.program);
+    if (a.renderer != b.renderer) return fmt::format("drawn by {} and by {}", a.renderer, b.renderer);
     const auto [x, y] = std::mismatch(
         a.hashes.begin(), a.hashes.begin() + static_cast<std::ptrdiff_t>(std::min(a.hashes.size(), b.hashes.size())),
         b.hashes.begin());

@@ -57,9 +57,8 @@ std::vector<PartRecord> partRecords(const image::FramePattern& pattern);
 std::vector<std::string> recordedFiles(const std::filesystem::path& folder);
 
 // How two records show that they are not of one run: "scenes flag.toml and drape.toml", "64 x 48 and 32 x 24 pixels",
-// "other states from frame 12 on"; empty if they can be of one run. Renderers and versions of the program are compared
-// if asked for.
-std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesDrawers = true);
+// "other states from frame 12 on"; empty if they can be of one run.
+std::string differenceOf(const PartRecord& a, const PartRecord& b);
 
 struct FrameSpan {
     std::int64_t first = 0, last = 0;  // included

@@ -81,7 +81,7 @@ Json frozenJson(const world::World& world) {
     return all;
 }
 
-// Of the methods: force evaluations, and what the solver of an implicit one did.
+// Of the methods: force evaluations, and the work of the solver of implicit ones.
 Json workJson(const ode::Work& work) {
     return {{"evaluations", work.evaluations},
             {"solver_iterations", work.iterations},

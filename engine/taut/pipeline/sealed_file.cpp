@@ -80,7 +80,7 @@ std::vector<std::byte> unsealed(const SealedKind& kind, std::span<const std::byt
     if (size > kind.maxContent)
         refuse(name, fmt::format("unpacked, this {} would take {:.4g} MB; up to {:.4g} MB are taken", kind.title,
                                  1e-6 * static_cast<double>(size), 1e-6 * static_cast<double>(kind.maxContent)));
-    std::vector<std::byte> content(static_cast<std::size_t>(size));
+    std::vector<std::byte> content(size);
     const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
         libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
     if (libdeflate_deflate_decompress(decompressor.get(), packed.data(), packed.size(), content.data(), content.size(),

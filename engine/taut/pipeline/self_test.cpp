@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
 
 #include "taut/core/error.h"
 #include "taut/view/frame_view.h"
@@ -90,7 +89,7 @@ TestDrawing drawTest(render::Renderer& renderer, int times) {
         seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     }
     std::nth_element(seconds.begin(), seconds.begin() + times / 2, seconds.end());
-    drawing.seconds = seconds[static_cast<std::size_t>(times / 2)];
+    drawing.seconds = seconds[times / 2];
     return drawing;
 }
 

@@ -38,8 +38,8 @@ class Constraint {
         std::span<const dvec3> from;          // [m] when the step began: gradients there keep momentum
         std::span<dvec3> x;                   // [m]
         std::span<dvec3> v;                   // [m/s] at the time of x
-        // (ties) Adds to this what each tie pulls its first end with: mass times change of x [kg m] or of v [kg m/s]. A
-        // constraint of one tie may leave it alone; its points tell.
+        // (ties) Adds to this the pull of each tie on its first end: mass times change of x [kg m] or of v [kg m/s]. A
+        // constraint of one tie may omit it; it follows from its points.
         std::span<dvec3> pull;
         double time = 0;  // [s] of x and v
     };
@@ -55,7 +55,7 @@ class Constraint {
     virtual bool projectVelocities(const Moment& moment) = 0;
 
     // Torques between two bodies about an axis that both share, once a step. The axis goes through the first two spots
-    // of a body, the third is beside it; at the start those of both bodies are the same places.
+    // of a body, the third is beside it; at the start the spots of a and b are the same places.
     struct Drive {
         std::array<Spot, 3> a, b;    // numbers as in Moment
         double damping = 0;          // [N m s]
@@ -87,17 +87,17 @@ class Constraint {
     // no b is the a of a later pair. None if it holds nothing.
     virtual std::optional<std::vector<Pair>> joinedFrom(double /*t*/) const { return std::nullopt; }
 
-    // Number of its ties, with those that have let go. They are numbered from 0.
+    // Number of its ties, with the released ones. They are numbered from 0.
     virtual int size() const { return 1; }
     // The largest |l - L|/L of ties whose ends all count. Both arrays as in Moment.
     virtual double strain(std::span<const dvec3> /*x*/, const std::vector<bool>& /*counts*/) const { return 0.0; }
-    // What forces along ties add to ω² of points that turn about them. forces: (ties) [N]; the other arrays as in
+    // The share of forces along ties in ω² of points that turn about them. forces: (ties) [N]; the other arrays as in
     // Moment.
     virtual double turning(std::span<const dvec3> /*x*/, std::span<const double> /*inverseMass*/,
                            std::span<const dvec3> /*forces*/) const {
         return 0.0;
     }
-    // Whether a collider carries this point of the plan by it, so that other points do not matter.
+    // Whether it ties this point of the plan to a collider, so that other points do not matter.
     virtual bool carries(int /*point*/) const { return false; }
     // Whether a part of it waits for a time up to t [s]. begin() starts it between ticks, from x [m] of the plan.
     virtual bool isDue(double /*t*/) const { return false; }
@@ -107,8 +107,8 @@ class Constraint {
     // Throws core::Error(badContent) if it can never hold.
     virtual void check() const {}
 
-    // A tie that has let go stays so.
-    bool holds(int tie = 0) const { return gone_.empty() || !gone_[static_cast<std::size_t>(tie)]; }
+    // A released tie stays released.
+    bool holds(int tie = 0) const { return gone_.empty() || !gone_[tie]; }
     void letGo(int tie);
     int count() const { return size() - static_cast<int>(std::count(gone_.begin(), gone_.end(), true)); }  // that hold
 
@@ -117,16 +117,16 @@ class Constraint {
     virtual std::shared_ptr<Constraint> copy() const = 0;
 
   protected:
-    virtual void visitOwn(StateBytes&) {}  // besides the ties that have let go
-    virtual void tiesChanged() {}          // some ties have let go
+    virtual void visitOwn(StateBytes&) {}  // besides the released ties
+    virtual void tiesChanged() {}          // some ties were released
 
   private:
-    std::vector<bool> gone_;  // (ties) whether it has let go; empty: none has
+    std::vector<bool> gone_;  // (ties) whether it was released; empty: none
 };
 
 inline void Constraint::letGo(int tie) {
-    gone_.resize(static_cast<std::size_t>(size()), false);
-    gone_[static_cast<std::size_t>(tie)] = true;
+    gone_.resize(size(), false);
+    gone_[tie] = true;
     tiesChanged();
 }
 
@@ -139,7 +139,7 @@ inline void Constraint::visit(StateBytes& bytes) {
     visitOwn(bytes);
 }
 
-// Implements what is the same for every constraint.
+// Implements the members that are the same for every constraint.
 template <class Own>
 class ConstraintOf : public Constraint {
   public:

@@ -37,7 +37,7 @@ namespace {
 
 // Whether the grip belongs to this tie alone or serves several, this one among them.
 bool isOf(const Grip& grip, const IslandPlan& plan, const JointTie& tie) {
-    if (grip.tie >= 0) return &plan.ties[static_cast<std::size_t>(grip.tie)] == &tie;
+    if (grip.tie >= 0) return &plan.ties[grip.tie] == &tie;
     return grip.ofCollider && grip.holder == tie.collider &&
            std::binary_search(grip.points.begin(), grip.points.end(), tie.a);
 }
@@ -46,13 +46,10 @@ bool isOf(const Grip& grip, const IslandPlan& plan, const JointTie& tie) {
 
 bool holds(const IslandPlan& plan, const JointTie& tie) {
     return std::any_of(
-               tie.springs.begin(), tie.springs.end(),
-               [&](int s) { return !plan.broken[static_cast<std::size_t>(s)]; }) ||
+               tie.springs.begin(), tie.springs.end(), [&](int s) { return !plan.broken[s]; }) ||
            std::any_of(
                tie.parts.begin(), tie.parts.end(),
-               [&](const JointTie::Part& part) {
-                   return plan.constraints[static_cast<std::size_t>(part.constraint)]->holds(part.tie);
-               }) ||
+               [&](const JointTie::Part& part) { return plan.constraints[part.constraint]->holds(part.tie); }) ||
            (tie.isGrip &&
             std::any_of(
                 plan.grips.begin(), plan.grips.end(), [&](const Grip& grip) { return isOf(grip, plan, tie); }));
@@ -62,11 +59,11 @@ bool letGo(IslandPlan& plan, std::size_t number) {
     const JointTie& tie = plan.ties[number];
     if (!holds(plan, tie)) return false;
     for (const int s : tie.springs) {
-        plan.broken[static_cast<std::size_t>(s)] = true;
-        plan.springs[static_cast<std::size_t>(s)].stiffness = 0;
+        plan.broken[s] = true;
+        plan.springs[s].stiffness = 0;
     }
     for (const JointTie::Part& part : tie.parts) {
-        auto& constraint = plan.constraints[static_cast<std::size_t>(part.constraint)];
+        auto& constraint = plan.constraints[part.constraint];
         std::shared_ptr<Constraint> changed = constraint->copy();
         changed->letGo(part.tie);
         constraint = std::move(changed);
@@ -90,9 +87,9 @@ void takeSpringsFromModels(IslandPlan& plan) {
     for (std::size_t s = 0; s < plan.springs.size(); ++s) {
         const SpringOrigin& origin = plan.origins[s];
         if (origin.body < 0 || plan.broken[s]) continue;
-        const mechanics::Model& model = plan.bodies[static_cast<std::size_t>(origin.body)]->model;
-        plan.springs[s].stiffness = model.springs[static_cast<std::size_t>(origin.spring)].stiffness;
-        plan.springs[s].dampingTime = model.springs[static_cast<std::size_t>(origin.spring)].dampingTime;
+        const mechanics::Model& model = plan.bodies[origin.body]->model;
+        plan.springs[s].stiffness = model.springs[origin.spring].stiffness;
+        plan.springs[s].dampingTime = model.springs[origin.spring].dampingTime;
     }
     // The drag of welded points is weighted by mass, as in the planner.
     std::vector<double> mass(plan.points.size(), 0.0);
@@ -122,7 +119,7 @@ std::vector<mechanics::VolumeCell> cellsOf(const Body& body) {
     for (std::size_t c = 0; c < body.model.cells.size(); ++c) {
         if (body.damage.isCellGone(c)) continue;
         cells.push_back(body.model.cells[c]);
-        for (int& i : cells.back().points) i = body.pointOf[static_cast<std::size_t>(i)];
+        for (int& i : cells.back().points) i = body.pointOf[i];
     }
     return cells;
 }
@@ -147,7 +144,7 @@ HeldPoints heldPointsOf(const IslandPlan& plan, const Body& body) {
     const std::vector<bool> isHeld = heldPointsOf(plan);
     HeldPoints of;
     for (std::size_t i = 0; i < body.pointOf.size(); ++i) {
-        of.isHeld.push_back(isHeld[static_cast<std::size_t>(body.pointOf[i])]);
+        of.isHeld.push_back(isHeld[body.pointOf[i]]);
         of.isClamped.push_back(of.isHeld[i] && !body.clamped.empty() && body.clamped[i]);
     }
     return of;
@@ -197,15 +194,15 @@ std::vector<bool> heldPointsOf(const IslandPlan& plan) {
     for (const mechanics::PointMass& p : plan.points) isHeld.push_back(p.held);
     for (const auto& constraint : plan.constraints)
         for (const int i : constraint->points())
-            if (constraint->carries(i)) isHeld[static_cast<std::size_t>(i)] = true;
+            if (constraint->carries(i)) isHeld[i] = true;
     for (const Grip& grip : plan.grips)
         if (grip.ofCollider && grip.rigid)
-            for (int i : grip.points) isHeld[static_cast<std::size_t>(i)] = true;
+            for (int i : grip.points) isHeld[i] = true;
     return isHeld;
 }
 
 bool isFree(const IslandPlan& plan, int point) {
-    return !plan.points[static_cast<std::size_t>(point)].held && !isPinned(plan, point) &&
+    return !plan.points[point].held && !isPinned(plan, point) &&
            std::none_of(
                plan.grips.begin(), plan.grips.end(),
                [&](const Grip& grip) {
@@ -214,13 +211,13 @@ bool isFree(const IslandPlan& plan, int point) {
 }
 
 double lengthOf(const mechanics::Spring& spring, std::span<const dvec3> x) {
-    const dvec3 d = x[static_cast<std::size_t>(spring.b)] - x[static_cast<std::size_t>(spring.a)];
+    const dvec3 d = x[spring.b] - x[spring.a];
     return std::sqrt(glm::dot(d, d));
 }
 
 std::string describeSpring(const IslandPlan& plan, int spring) {
     static constexpr const char* kinds[] = {"structural", "shear", "bend", "joint"};
-    const mechanics::Spring& s = plan.springs[static_cast<std::size_t>(spring)];
+    const mechanics::Spring& s = plan.springs[spring];
     std::string text = std::string(kinds[static_cast<int>(s.kind)]) + " spring ";
     const auto [bodyA, a] = authored(plan, s.a);
     const auto [bodyB, b] = authored(plan, s.b);

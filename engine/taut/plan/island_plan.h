@@ -84,10 +84,10 @@ struct IslandPlan {
     std::vector<std::shared_ptr<const Constraint>> constraints;  // shared: to change one, replace it
     std::vector<Carrier> carriers;                               // of the places of constraints, each collider once
     std::vector<JointTie> ties;                                  // of joints, without welds that merge bodies or points
-    std::vector<std::vector<const Body*>> solids;                // rigid bodies, together those that are one
+    std::vector<std::vector<const Body*>> solids;                // groups of rigid bodies that move as one
 };
 
-// What a joint of the scene has become.
+// The result of a joint of the scene.
 struct JointReport {
     TAUT_VALUE(JointReport);
     const JointSpec* spec = nullptr;
@@ -109,7 +109,7 @@ struct JointReport {
 };
 
 // The smallest sets of bodies that springs or welds couple. Fills pointOf, firstPoint and lastPoint of every body, and,
-// if wanted, what became of each joint. Throws core::Error(badContent) where joints name nothing or where bodies that
+// if wanted, the result of each joint. Throws core::Error(badContent) where joints name nothing or where bodies that
 // are tied together disagree on their solver. ties.h handles joints with colliders.
 std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec,
                                     std::vector<JointReport>* joints = nullptr);

@@ -23,7 +23,7 @@ struct JointEnd {
     int body;
     dvec3 place;  // [m]
 };
-// The bodies of the first side that is whole bodies, in the axes of which the place of a joint is.
+// The bodies of the first side without a selection of points; the place of a joint is in their axes.
 struct PlacedSide {
     bool isA;
     std::vector<int> bodies;
@@ -120,7 +120,7 @@ Mounting mountingOf(const JointPair& pair, const ScenePoints& scene) {
     return mounting;
 }
 
-// Over 60 lines: it ties each point of one side to the nearest of the other, and reports what it did not tie.
+// Over 60 lines: it ties each point of one side to the nearest of the other, and reports the points that it left out.
 void addJoint(const JointSpec& joint, int ofScene, const ScenePoints& scene, Couplings& coupled) {
     if (joint.isMounted()) return addMounted(joint, ofScene, scene, coupled);
     if (joint.isWeld() && !joint.place && addWholeSolids(joint, scene, coupled)) return;

@@ -10,9 +10,9 @@ namespace taut::world {
 namespace {
 
 constexpr double roundingOfPins = 1e-15;  // of a coordinate or velocity
-constexpr double roundingOfRows = 1e-14;  // likewise, of what is solved for
+constexpr double roundingOfRows = 1e-14;  // of the unknowns
 constexpr double drawnTo = 1e-9;          // of the length at first: how exactly an open pin draws
-constexpr double nearlyDrawn = 1e-6;      // likewise: so near to its most, velocities are drawn
+constexpr double nearlyDrawn = 1e-6;      // of the length at first: so near to its most, velocities are drawn
 constexpr int mostDraws = 20;             // open pins that share points take turns
 
 }  // namespace
@@ -52,7 +52,7 @@ void Pins::layOut(double t) {
     until_ = HUGE_VAL;
     open_.clear();
     for (int p = 0; p < size(); ++p) {
-        const Closing& closing = pins_[static_cast<std::size_t>(p)].closing;
+        const Closing& closing = pins_[p].closing;
         const double end = closing.end();
         if (t < end)
             until_ = std::min(until_, end);
@@ -62,10 +62,10 @@ void Pins::layOut(double t) {
     }
     const std::size_t count = ends_.points.size() + ends_.places.size();
     std::vector<std::vector<int>> at(count);  // pins
-    std::vector<int> rows;                    // likewise
+    std::vector<int> rows;                    // pins
     std::vector<bool> isInRow(count, false);
     for (int p = 0; p < size(); ++p) {
-        const Pin& pin = pins_[static_cast<std::size_t>(p)];
+        const Pin& pin = pins_[p];
         if (!holds(p) || !(t >= pin.closing.end())) continue;
         if (!pin.joinsPoints()) rows.push_back(p);
         for (const Spot* end : {&pin.a, &pin.b})
@@ -81,8 +81,8 @@ void Pins::layOut(double t) {
     clusters_.clear();
     nodeOf_.assign(count, -1);
     const auto take = [&](int number, int parent, int pin) {
-        if (nodeOf_[static_cast<std::size_t>(number)] >= 0) return;
-        nodeOf_[static_cast<std::size_t>(number)] = static_cast<int>(nodes_.size());
+        if (nodeOf_[number] >= 0) return;
+        nodeOf_[number] = static_cast<int>(nodes_.size());
         nodes_.push_back({number, parent, pin});
     };
     for (std::size_t i = 0; i < count; ++i) {
@@ -91,9 +91,8 @@ void Pins::layOut(double t) {
         Cluster cluster{static_cast<int>(nodes_.size()), 0};
         take(static_cast<int>(root), -1, -1);
         for (std::size_t next = static_cast<std::size_t>(cluster.first); next < nodes_.size(); ++next)
-            for (const int p : at[static_cast<std::size_t>(nodes_[next].number)])
-                for (const Spot* end : {&pins_[static_cast<std::size_t>(p)].a, &pins_[static_cast<std::size_t>(p)].b})
-                    take(end->nearest(), static_cast<int>(next), p);
+            for (const int p : at[nodes_[next].number])
+                for (const Spot* end : {&pins_[p].a, &pins_[p].b}) take(end->nearest(), static_cast<int>(next), p);
         cluster.last = static_cast<int>(nodes_.size());
         clusters_.push_back(cluster);
     }
@@ -109,18 +108,16 @@ void Pins::layOutRows(std::span<const int> pins) {
     std::vector<int> clusterOf(nodes_.size());
     for (std::size_t c = 0; c < clusters_.size(); ++c)
         std::fill(clusterOf.begin() + clusters_[c].first, clusterOf.begin() + clusters_[c].last, static_cast<int>(c));
-    const auto clusterAt = [&](int number) {
-        return clusterOf[static_cast<std::size_t>(nodeOf_[static_cast<std::size_t>(number)])];
-    };
+    const auto clusterAt = [&](int number) { return clusterOf[nodeOf_[number]]; };
     std::vector<std::vector<Spot::Share>> at(clusters_.size());  // rows, and their weights
     for (const int p : pins) {
-        const Pin& pin = pins_[static_cast<std::size_t>(p)];
+        const Pin& pin = pins_[p];
         const int row = static_cast<int>(rows_.size());
         rows_.push_back({p, TieEnds::difference(pin.a, pin.b),
                          TieEnds::difference(pin.a.renumbered(clusterAt), pin.b.renumbered(clusterAt))});
         int first = row;
         for (const auto& [cluster, weight] : rows_.back().clusters) {
-            std::vector<Spot::Share>& met = at[static_cast<std::size_t>(cluster)];
+            std::vector<Spot::Share>& met = at[cluster];
             met.push_back({row, weight});
             for (const auto& [other, otherWeight] : met) {
                 couplings_.push_back({row, other, cluster, weight * otherWeight});
@@ -134,12 +131,12 @@ void Pins::layOutRows(std::span<const int> pins) {
     ease_.resize(clusters_.size());
 }
 
-// Points of solids stay, as the solids would lose their shape; what is tied to them comes.
+// Points of solids stay, as the solids would lose their shape; points tied to them come.
 void Pins::settle(IslandPlan& plan) {
     std::vector<double> inverseMasses = inverseMassesOf(plan);
     for (const Body* body : plan.bodies)
         if (body->spec->isRigid())
-            for (const int point : body->pointOf) inverseMasses[static_cast<std::size_t>(point)] = 0.0;
+            for (const int point : body->pointOf) inverseMasses[point] = 0.0;
     for (const auto& constraint : plan.constraints) {
         const auto* own = dynamic_cast<const Pins*>(constraint.get());
         if (own == nullptr) continue;
@@ -148,11 +145,11 @@ void Pins::settle(IslandPlan& plan) {
         std::vector<double> inverseMass;
         std::vector<dvec3> x, pull(pins.pins_.size());
         for (const int point : points) {
-            inverseMass.push_back(inverseMasses[static_cast<std::size_t>(point)]);
-            x.push_back(plan.positions[static_cast<std::size_t>(point)]);
+            inverseMass.push_back(inverseMasses[point]);
+            x.push_back(plan.positions[point]);
         }
         pins.projectPositions({inverseMass, x, x, {}, pull});
-        for (std::size_t i = 0; i < points.size(); ++i) plan.positions[static_cast<std::size_t>(points[i])] = x[i];
+        for (std::size_t i = 0; i < points.size(); ++i) plan.positions[points[i]] = x[i];
     }
 }
 
@@ -161,8 +158,7 @@ std::vector<int> Pins::clusterOf(int point) const {
     for (const Cluster& cluster : clusters_) {
         std::vector<int> own;
         for (int n = cluster.first; n < cluster.last; ++n)
-            if (const int number = nodes_[static_cast<std::size_t>(n)].number; !ends_.isPlace(number))
-                own.push_back(ends_.points[static_cast<std::size_t>(number)]);
+            if (const int number = nodes_[n].number; !ends_.isPlace(number)) own.push_back(ends_.points[number]);
         if (std::find(own.begin(), own.end(), point) != own.end()) all = own;
     }
     std::sort(all.begin(), all.end());
@@ -174,37 +170,35 @@ std::vector<Constraint::Pair> Pins::pairs(double t) {
     std::vector<Pair> all;
     for (const Cluster& cluster : clusters_)
         for (int n = cluster.first + 1; n < cluster.last; ++n) {
-            const Node& node = nodes_[static_cast<std::size_t>(n)];
-            all.push_back({node.number, nodes_[static_cast<std::size_t>(node.parent)].number, node.pin});
+            const Node& node = nodes_[n];
+            all.push_back({node.number, nodes_[node.parent].number, node.pin});
         }
     for (const Row& row : rows_) {
-        const Pin& pin = pins_[static_cast<std::size_t>(row.pin)];
+        const Pin& pin = pins_[row.pin];
         all.push_back({pin.a, pin.b, row.pin});
     }
     return all;
 }
 
-// Roots of clusters between points come first, then what is one with each.
+// Roots of clusters between points come first, then the points that are one with each.
 std::optional<std::vector<Constraint::Pair>> Pins::joinedFrom(double t) const {
     if (!ends_.places.empty()) return std::nullopt;
     Pins then = *this;
     then.layOut(t);
     if (then.until_ != HUGE_VAL) return std::nullopt;
     std::vector<Pair> all;
-    const auto root = [&](int cluster) {
-        return then.nodes_[static_cast<std::size_t>(then.clusters_[static_cast<std::size_t>(cluster)].first)].number;
-    };
+    const auto root = [&](int cluster) { return then.nodes_[then.clusters_[cluster].first].number; };
     std::vector<bool> follows(then.clusters_.size(), false), leads = follows;
     for (const Row& row : then.rows_) {
         // The end that is a point has its whole weight.
         const auto own = std::find_if(row.clusters.begin(), row.clusters.end(),
                                       [](const Spot::Share& share) { return std::abs(share.weight) == 1.0; });
-        if (own == row.clusters.end() || follows[static_cast<std::size_t>(own->point)]) return std::nullopt;
-        follows[static_cast<std::size_t>(own->point)] = true;
+        if (own == row.clusters.end() || follows[own->point]) return std::nullopt;
+        follows[own->point] = true;
         std::vector<Spot::Share> shares;
         for (const auto& [cluster, weight] : row.clusters) {
             if (cluster == own->point) continue;
-            leads[static_cast<std::size_t>(cluster)] = true;
+            leads[cluster] = true;
             shares.push_back({root(cluster), -weight / own->weight});
         }
         all.push_back({root(own->point), Spot(shares), row.pin});
@@ -218,10 +212,9 @@ std::optional<std::vector<Constraint::Pair>> Pins::joinedFrom(double t) const {
 
 bool Pins::carries(int point) const {
     for (const Cluster& cluster : clusters_) {
-        if (!ends_.isPlace(nodes_[static_cast<std::size_t>(cluster.first)].number)) continue;
+        if (!ends_.isPlace(nodes_[cluster.first].number)) continue;
         for (int n = cluster.first; n < cluster.last; ++n)
-            if (const int number = nodes_[static_cast<std::size_t>(n)].number;
-                !ends_.isPlace(number) && ends_.points[static_cast<std::size_t>(number)] == point)
+            if (const int number = nodes_[n].number; !ends_.isPlace(number) && ends_.points[number] == point)
                 return true;
     }
     return false;
@@ -229,18 +222,18 @@ bool Pins::carries(int point) const {
 
 void Pins::check() const {
     for (const Cluster& cluster : clusters_) {
-        const int root = nodes_[static_cast<std::size_t>(cluster.first)].number;
+        const int root = nodes_[cluster.first].number;
         for (int n = cluster.first + 1; n < cluster.last; ++n) {
-            const Node& node = nodes_[static_cast<std::size_t>(n)];
+            const Node& node = nodes_[n];
             if (!ends_.isPlace(node.number)) continue;
             const auto placeOf = [&](int number) {
                 return ends_.places[static_cast<std::size_t>(number) - ends_.points.size()];
             };
             const std::string first = placeOf(root).collider, second = placeOf(node.number).collider;
             if (first != second)
-                throw core::Error(core::ErrorKind::badContent,
-                                  at(pins_[static_cast<std::size_t>(node.pin)].source) + "a point is tied to " + first +
-                                      " already and cannot go with " + second + " too; take different points");
+                throw core::Error(core::ErrorKind::badContent, at(pins_[node.pin].source) + "a point is tied to " +
+                                                                   first + " already and cannot go with " + second +
+                                                                   " too; take different points");
         }
     }
 }
@@ -254,7 +247,7 @@ bool Pins::isDue(double t) const {
 void Pins::begin(double t, std::span<const dvec3> x) {
     for (Pin& pin : pins_) {
         if (pin.closing.length != Closing::notBegun || !(t >= pin.closing.start)) continue;
-        const auto ofPlan = [&](int number) { return ends_.points[static_cast<std::size_t>(number)]; };
+        const auto ofPlan = [&](int number) { return ends_.points[number]; };
         const dvec3 d = pin.b.renumbered(ofPlan).of(x) - pin.a.renumbered(ofPlan).of(x);
         pin.closing.length = std::sqrt(glm::dot(d, d));
     }
@@ -287,7 +280,7 @@ bool Pins::draw(std::span<dvec3> values, const Moment& moment) {
     bool any = false;
     const bool isOfPlaces = values.data() == moment.x.data();
     for (const int p : open_) {
-        const Pin& pin = pins_[static_cast<std::size_t>(p)];
+        const Pin& pin = pins_[p];
         const dvec3 d = pin.b.of(moment.x) - pin.a.of(moment.x);
         const double length = std::sqrt(glm::dot(d, d)), most = pin.closing.mostAt(moment.time);
         const double weight = pin.a.ease(moment.inverseMass) + pin.b.ease(moment.inverseMass);
@@ -301,7 +294,7 @@ bool Pins::draw(std::span<dvec3> values, const Moment& moment) {
         const dvec3 impulse = (excess / weight) * along;
         pin.a.push(values, moment.inverseMass, impulse);
         pin.b.push(values, moment.inverseMass, -impulse);
-        moment.pull[static_cast<std::size_t>(p)] += impulse;
+        moment.pull[p] += impulse;
         any = true;
     }
     return any;
@@ -312,10 +305,9 @@ bool Pins::draw(std::span<dvec3> values, const Moment& moment) {
 bool Pins::join(std::span<dvec3> values, const Moment& moment) {
     bool any = false;
     for (const Cluster& cluster : clusters_) {
-        const auto nodes = std::span(nodes_).subspan(static_cast<std::size_t>(cluster.first),
-                                                     static_cast<std::size_t>(cluster.last - cluster.first));
-        const auto value = [&](const Node& node) -> dvec3& { return values[static_cast<std::size_t>(node.number)]; };
-        const auto weight = [&](const Node& node) { return moment.inverseMass[static_cast<std::size_t>(node.number)]; };
+        const auto nodes = std::span(nodes_).subspan(cluster.first, cluster.last - cluster.first);
+        const auto value = [&](const Node& node) -> dvec3& { return values[node.number]; };
+        const auto weight = [&](const Node& node) { return moment.inverseMass[node.number]; };
         const auto fixed = std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return !(weight(n) > 0); });
         // Where the cluster goes: to the fixed node, or to the centre of mass.
         dvec3 target = value(fixed != nodes.end() ? *fixed : nodes.front());
@@ -328,8 +320,8 @@ bool Pins::join(std::span<dvec3> values, const Moment& moment) {
             }
             target += moved / mass;
         }
-        // Moves the nodes; sum: what each is moved by.
-        const std::span<dvec3> sum = std::span(sum_).subspan(static_cast<std::size_t>(cluster.first));
+        // Moves the nodes; sum: the displacement of each.
+        const std::span<dvec3> sum = std::span(sum_).subspan(cluster.first);
         dvec3 all(0.0);
         for (std::size_t n = 0; n < nodes.size(); ++n) {
             const dvec3 way = target - value(nodes[n]);
@@ -338,7 +330,7 @@ bool Pins::join(std::span<dvec3> values, const Moment& moment) {
             all += sum[n];
             if (weight(nodes[n]) > 0) value(nodes[n]) = target;
         }
-        if (fixed != nodes.end()) sum[static_cast<std::size_t>(fixed - nodes.begin())] = -all;
+        if (fixed != nodes.end()) sum[fixed - nodes.begin()] = -all;
         bear(cluster, moment);
     }
     return any;
@@ -347,18 +339,18 @@ bool Pins::join(std::span<dvec3> values, const Moment& moment) {
 // From the leaves to the root: each pin bears the sum of all nodes beyond it.
 void Pins::bear(const Cluster& cluster, const Moment& moment) {
     for (int n = cluster.last; --n > cluster.first;) {
-        const Node& node = nodes_[static_cast<std::size_t>(n)];
-        const dvec3& sum = sum_[static_cast<std::size_t>(n)];
-        moment.pull[static_cast<std::size_t>(node.pin)] += sum;
-        sum_[static_cast<std::size_t>(node.parent)] += sum;
+        const Node& node = nodes_[n];
+        const dvec3& sum = sum_[n];
+        moment.pull[node.pin] += sum;
+        sum_[node.parent] += sum;
     }
 }
 
 // Of closed pins between points, once each cluster has one value.
 bool Pins::joinBetween(std::span<dvec3> values, const Moment& moment) {
     const auto valueOf = [&](int cluster) -> const dvec3& {
-        const Node& root = nodes_[static_cast<std::size_t>(clusters_[static_cast<std::size_t>(cluster)].first)];
-        return values[static_cast<std::size_t>(root.number)];
+        const Node& root = nodes_[clusters_[cluster].first];
+        return values[root.number];
     };
     bool isMet = true;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -374,33 +366,29 @@ bool Pins::joinBetween(std::span<dvec3> values, const Moment& moment) {
     // A cluster with a node without inverse mass does not move.
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
         double mass = 0;
-        for (int n = clusters_[c].first; n < clusters_[c].last; ++n)
-            mass += 1.0 / moment.inverseMass[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(n)].number)];
+        for (int n = clusters_[c].first; n < clusters_[c].last; ++n) mass += 1.0 / moment.inverseMass[nodes_[n].number];
         ease_[c] = 1.0 / mass;
     }
     matrix_.clear();
     diagonal_.assign(rows_.size(), 0.0);
     for (const auto& [i, j, cluster, weight] : couplings_)
-        (i == j ? diagonal_[static_cast<std::size_t>(i)] : matrix_.at(i, j)) +=
-            weight * ease_[static_cast<std::size_t>(cluster)];
+        (i == j ? diagonal_[i] : matrix_.at(i, j)) += weight * ease_[cluster];
     matrix_.factor(diagonal_);
     matrix_.solve(std::span(pull_));
     // Each node needs its mass times the way of its cluster, of which rows give a part.
     way_.assign(clusters_.size(), dvec3(0.0));
     std::fill(sum_.begin(), sum_.end(), dvec3(0.0));
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-        for (const auto& [cluster, weight] : rows_[i].clusters)
-            way_[static_cast<std::size_t>(cluster)] += (weight * ease_[static_cast<std::size_t>(cluster)]) * pull_[i];
-        for (const auto& [number, weight] : rows_[i].points)
-            sum_[static_cast<std::size_t>(nodeOf_[static_cast<std::size_t>(number)])] -= weight * pull_[i];
-        moment.pull[static_cast<std::size_t>(rows_[i].pin)] += pull_[i];
+        for (const auto& [cluster, weight] : rows_[i].clusters) way_[cluster] += (weight * ease_[cluster]) * pull_[i];
+        for (const auto& [number, weight] : rows_[i].points) sum_[nodeOf_[number]] -= weight * pull_[i];
+        moment.pull[rows_[i].pin] += pull_[i];
     }
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
         int fixed = -1;
         dvec3 all(0.0);
         for (int n = clusters_[c].first; n < clusters_[c].last; ++n) {
-            const auto number = static_cast<std::size_t>(nodes_[static_cast<std::size_t>(n)].number);
-            dvec3& sum = sum_[static_cast<std::size_t>(n)];
+            const auto number = static_cast<std::size_t>(nodes_[n].number);
+            dvec3& sum = sum_[n];
             if (moment.inverseMass[number] > 0) {
                 values[number] += way_[c];
                 sum += way_[c] / moment.inverseMass[number];
@@ -409,7 +397,7 @@ bool Pins::joinBetween(std::span<dvec3> values, const Moment& moment) {
                 fixed = n;
             }
         }
-        if (fixed >= 0) sum_[static_cast<std::size_t>(fixed)] = -all;
+        if (fixed >= 0) sum_[fixed] = -all;
         bear(clusters_[c], moment);
     }
     return true;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
-#include <map>
 #include <numeric>
 
 #include "taut/core/error.h"
@@ -21,8 +20,8 @@ double airMassOf(const mechanics::Model& model, std::size_t k) {
 
 // Merges two points: masses add, drag is weighted by mass, momentum is kept, held if either is.
 void weldOnto(IslandPlan& plan, int island, const mechanics::Model& model, std::size_t k) {
-    auto& point = plan.points[static_cast<std::size_t>(island)];
-    dvec3& velocity = plan.velocities[static_cast<std::size_t>(island)];
+    auto& point = plan.points[island];
+    dvec3& velocity = plan.velocities[island];
     const double mass = point.mass + model.masses[k];
     velocity = (point.mass * velocity + model.masses[k] * model.velocities[k]) / mass;
     point.dragRate = (point.mass * point.dragRate + model.masses[k] * model.dragRates[k]) / mass;
@@ -40,8 +39,8 @@ std::vector<int> localOrder(const mechanics::Model& model) {
     if (model.triangles.empty() || model.grid[0] > 0 || !model.cells.empty()) return order;
     std::vector<std::vector<int>> neighbours(model.positions.size());
     for (const mechanics::Spring& s : model.springs) {
-        neighbours[static_cast<std::size_t>(s.a)].push_back(s.b);
-        neighbours[static_cast<std::size_t>(s.b)].push_back(s.a);
+        neighbours[s.a].push_back(s.b);
+        neighbours[s.b].push_back(s.a);
     }
     dvec3 low = model.positions[0], high = low;
     for (const dvec3& x : model.positions) {
@@ -51,21 +50,20 @@ std::vector<int> localOrder(const mechanics::Model& model) {
     const dvec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     std::vector<int> starts = order;
-    std::stable_sort(starts.begin(), starts.end(), [&](int a, int b) {
-        return model.positions[static_cast<std::size_t>(a)][axis] < model.positions[static_cast<std::size_t>(b)][axis];
-    });
+    std::stable_sort(starts.begin(), starts.end(),
+                     [&](int a, int b) { return model.positions[a][axis] < model.positions[b][axis]; });
     std::vector<bool> seen(order.size(), false);
     order.clear();
     for (int start : starts) {
-        if (seen[static_cast<std::size_t>(start)]) continue;
-        seen[static_cast<std::size_t>(start)] = true;
+        if (seen[start]) continue;
+        seen[start] = true;
         order.push_back(start);
         for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
-            std::vector<int>& around = neighbours[static_cast<std::size_t>(order[next])];
+            std::vector<int>& around = neighbours[order[next]];
             std::sort(around.begin(), around.end());
             for (int i : around)
-                if (!seen[static_cast<std::size_t>(i)]) {
-                    seen[static_cast<std::size_t>(i)] = true;
+                if (!seen[i]) {
+                    seen[i] = true;
                     order.push_back(i);
                 }
         }
@@ -111,11 +109,10 @@ class Planner {
     std::vector<IslandPlan> plans() {
         std::vector<std::vector<int>> members(scene_.bodies().size());  // by the body that represents the set
         for (int body = 0; body < static_cast<int>(scene_.bodies().size()); ++body)
-            members[static_cast<std::size_t>(coupled_.islands.find(body))].push_back(body);
+            members[coupled_.islands.find(body)].push_back(body);
         std::vector<std::vector<JointPair>> joints(scene_.bodies().size());
         for (const JointPair& joint : coupled_.pairs)
-            joints[static_cast<std::size_t>(coupled_.islands.find(scene_.refOf(joint.a.nearest()).body))].push_back(
-                joint);
+            joints[coupled_.islands.find(scene_.refOf(joint.a.nearest()).body)].push_back(joint);
         std::vector<int> numberOf(scene_.count(), -1);  // by the global point that represents a weld
         std::vector<IslandPlan> plans;
         for (std::size_t root = 0; root < members.size(); ++root)
@@ -146,8 +143,8 @@ class Planner {
     void tie(IslandPlan& plan, const JointPair& joint, const std::vector<int>& solidOf) {
         const auto ofPlan = [&](int number) { return scene_.pointOf(scene_.refOf(number)); };
         const Spot a = joint.a.renumbered(ofPlan), b = joint.b.renumbered(ofPlan);
-        const int solid = solidOf[static_cast<std::size_t>(a.nearest())];
-        if (solid >= 0 && solid == solidOf[static_cast<std::size_t>(b.nearest())]) {
+        const int solid = solidOf[a.nearest()];
+        if (solid >= 0 && solid == solidOf[b.nearest()]) {
             for (JointReport& report : coupled_.reports)
                 if (report.spec == joint.spec) ++report.idle;
             return;
@@ -177,7 +174,7 @@ class Planner {
         bool whole = true;
         for (int i : localOrder(model)) {
             const auto k = static_cast<std::size_t>(i);
-            int& island = numberOf[static_cast<std::size_t>(coupled_.welds.find(scene_.global({number, i})))];
+            int& island = numberOf[coupled_.welds.find(scene_.global({number, i}))];
             if (island < 0) {
                 island = static_cast<int>(plan.points.size());
                 plan.points.push_back({model.masses[k], model.dragRates[k], model.held[k], airMassOf(model, k)});
@@ -186,7 +183,7 @@ class Planner {
             } else {
                 weldOnto(plan, island, model, k);
                 // Points welded to a point of a solid move to it, so that the solid keeps its shape.
-                if (b.spec->isRigid()) plan.positions[static_cast<std::size_t>(island)] = model.positions[k];
+                if (b.spec->isRigid()) plan.positions[island] = model.positions[k];
                 whole = false;
             }
             b.pointOf[k] = island;
@@ -196,8 +193,8 @@ class Planner {
         if (b.lastPoint > b.firstPoint) plan.ranges.push_back({b.firstPoint, whole ? row : 0});
         for (std::size_t i = 0; i < model.springs.size(); ++i) {
             mechanics::Spring spring = model.springs[i];
-            spring.a = b.pointOf[static_cast<std::size_t>(spring.a)];
-            spring.b = b.pointOf[static_cast<std::size_t>(spring.b)];
+            spring.a = b.pointOf[spring.a];
+            spring.b = b.pointOf[spring.b];
             if (spring.a == spring.b) continue;
             plan.springs.push_back(spring);
             plan.origins.push_back({static_cast<int>(plan.bodies.size()), static_cast<int>(i)});

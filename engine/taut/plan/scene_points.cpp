@@ -47,8 +47,8 @@ std::vector<PointRef> ScenePoints::named(const JointSide& side, const Source& so
     std::vector<PointRef> once;
     std::vector<bool> isMet(count(), false);
     for (const PointRef& p : found)
-        if (!isMet[static_cast<std::size_t>(global(p))]) {
-            isMet[static_cast<std::size_t>(global(p))] = true;
+        if (!isMet[global(p)]) {
+            isMet[global(p)] = true;
             once.push_back(p);
         }
     return once;

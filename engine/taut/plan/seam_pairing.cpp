@@ -88,8 +88,8 @@ int nearest(const Way& way, const SewnEdge& edge, double share, const dvec3& pla
     const bool isBefore = after != shares.begin() && (after == shares.end() || share - after[-1] <= *after - share);
     const auto [first, last] = std::equal_range(shares.begin(), shares.end(), isBefore ? after[-1] : *after);
     const auto squareAt = [&](std::ptrdiff_t k) {
-        const int i = way.order[static_cast<std::size_t>(k)];
-        const dvec3 d = edge.places[static_cast<std::size_t>(i)] - place;
+        const int i = way.order[k];
+        const dvec3 d = edge.places[i] - place;
         return glm::dot(d, d);
     };
     std::ptrdiff_t best = first - shares.begin();
@@ -101,7 +101,7 @@ int nearest(const Way& way, const SewnEdge& edge, double share, const dvec3& pla
 // The spot at a share, in numbers of the way: the nearest place if it is as good as there.
 Spot spotAt(const Way& way, const SewnEdge& edge, double share, const dvec3& place) {
     constexpr double asGood = 0.01;  // of the step between two places
-    const auto at = [&](std::ptrdiff_t k) { return way.shares[static_cast<std::size_t>(k)]; };
+    const auto at = [&](std::ptrdiff_t k) { return way.shares[k]; };
     const int best = nearest(way, edge, share, place);
     const std::ptrdiff_t after = std::lower_bound(way.shares.begin(), way.shares.end(), share) - way.shares.begin();
     if (after == 0 || after == std::ssize(way.shares)) return best;
@@ -121,15 +121,11 @@ std::vector<int> meetings(const Way& way) {
 
 // Expects that `many` has no fewer places.
 std::vector<SewnPair> pairs(const Way& many, const SewnEdge& manyEdge, const Way& few, const SewnEdge& fewEdge) {
-    const auto placeOf = [](const Way& way, const SewnEdge& edge, std::size_t k) {
-        return edge.places[static_cast<std::size_t>(way.order[k])];
-    };
+    const auto placeOf = [](const Way& way, const SewnEdge& edge, std::size_t k) { return edge.places[way.order[k]]; };
     const std::vector<int> ofMany = meetings(many), ofFew = meetings(few);
     bool isEven = ofMany.back() == ofFew.back();
     for (std::size_t i = 0; i < many.shares.size(); ++i)
-        isEven = isEven &&
-                 ofFew[static_cast<std::size_t>(nearest(few, fewEdge, many.shares[i], placeOf(many, manyEdge, i)))] ==
-                     ofMany[i];
+        isEven = isEven && ofFew[nearest(few, fewEdge, many.shares[i], placeOf(many, manyEdge, i))] == ofMany[i];
     const auto partner = [&](const Way& way, const SewnEdge& edge, double share, const dvec3& place) -> Spot {
         return isEven ? nearest(way, edge, share, place) : spotAt(way, edge, share, place);
     };
@@ -137,7 +133,7 @@ std::vector<SewnPair> pairs(const Way& many, const SewnEdge& manyEdge, const Way
     std::vector<bool> isTaken(few.shares.size(), false);
     for (std::size_t i = 0; i < many.shares.size(); ++i) {
         all.push_back({static_cast<int>(i), partner(few, fewEdge, many.shares[i], placeOf(many, manyEdge, i))});
-        for (const Spot::Share& own : all.back().b.shares()) isTaken[static_cast<std::size_t>(own.point)] = true;
+        for (const Spot::Share& own : all.back().b.shares()) isTaken[own.point] = true;
     }
     for (std::size_t j = 0; j < few.shares.size(); ++j)
         if (!isTaken[j])
@@ -158,8 +154,8 @@ Line lineOf(const mechanics::Model& model, std::span<const int> points) {
 std::vector<std::vector<int>> borderNeighbours(const mechanics::Model& model) {
     std::vector<std::vector<int>> neighbours(model.positions.size());
     for (const auto& [a, b] : bordersOf(model)) {
-        neighbours[static_cast<std::size_t>(a)].push_back(b);
-        neighbours[static_cast<std::size_t>(b)].push_back(a);
+        neighbours[a].push_back(b);
+        neighbours[b].push_back(a);
     }
     return neighbours;
 }
@@ -178,8 +174,8 @@ std::vector<SewnPair> pairedByLength(const SewnEdge& a, const SewnEdge& b) {
             double squares = 0;
             for (auto& [i, j] : all) {
                 if (!isMore) std::swap(i, j);
-                i = i.renumbered([&](int k) { return own.order[static_cast<std::size_t>(k)]; });
-                j = j.renumbered([&](int k) { return other.order[static_cast<std::size_t>(k)]; });
+                i = i.renumbered([&](int k) { return own.order[k]; });
+                j = j.renumbered([&](int k) { return other.order[k]; });
                 const dvec3 d = j.of(turned.places) - i.of(still.places);
                 squares += glm::dot(d, d);
             }

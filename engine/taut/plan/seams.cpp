@@ -21,7 +21,7 @@ bool isHeld(const Spot& spot, const ScenePoints& scene) {
         [&](const Spot::Share& own) {
             const PointRef p = scene.refOf(own.point);
             const std::vector<int>& carried = scene.body(p.body).carried;
-            return scene.body(p.body).model.held[static_cast<std::size_t>(p.point)] ||
+            return scene.body(p.body).model.held[p.point] ||
                    std::binary_search(carried.begin(), carried.end(), p.point);
         });
 }
@@ -107,8 +107,7 @@ std::vector<std::array<SeamRow, 2>> rowsOfSeams(const ScenePoints& scene, const 
         };
         for (const auto& [i, j] : pairedByLength(a.edge, b.edge))
             if (isEnd(i, a) && isEnd(j, b))
-                meets.unite(scene.global(a.points[static_cast<std::size_t>(i.nearest())]),
-                            scene.global(b.points[static_cast<std::size_t>(j.nearest())]));
+                meets.unite(scene.global(a.points[i.nearest()]), scene.global(b.points[j.nearest()]));
     }
     for (std::array<SeamRow, 2>& sides : rows)
         for (SeamRow& row : sides) {
@@ -133,9 +132,7 @@ void addSeam(const JointSpec& seam, int ofScene, const std::array<SeamRow, 2>& r
     report.sewn = {{as.length(), bs.length()}, std::max(as.gap, bs.gap)};
     std::map<std::pair<int, int>, int> sewn;  // by bodies: number of points
     for (const auto& [i, j] : pairedByLength(as.edge, bs.edge)) {
-        const auto globalOf = [&](const SeamRow& row) {
-            return [&](int k) { return scene.global(row.points[static_cast<std::size_t>(k)]); };
-        };
+        const auto globalOf = [&](const SeamRow& row) { return [&](int k) { return scene.global(row.points[k]); }; };
         const Spot a = i.renumbered(globalOf(as)), b = j.renumbered(globalOf(bs));
         const PointRef first = scene.refOf(a.nearest()), second = scene.refOf(b.nearest());
         if (a.has(b.nearest()) || b.has(a.nearest())) continue;  // where two edges of one body meet
@@ -181,7 +178,7 @@ void markSeamCorners(const ScenePoints& scene, const Couplings& coupled) {
     const auto beside = [&](PointRef p) -> const std::vector<int>& {
         const auto [found, isNew] = borders.try_emplace(p.body);
         if (isNew) found->second = borderNeighbours(scene.body(p.body).model);
-        return found->second[static_cast<std::size_t>(p.point)];
+        return found->second[p.point];
     };
     const auto turns = [&](PointRef p) {
         constexpr double most = 0.5;  // cosine of the largest turn of a curve

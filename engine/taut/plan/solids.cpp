@@ -103,7 +103,7 @@ void addSolids(IslandPlan& plan, std::span<const int> members, const ScenePoints
         for (const Body* part : parts) {
             points.insert(points.end(), part->pointOf.begin(), part->pointOf.end());
             for (int i = 0; i < part->model.pointCount(); ++i)
-                rest.push_back(part->model.positions[static_cast<std::size_t>(i)] - jitterOf(*part, i));
+                rest.push_back(part->model.positions[i] - jitterOf(*part, i));
         }
         for (const auto& [point, solid] : coupled.carried) {
             const int carried = coupled.solids.find(solid) == number ? scene.pointOf(point) : -1;
@@ -121,11 +121,10 @@ std::vector<int> solidsOf(const IslandPlan& plan, std::span<const int> members, 
     std::vector<int> solidOf(plan.points.size(), -1);
     for (const int number : members)
         if (scene.body(number).spec->isRigid())
-            for (const int point : scene.body(number).pointOf)
-                solidOf[static_cast<std::size_t>(point)] = coupled.solids.find(number);
+            for (const int point : scene.body(number).pointOf) solidOf[point] = coupled.solids.find(number);
     for (const auto& [point, solid] : coupled.carried)
         if (std::find(members.begin(), members.end(), solid) != members.end())
-            solidOf[static_cast<std::size_t>(scene.pointOf(point))] = coupled.solids.find(solid);
+            solidOf[scene.pointOf(point)] = coupled.solids.find(solid);
     return solidOf;
 }
 

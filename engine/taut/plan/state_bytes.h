@@ -1,5 +1,5 @@
-// Writes and reads the bytes of a world by the same code: a struct lists once what it saves, and in which order. It
-// knows no struct of the world.
+// Writes and reads the bytes of a world by the same code: a struct lists its saved members once, in order. It knows no
+// struct of the world.
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,7 @@ class StateBytes {
     explicit StateBytes(core::ByteReader& reader) : reader_(&reader) {}
 
     bool isReading() const { return reader_ != nullptr; }
-    // Checks a condition on what was read. Does nothing while writing.
+    // Checks a condition on the values read. Does nothing while writing.
     void require(bool condition) const {
         if (isReading() && !condition) core::ByteReader::fail();
     }
@@ -132,7 +132,7 @@ class StateBytes {
         if (isReading()) items.clear();
         for (std::uint64_t i = 0; i < count; ++i) {
             if (isReading()) items.emplace_back();
-            visit(items[static_cast<std::size_t>(i)]);
+            visit(items[i]);
         }
     }
     template <class Item, class Visit>

@@ -14,7 +14,7 @@ constexpr int turnsOfSome = 10;
 constexpr double nearly = 0.98;  // of the longest length
 // Of the longest length: by so much less springs are stopped, and by so much more a state may be off.
 constexpr double margin = 1e-3;
-constexpr double settledSpeed = 1e-3;  // of the speeds of both ends
+constexpr double settledSpeed = 1e-3;  // of the speeds of the two ends
 
 double sizeOf(const dvec3& v) {
     return std::sqrt(glm::dot(v, v));
@@ -24,7 +24,7 @@ double sizeOf(const dvec3& v) {
 std::optional<double> limitOf(const IslandPlan& plan, std::size_t s) {
     const int body = plan.origins[s].body;
     if (body < 0 || plan.springs[s].kind == mechanics::SpringKind::bend) return std::nullopt;
-    return plan.bodies[static_cast<std::size_t>(body)]->plasticity.strainLimit;
+    return plan.bodies[body]->plasticity.strainLimit;
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ bool StrainLimit::takeTurns(std::span<const dvec3> x, int mostTurns, const Proje
         if (turn % turnsOfSome == 0) {
             long_.clear();
             for (const Link& link : links_) {
-                const dvec3 d = x[static_cast<std::size_t>(link.b)] - x[static_cast<std::size_t>(link.a)];
+                const dvec3 d = x[link.b] - x[link.a];
                 if (glm::dot(d, d) > nearly * nearly * link.most * link.most) long_.push_back(link);
             }
         }

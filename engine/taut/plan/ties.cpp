@@ -49,7 +49,7 @@ class Tying {
 
     void hold(Body& body) {
         std::vector<int> points;
-        for (int i : body.carried) points.push_back(body.pointOf[static_cast<std::size_t>(i)]);
+        for (int i : body.carried) points.push_back(body.pointOf[i]);
         const int first = points.front();
         lead(body.spec->holdOn, std::move(points), body.spec->source);
         body.carriedFrom = carrierOf(plan_, first)->path.from;
@@ -59,8 +59,7 @@ class Tying {
         std::vector<Spot> ends;
         std::vector<int> points;
         const auto at = [&](const Body& body, const dvec3& place) {
-            ends.push_back(
-                spotAt(body, place).renumbered([&](int i) { return body.pointOf[static_cast<std::size_t>(i)]; }));
+            ends.push_back(spotAt(body, place).renumbered([&](int i) { return body.pointOf[i]; }));
         };
         for (const Body* body : plan_.bodies) {
             if (!names(pointsOf(joint), *body)) continue;
@@ -70,8 +69,7 @@ class Tying {
             }
             for (const std::string& target : pointsOf(joint).targets)
                 if (const auto named = placeNamed(*body, parseTarget(target).selector)) at(*body, *named);
-            for (const int i : namedPoints(pointsOf(joint), *body))
-                points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
+            for (const int i : namedPoints(pointsOf(joint), *body)) points.push_back(body->pointOf[i]);
         }
         if (points.empty() && ends.empty()) return;
         const std::string& collider = colliderOf(joint);
@@ -142,7 +140,7 @@ class Tying {
         Mounting mounting;
         mounting.a = [&](const dvec3& place) {
             if (!body.spec->isRigid()) return end;
-            return spotAt(body, place).renumbered([&](int i) { return body.pointOf[static_cast<std::size_t>(i)]; });
+            return spotAt(body, place).renumbered([&](int i) { return body.pointOf[i]; });
         };
         mounting.b = [&](const dvec3& place) { return Constraint::Place{grip.holder, inHolder(grip.holder, place)}; };
         mounting.at = frameOf(joint, body);
@@ -161,7 +159,7 @@ class Tying {
     // Points of a weld start at its place.
     void moveToPlace(const JointSpec& joint, std::span<const int> points) {
         for (const int point : points) {
-            dvec3& x = plan_.positions[static_cast<std::size_t>(point)];
+            dvec3& x = plan_.positions[point];
             const collision::Pose pose = *holders_.poseOf(holders_.nearest(colliderOf(joint), x));
             const dvec3 place = placeOn(pose, *joint.place);
             if (const double away = glm::distance(x, place); away > joint.reach())
@@ -195,17 +193,17 @@ class Tying {
         expectHolder(collider, holders_, source);
         sort(points);
         for (int i : points) {
-            const std::string& other = holder_[static_cast<std::size_t>(i)];
+            const std::string& other = holder_[i];
             if (!other.empty() && other != collider)
                 fail(source, nameOf(i) + " is tied to " + other + " already and cannot go with " + collider +
                                  " too; take different points");
-            if (plan_.points[static_cast<std::size_t>(i)].held)
+            if (plan_.points[i].held)
                 fail(source, nameOf(i) + " is held in place and cannot go with " + collider +
                                  " too; take it out of `hold`, or give the body hold_on = \"" + collider + "\"");
         }
-        std::erase_if(points, [&](int i) { return !holder_[static_cast<std::size_t>(i)].empty(); });
+        std::erase_if(points, [&](int i) { return !holder_[i].empty(); });
         if (points.empty()) return;
-        for (int i : points) holder_[static_cast<std::size_t>(i)] = collider;
+        for (int i : points) holder_[i] = collider;
         for (Grip& grip : tieTo(holders_, collider, points, plan_.positions)) plan_.grips.push_back(std::move(grip));
     }
 
@@ -349,7 +347,7 @@ std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std
                         std::span<const dvec3> x) {
     std::vector<Grip> grips;
     for (int i : points) {
-        const dvec3& place = x[static_cast<std::size_t>(i)];
+        const dvec3& place = x[i];
         const std::string holder = holders.nearest(collider, place);
         const collision::Pose pose = holders.poseOf(holder).value();
         auto grip = std::find_if(grips.begin(), grips.end(), [&](const Grip& own) { return own.holder == holder; });

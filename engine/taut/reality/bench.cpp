@@ -59,8 +59,7 @@ void Bench::play(world::World& world, double seconds, const std::function<void()
     const std::clock_t start = std::clock();
     const double begin = world.time();
     while (world.time() < begin + seconds - 1e-9) {
-        if (settings_.stop != nullptr && settings_.stop->load())
-            throw core::Error(core::ErrorKind::interrupted, "stopped");
+        if (settings_.listener.isStopped()) throw core::Error(core::ErrorKind::interrupted, "stopped");
         if (const auto divergence = world.advance()) throw core::Error(core::ErrorKind::diverged, divergence->message);
         if (look) look();
     }

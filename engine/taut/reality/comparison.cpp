@@ -43,12 +43,11 @@ Comparison compare(const Settings& settings) {
     std::vector<const Row*> chosen;
     for (const Row& row : rows()) {
         const bool isNamed = std::find(settings.rows.begin(), settings.rows.end(), row.name) != settings.rows.end();
-        if (isNamed || (settings.rows.empty() && (settings.isLong || !row.isDear))) chosen.push_back(&row);
+        if (isNamed || (settings.rows.empty() && (settings.isLong || !row.isLong))) chosen.push_back(&row);
     }
     try {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            if (settings.progress)
-                settings.progress(static_cast<double>(i) / static_cast<double>(chosen.size()), chosen[i]->title);
+            settings.listener.report(static_cast<double>(i) / static_cast<double>(chosen.size()), chosen[i]->title);
             bench.begin(chosen[i]->name);
             try {
                 chosen[i]->hold(bench);
@@ -62,7 +61,7 @@ Comparison compare(const Settings& settings) {
         if (error.kind() != core::ErrorKind::interrupted) throw;
         study.isInterrupted = true;
     }
-    if (settings.progress) settings.progress(1.0, "");
+    settings.listener.report(1.0, "");
     return study;
 }
 

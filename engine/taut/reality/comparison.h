@@ -2,15 +2,14 @@
 // It plays scenes as `taut render` would, and knows no picture.
 #pragma once
 
-#include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "taut/core/private/listener.h"
 #include "taut/reality/peers.h"
 
 namespace taut::reality {
@@ -36,7 +35,7 @@ struct Line {
 
 struct Row {
     std::string name, title;
-    bool isDear;  // minutes instead of seconds
+    bool isLong;  // minutes instead of seconds
     void (*hold)(Bench&);
 };
 std::span<const Row> rows();
@@ -76,8 +75,7 @@ struct Settings {
     int cells = 0;                                      // along the length instead of each row's own; 0: those
     bool draws = true;                                  // plays further scenes for the chart
     std::vector<std::filesystem::path> assetFolders{};  // with models
-    const std::atomic<bool>* stop = nullptr;
-    std::function<void(double done, const std::string& doing)> progress{};
+    core::Listener listener{};
 };
 
 Comparison compare(const Settings& settings = {});

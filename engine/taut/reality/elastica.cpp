@@ -44,8 +44,8 @@ ElasticaPoint elasticaAt(const ElasticaEnd& end, double length) {
     return {y[0], y[1], y[2], y[3], widest, mostAngle};
 }
 
-// The free end of a long strip points down but for e^(-⅔ √Γ): its logarithm is what the clamp's angle fixes well. The
-// larger it is, the sooner the strip turns to the clamp's direction, and then beyond.
+// The free end of a long strip points down but for e^(-⅔ √Γ): its logarithm is well determined by the clamp's angle.
+// The larger it is, the sooner the strip turns to the clamp's direction, and then beyond.
 HangingStrip hangingStrip(double weight, double load, double clampAngle) {
     const auto clampOf = [&](double logAngle) {
         return elasticaAt({.angle = std::exp(logAngle), .load = load, .weight = weight});

@@ -209,8 +209,8 @@ void holdCantilever(Bench& bench) {
     if (bench.settings().draws) drawDroops(bench);
 }
 
-// Rows near the 2, 10, 25, 50, 75, 90 and 98 % of warp rigidities among 618 fabrics. B(κ) falls with κ there; B₀ alone
-// is what a scene can say.
+// Rows near the 2, 10, 25, 50, 75, 90 and 98 % of warp rigidities among 618 fabrics. B(κ) falls with κ there; a scene
+// can state B₀ only.
 void holdFabrics(Bench& bench) {
     struct Fabric {
         const char* rank;
@@ -361,8 +361,8 @@ void holdColumn(Bench& bench) {
 }
 
 // As Kawabata's tester bends it: a centimetre between a jaw at rest and one that goes along the ends of ever narrower
-// circles, to 250 /m. Then that jaw lets go, in air so thick that the strip unbends without a swing. Where nothing
-// pulls any more B κ is the moment of friction. Leap-frog, as the jaw turns: implicit Euler wrinkles what it leads.
+// circles, to 250 /m. Then that jaw releases it, in air so thick that the strip unbends without a swing. Where nothing
+// pulls any more B κ is the moment of friction. Leap-frog, as the jaw turns: implicit Euler would wrinkle the strip.
 // Over 60 lines: most of them are the scene.
 void holdCreases(Bench& bench) {
     const int cells = bench.cells(10);

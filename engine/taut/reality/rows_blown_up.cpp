@@ -20,7 +20,7 @@ constexpr int ballCells = 8;  // edges of the mesh along an edge of its icosahed
 
 constexpr int spokes = 28, links = 8;  // threads of a balloon's disc, and their segments
 
-// Bodies without gravity, with a filling in those that it is told of.
+// Bodies without gravity, with a filling in the named ones.
 std::string blownUpScene(const std::string& bodies, const std::string& in, double pressure) {
     return fmt::format(R"(schema = 1
 

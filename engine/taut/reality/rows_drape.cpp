@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "taut/check/figures.h"
 #include "taut/core/trig.h"
@@ -88,7 +87,7 @@ int wavesOf(std::vector<double> ring, double least) {
     return waves;
 }
 
-// What is left of the ring of cloth beside the disc, seen from above, and the number of folds: waves of the hem by more
+// The rest of the ring of cloth beside the disc, seen from above, and the number of folds: waves of the hem by more
 // than a twentieth of its radius.
 struct Drape {
     double coefficient = 0;
@@ -127,8 +126,8 @@ DrapeBand bandOf(Bench& bench, const Fabric& fabric, double weight, int cells, i
 
 }  // namespace
 
-// Cusick's drape meter (ISO 9073-9): cloth of 15 cm on a disc of 9 cm, held between it and another one; let go where it
-// lies flat.
+// Cusick's drape meter (ISO 9073-9): cloth of 15 cm on a disc of 9 cm, held between it and another one; released where
+// it lies flat.
 void holdDrape(Bench& bench) {
     const int cells = bench.cells(100);
     const Fabric fabrics[] = {

@@ -31,7 +31,7 @@ dvec3 leaned(Bench& bench, int cells, double gamma, double drag, double seconds)
     return (end - dvec3(0, 1, 0)) / scene.length;
 }
 
-// Whether the end of a rope goes on sliding, after what its loads have set swinging: by a millimetre in the third
+// Whether the end of a rope goes on sliding, after the swing by its loads: by a millimetre in the third
 // second.
 bool slides(Bench& bench, const std::string& name, const LineScene& scene) {
     world::World world = bench.load(name, lineScene(scene));
@@ -240,7 +240,7 @@ target = [0.05, 0.98, 0]
 }
 
 // The clamp comes down slowly; the lower end stays where it stood until friction does not hold it any more. The rod
-// starts bent, with its end held until it presses: what swings on an end that does not press slides.
+// starts bent, with its end held until it presses: without pressure it would slide while it swings.
 void holdStickSlip(Bench& bench) {
     const int cells = bench.cells(48);
     for (const double mu : {0.05, 0.1, 0.2, 0.3}) {

@@ -71,7 +71,7 @@ void holdChainModes(Bench& bench) {
     addSwing(bench, swing);
 }
 
-// An end that is let go beside the other falls faster than free: v² = 2 g x (1 - x/2L)/(1 - x/L), so that energy is
+// An end that is released beside the other falls faster than free: v² = 2 g x (1 - x/2L)/(1 - x/L), so that energy is
 // kept at a narrow fold.
 void holdFoldedChain(Bench& bench) {
     LineScene scene;

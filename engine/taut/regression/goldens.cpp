@@ -9,7 +9,6 @@
 #include "taut/core/whole_file.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"
-#include "taut/pipeline/machine.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/scenario_text.h"
@@ -46,7 +45,7 @@ bool hasSamePicture(const std::filesystem::path& file, const image::Image& pictu
     }
 }
 
-// What of the golden had to change; empty: nothing.
+// The parts of the golden that had to change; empty: none.
 std::string updateState(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
                         GoldenScenario& goldens, const std::string& why, core::FileBatch& files) {
     const std::filesystem::path file = folder.tape(scenario.name);

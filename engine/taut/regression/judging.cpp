@@ -27,7 +27,7 @@ const GoldenScenario& goldensOf(const Scenario& scenario, const Manifest& manife
     return found == manifest.scenarios.end() ? none : found->second;
 }
 
-// As large as the picture that it is compared with, or what anybody may read.
+// As large as the picture that it is compared with, or the general limit.
 std::int64_t mostPixels(const image::Image& picture) {
     return std::max(image::mostPixels, std::int64_t{picture.width} * picture.height);
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "taut/core/error.h"
 #include "taut/core/private/file_batch.h"

@@ -43,7 +43,7 @@ std::optional<world::SceneSpec> withLessDamping(world::SceneSpec spec, const Isl
     return changed ? std::optional(std::move(spec)) : std::nullopt;
 }
 
-// The last one of a net; of a grid cloth what crosses the middle of a thread near its middle, at the start.
+// The last one of a net; of a grid cloth the spring across the middle of a thread near its middle, at the start.
 std::optional<world::SceneSpec> withoutOneSpring(world::SceneSpec spec, const Islands&) {
     for (world::NetSpec& net : spec.bodies.of<world::NetSpec>())
         if (net.springs.size() > 1) {
@@ -68,7 +68,7 @@ std::optional<world::SceneSpec> withoutOneSpring(world::SceneSpec spec, const Is
     return std::nullopt;
 }
 
-// Turned about the eye by what one pixel spans in the middle of the picture.
+// Turned about the eye by the angle of one pixel in the middle of the picture.
 void turnByOnePixel(view::FrameView& view, glm::ivec2 size) {
     const glm::vec3 ahead = view.camera.target - view.camera.eye;
     const glm::vec3 right = glm::normalize(glm::cross(ahead, view.camera.up));

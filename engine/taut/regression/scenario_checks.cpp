@@ -21,7 +21,7 @@ report::TestCheck reported(const check::Result& result, bool broken) {
         check.where = shown->where;
     }
     if (result.passed) return check;
-    // What did not fail and was not seen to its end says nothing.
+    // A check that did not fail and did not run to its end has no verdict.
     check.verdict = broken && !result.first ? report::Verdict::skipped : report::Verdict::failed;
     if (check.verdict == report::Verdict::failed) check.reason = result.reason;
     return check;

@@ -35,7 +35,7 @@ class Suite {
         std::vector<std::jthread> workers;
         try {
             for (int i = 1; i < count; ++i) workers.emplace_back([this] { work(); });
-        } catch (const std::system_error&) {  // no more threads here: those that there are do it
+        } catch (const std::system_error&) {  // no more threads: the existing ones do it
         }
         work();
         workers.clear();  // joins

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace taut::report {
@@ -132,6 +133,17 @@ struct Panel {
     std::vector<Curve> curves;
     EdgeStrip strip;
     std::vector<Label> labels;
+
+    // Writes a text on a white box, at 0 … 1 of the panel from its left and its lower edge.
+    void note(double right, double up, std::string text, Align align = Align::left) {
+        labels.push_back({.x = right,
+                          .y = up,
+                          .text = std::move(text),
+                          .align = align,
+                          .size = 10.5,
+                          .isBoxed = true,
+                          .isOnPanel = true});
+    }
 };
 
 // Panels row by row. The size of the plotting areas is given, the picture grows around them; for a phase plane with

@@ -31,7 +31,7 @@ std::vector<std::int64_t> evenlySpaced(const std::vector<std::int64_t>& numbers,
     std::vector<std::int64_t> chosen;
     for (std::int64_t i = 0; i < count; ++i) {
         const std::int64_t at = (2 * i * (all - 1) + (count - 1)) / (2 * (count - 1));  // to the nearest
-        chosen.push_back(numbers[static_cast<std::size_t>(at)]);
+        chosen.push_back(numbers[at]);
     }
     return chosen;
 }
@@ -51,7 +51,7 @@ image::Image contactSheet(const image::FramePattern& pattern, const SheetLayout&
     image::Image sheet;
     int height = 0, fullWidth = 0, fullHeight = 0;
     for (int i = 0; i < count; ++i) {
-        const auto path = pattern.pathOf(frames[static_cast<std::size_t>(i)]);
+        const auto path = pattern.pathOf(frames[i]);
         const image::Image picture = image::readImage(path);
         if (i == 0) {
             fullWidth = picture.width;

@@ -31,7 +31,7 @@ int dashType(Dash dash) {
     return 1 + static_cast<int>(dash);
 }
 
-// gnuplot's number of a mark, and of those that come open and filled.
+// gnuplot's number of a mark, open or filled.
 int pointType(Mark mark, bool isFilled) {
     static constexpr int open[] = {0, 6, 4, 8, 10, 12, 14, 2, 1, 3, 1};  // in the order of the enumeration
     const int type = open[static_cast<int>(mark)];
@@ -46,7 +46,7 @@ double stripFoot(const Panel& panel, const PanelBox& box) {
     return 1 - (panel.strip.rows * stripRow + 6) / (box.top - box.bottom);
 }
 
-// The axis below a strip: what lies in the strip has no value, so neither ticks nor numbers go on there. Powers of ten
+// The axis below a strip: marks in the strip have no value, so neither ticks nor numbers go on there. Powers of ten
 // as many as have room. Other axes are as they were.
 Axis belowStrip(Axis axis, double foot) {
     if (foot >= 1 || axis.scale != Scale::log || !axis.least || !axis.most || !axis.ticks.empty()) return axis;
@@ -163,7 +163,7 @@ void Script::addTicks(char name, const std::vector<Tick>& ticks) {
 void Script::addAxis(char name, const Axis& axis) {
     if (axis.scale == Scale::log) add("set logscale {0} 10\nset format {0} '10^{{%L}}'\nset m{0}tics 10\n", name);
     std::string first = axis.least ? number(*axis.least) : "*", last = axis.most ? number(*axis.most) : "*";
-    const bool isFixed = axis.least && axis.most;  // then the order of the ends is what turns the axis round
+    const bool isFixed = axis.least && axis.most;  // then the order of the ends turns the axis round
     if (axis.isReversed && isFixed) std::swap(first, last);
     add("set {}range [{}:{}] {}\n", name, first, last, axis.isReversed && !isFixed ? "reverse" : "noreverse");
     add("set {}tics nomirror scale 0.6,0.3 textcolor rgb '#303030'\n", name);
@@ -246,7 +246,7 @@ void Script::addMap(const HeatMap& map) {
         for (int c = 0; c < map.columns; ++c) {
             const double x = map.x0 + (map.columns > 1 ? (map.x1 - map.x0) * c / (map.columns - 1) : 0);
             const double y = map.y0 + (map.rows > 1 ? (map.y1 - map.y0) * r / (map.rows - 1) : 0);
-            const double value = map.values[static_cast<std::size_t>(r * map.columns + c)];
+            const double value = map.values[r * map.columns + c];
             rows +=
                 fmt::format("{:.7g} {:.7g} {}\n", x, y, std::isfinite(value) ? fmt::format("{:.5g}", value) : "NaN");
         }

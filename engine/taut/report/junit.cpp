@@ -26,7 +26,7 @@ std::size_t characterLength(const std::string& text, std::size_t at) {
     return isControl || letter.code == 0xFFFE || letter.code == 0xFFFF ? 0 : letter.size;
 }
 
-// For text and attributes; what XML does not allow becomes a question mark.
+// For text and attributes; characters that XML does not allow become question marks.
 std::string escaped(const std::string& text) {
     std::string out;
     for (std::size_t at = 0; at < text.size();) {

@@ -36,8 +36,8 @@ double placeLegend(std::vector<LegendEntry>& entries, double left, double right,
     const int rows = (count + most - 1) / most;
     const int perRow = (count + rows - 1) / rows;
     for (int i = 0; i < count; ++i) {
-        entries[static_cast<std::size_t>(i)].x = left + (i % perRow) * column;
-        entries[static_cast<std::size_t>(i)].y = bottom + (rows - 1 - i / perRow + 0.5) * rowHeight;
+        entries[i].x = left + (i % perRow) * column;
+        entries[i].y = bottom + (rows - 1 - i / perRow + 0.5) * rowHeight;
     }
     return rows * rowHeight + 8;
 }
@@ -59,7 +59,7 @@ ChartLayout layoutOf(const Chart& chart) {
     const int rows = (count + columns - 1) / columns;
     const auto panelAt = [&](int row, int column) -> const Panel* {
         const int i = row * columns + column;
-        return i < count ? &chart.panels[static_cast<std::size_t>(i)] : nullptr;
+        return i < count ? &chart.panels[i] : nullptr;
     };
 
     // Across.
@@ -99,9 +99,7 @@ ChartLayout layoutOf(const Chart& chart) {
         if (r == rows - 1) layout.colours.bottom = y;
         for (int c = 0; c < columns; ++c)
             if (panelAt(r, c) != nullptr)
-                layout.panels[static_cast<std::size_t>(r * columns + c)] = {
-                    lefts[static_cast<std::size_t>(c)], lefts[static_cast<std::size_t>(c)] + chart.panelWidth, y,
-                    y + chart.panelHeight};
+                layout.panels[r * columns + c] = {lefts[c], lefts[c] + chart.panelWidth, y, y + chart.panelHeight};
         y += chart.panelHeight;
         layout.colours.top = y;
         y += above;

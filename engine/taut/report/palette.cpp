@@ -17,8 +17,8 @@ Style style(const char* colour, Mark mark, bool isFilled, Dash dash) {
     return {colour, mark, isFilled, dash, width, 1.0};
 }
 
-// Hues after Okabe and Ito (2008), darkened where a thin line on white needs it. What is close in method is close in
-// hue and differs in mark, filling and dashes.
+// Hues after Okabe and Ito (2008), darkened where a thin line on white needs it. Related methods have
+// related hues and differ in mark, filling and dashes.
 const std::array<Named, 10>& named() {
     static const std::array<Named, 10> all = {{
         {"leapfrog", style("#d55e00", Mark::circle, true, Dash::solid)},

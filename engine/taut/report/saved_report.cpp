@@ -103,7 +103,7 @@ class Reading {
     }
     template <class Item>
     void read(std::vector<Item>& items) const {
-        // One after the other: what the bytes say of their number is believed no further than they go.
+        // One after the other: a count beyond the end of the bytes fails there.
         for (auto left = reader_.number<std::uint64_t>(); left > 0; --left) read(items.emplace_back());
     }
     template <class Other>

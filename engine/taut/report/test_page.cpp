@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "taut/core/private/base64.h"
 #include "taut/core/private/utf8.h"
@@ -240,7 +239,7 @@ std::string htmlText(const std::string& text) {
     return out;
 }
 
-// What is gravest stands first. The policy in the head makes sure that the page asks nothing of any network.
+// The gravest results come first. The policy in the head makes sure that the page asks nothing of any network.
 std::string testPage(const TestReport& report) {
     const Verdict verdict = verdictOf(report);
     std::string text = fmt::format(

@@ -24,8 +24,8 @@ TextChange changeOf(char sign, const Lines& lines, std::size_t i) {
     return {sign, static_cast<int>(i) + 1, std::string(lines[i])};
 }
 
-// The lines from `first` up to `aEnd` and `bEnd` by their longest common subsequence: length[i][j] is that of what
-// follows a[i] and b[j].
+// The lines from `first` up to `aEnd` and `bEnd` by their longest common subsequence: length[i][j] is that of the
+// lines after a[i] and b[j].
 void compareMiddle(const Lines& a, const Lines& b, std::size_t first, std::size_t aEnd, std::size_t bEnd,
                    std::vector<TextChange>& all) {
     constexpr std::size_t most = 4'000'000;  // of its table; longer texts are taken as wholly new

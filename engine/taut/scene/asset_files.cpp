@@ -92,14 +92,14 @@ std::vector<path> foldersFor(Place place, const world::SceneSpec& spec) {
     std::vector<path> folders{path(spec.file).parent_path()};
     for (const std::string& base : spec.bases) folders.push_back(path(base).parent_path());
     if (place.origin < 0 && -place.origin < static_cast<int>(folders.size()))
-        folders.insert(folders.begin(), folders[static_cast<std::size_t>(-place.origin)]);
+        folders.insert(folders.begin(), folders[-place.origin]);
     std::vector<path> once;
     for (const path& folder : folders)
         if (std::find(once.begin(), once.end(), folder) == once.end()) once.push_back(folder);
     return once;
 }
 
-// Without texture coordinates a mesh has no warp, and what its material resists bending with is the same all ways.
+// Without texture coordinates a mesh has no warp, and its material resists bending equally in all directions.
 void warnOfLostDirections(const ReadScene& scene, Problems& problems) {
     for (const world::BodySpec& body : scene.spec.bodies) {
         const world::MeshSource* source = body.meshSource();
@@ -174,7 +174,7 @@ void useState(const Asset& asset, Place place, world::RunSpec& run, Problems& pr
                           "the run continues from the time of the state: make seconds larger");
 }
 
-// Replaces names by what was found.
+// Replaces names by the files found.
 void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
     for (world::BodySpec& body : scene.spec.bodies) {
         const Place place = scene.owners.at(body.fullName());

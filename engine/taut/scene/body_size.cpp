@@ -9,7 +9,7 @@
 namespace taut::scene {
 
 double BodySize::bytes() const {
-    // The larger of both precisions, measured on a cloth and rounded up; a tetrahedron takes as much as a spring.
+    // The larger of the two precisions, measured on a cloth and rounded up; a tetrahedron takes as much as a spring.
     return 600.0 * points + 120.0 * (springs + volumes);
 }
 

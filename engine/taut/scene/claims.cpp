@@ -82,7 +82,7 @@ class Claims {
         }
     }
 
-    // What is measured from a moment on must be there by then.
+    // A body that is measured from a time on must exist by then.
     void checkMention(double begin, const char* remedy, const Node& that, const check::Mention& mention) {
         const Place place = problems_.placeInside(that.place, that.text, mention.at);
         if (mention.isJoint) {
@@ -111,7 +111,7 @@ class Claims {
     // A function that can never find anything is hardly meant.
     void doubtCall(const Node& that, const check::Call& call) {
         if (call.function->counts == world::Counts::everyBody) return;
-        const bool isOfFaces = call.function->counts == world::Counts::whatMeetsFaces;
+        const bool isOfFaces = call.function->counts == world::Counts::bodiesMeetingFaces;
         const auto countsAny = [&](const std::string& target) {
             const std::vector<const BodyEntry*> named = bodies_.matches(target);
             return std::any_of(scene_.spec.bodies.begin(), scene_.spec.bodies.end(), [&](const world::BodySpec& body) {

@@ -82,7 +82,7 @@ class Scanner {
   public:
     Scanner(std::string_view text, int origin) : text_(text), origin_(origin) {}
 
-    // Throws for what the parser would wrongly accept or crash on.
+    // Throws for text that the parser would wrongly accept or crash on.
     void check() {
         if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) fail("this is UTF-16; a scene is UTF-8");
         const std::size_t zero = text_.find('\0');

@@ -119,13 +119,11 @@ SceneSection worldSection() {
     section.existing = findPart(&SceneSpec::world);
     section.fields = FieldList<WorldSpec>()
                          .vector("gravity", &WorldSpec::gravity, "m/s²", Range{-1e6, 1e6}, "Acceleration of gravity.")
-                         .ramps(Affects::forces)
                          .number("air_density_kg_per_m3", &WorldSpec::airDensity, "kg/m³", Range{0.0, 1e6},
                                  "Density of the air, for wind.")
-                         .ramps(Affects::forces)
                          .number("air_pressure_Pa", &WorldSpec::airPressure, "Pa", Range{0.0, 1e9},
                                  "Pressure of the air outside sealed fillings; 0: none.")
-                         .ramps(Affects::forces)
+                         .allRamp(Affects::forces)
                          .take();
     return section;
 }
@@ -191,21 +189,15 @@ SceneSection lightSection() {
     section.fields =
         FieldList<LightSpec>()
             .direction("direction", &LightSpec::direction, "Direction in which the light travels; any length.")
-            .ramps(inPicture)
             .colour("colour", &LightSpec::colour, "Colour of the direct light.")
-            .ramps(inPicture)
             .number("intensity", &LightSpec::intensity, "", Range{0.0, 1000.0}, "Strength of the direct light.")
-            .ramps(inPicture)
             .degrees("softness_deg", &LightSpec::softness, lightSize,
                      "Apparent size of the sun: the width of a penumbra is 2 tan(size / 2) times the distance of the "
                      "object that casts it; 0: hard.")
-            .ramps(inPicture)
             .colour("sky", &LightSpec::sky, "Ambient light from above.")
-            .ramps(inPicture)
             .colour("ground", &LightSpec::ground, "Ambient light from below.")
-            .ramps(inPicture)
             .number("ambient", &LightSpec::ambient, "", Range{0.0, 1000.0}, "Strength of the ambient light.")
-            .ramps(inPicture)
+            .allRamp(inPicture)
             .take();
     return section;
 }
@@ -223,10 +215,9 @@ SceneSection environmentSection() {
                   "at +x.")
             .required()
             .number("strength", &EnvironmentSpec::strength, "", Range{0.0, 1000.0}, "Factor on its light.")
-            .ramps(inPicture)
             .degrees("turn_deg", &EnvironmentSpec::turn, Range{-3600.0, 3600.0}, "Rotation about the vertical.")
-            .ramps(inPicture)
             .flag("visible", &EnvironmentSpec::visible, "Whether it is visible in place of the background.")
+            .allRamp(inPicture)
             .take();
     return section;
 }
@@ -241,14 +232,11 @@ SceneSection lampSection() {
     section.fields =
         FieldList<LampSpec>()
             .direction("direction", &LampSpec::direction, "Direction in which the light travels; any length.")
-            .ramps(inPicture)
             .colour("colour", &LampSpec::colour, "Colour.")
-            .ramps(inPicture)
             .number("intensity", &LampSpec::intensity, "", Range{0.0, 1000.0}, "Strength.")
-            .ramps(inPicture)
             .degrees("softness_deg", &LampSpec::softness, lightSize, "Apparent size, as that of the sun.")
-            .ramps(inPicture)
             .flag("shadow", &LampSpec::shadow, "Whether it casts shadows, which cost as much as those of the sun.")
+            .allRamp(inPicture)
             .take();
     return section;
 }
@@ -262,15 +250,12 @@ SceneSection backgroundSection() {
     section.fields =
         FieldList<BackgroundSpec>()
             .colour("top", &BackgroundSpec::top, "Colour at the top of the picture.")
-            .ramps(inPicture)
             .colour("horizon", &BackgroundSpec::horizon, "Colour at the horizon.")
-            .ramps(inPicture)
             .number("fade_start", &BackgroundSpec::fadeStart, "m", notNegative,
                     "Distance from the camera's target at which the ground begins to fade; by default larger for "
                     "distant cameras.")
-            .ramps(inPicture)
             .number("fade_end", &BackgroundSpec::fadeEnd, "m", positive, "Distance at which the ground has faded.")
-            .ramps(inPicture)
+            .allRamp(inPicture)
             .take();
     section.check = [](const CheckInput& input, void* target) {
         auto& background = *static_cast<BackgroundSpec*>(target);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "taut/scene/private/body_index.h"
 #include "taut/scene/private/fabrics.h"

@@ -26,15 +26,14 @@ class GltfMeshReader {
             if (nodes_.isDrawn[n] && nodes[n].mesh >= 0) readPart(static_cast<int>(n));
         if (figure_.triangles.empty()) gltf_.fail("there are no triangles");
         if (degenerate_ > 0) gltf_.note(fmt::format("{} triangle(s) without area", degenerate_));
-        mesh_.positions.resize(static_cast<std::size_t>(vertices_));
+        mesh_.positions.resize(vertices_);
         figure::placeVertices(figure_, figure::postureAt(figure_, nullptr, 0.0), mesh_.positions);
         mesh_.triangles = figure_.triangles;
         if (!hasUv_) mesh_.cornerUv.clear();
         if (hasUv_) {
             mesh_.uv.resize(mesh_.positions.size());
             for (std::size_t t = mesh_.triangles.size(); t-- > 0;)
-                for (std::size_t k = 0; k < 3; ++k)
-                    mesh_.uv[static_cast<std::size_t>(mesh_.triangles[t][k])] = mesh_.cornerUv[t][k];
+                for (std::size_t k = 0; k < 3; ++k) mesh_.uv[mesh_.triangles[t][k]] = mesh_.cornerUv[t][k];
         }
         for (int i = 0; i < vertices_; ++i) mesh_.numbers.push_back(i + 1);
         return std::move(mesh_);
@@ -48,10 +47,10 @@ class GltfMeshReader {
     };
 
     void readPart(int nodeNumber) {
-        const tinygltf::Node& node = gltf_.content().nodes[static_cast<std::size_t>(nodeNumber)];
+        const tinygltf::Node& node = gltf_.content().nodes[nodeNumber];
         const tinygltf::Mesh& mesh = gltf_.at(gltf_.content().meshes, node.mesh, "mesh");
         figure::Part part;
-        part.node = nodes_.numberOf[static_cast<std::size_t>(nodeNumber)];
+        part.node = nodes_.numberOf[nodeNumber];
         if (node.skin >= 0) {
             gltf_.at(figure_.skins, node.skin, "skin");
             part.skin = node.skin;
@@ -59,7 +58,7 @@ class GltfMeshReader {
         }
         Weld weld{{}, vertices_};
         for (const tinygltf::Primitive& primitive : mesh.primitives) readPrimitive(primitive, mesh.name, weld, part);
-        std::vector<double>& weights = figure_.nodes[static_cast<std::size_t>(part.node)].weights;
+        std::vector<double>& weights = figure_.nodes[part.node].weights;
         if (weights.empty()) weights = mesh.weights;
         weights.resize(part.targets.size());
         if (part.positions.empty()) return;
@@ -132,7 +131,7 @@ class GltfMeshReader {
         return vertexOf;
     }
 
-    // Each new vertex of the part takes what the first of those merged into it has.
+    // Each new vertex of the part takes the data of the first one merged into it.
     template <class Take>
     static void eachNew(const std::vector<int>& vertexOf, const Weld& weld, std::size_t before, const Take& take) {
         std::size_t next = before;
@@ -170,7 +169,7 @@ class GltfMeshReader {
             if (weights.back().values.empty()) gltf_.fail(fmt::format("mesh \"{}\" has JOINTS without WEIGHTS", name));
         }
         if (joints.empty()) gltf_.fail(fmt::format("mesh \"{}\" has a skin but no JOINTS_0", name));
-        const std::size_t jointCount = figure_.skins[static_cast<std::size_t>(part.skin)].joints.size();
+        const std::size_t jointCount = figure_.skins[part.skin].joints.size();
         eachNew(vertexOf, weld, before, [&](std::size_t, std::size_t i) {
             const std::size_t first = part.influences.size();
             double sum = 0;

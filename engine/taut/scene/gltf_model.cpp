@@ -145,7 +145,7 @@ std::string GltfModel::takenBase64(std::span<char> string) {
     // JSON may write \/ for /.
     const auto length = std::remove(letters.begin(), letters.end(), '\\') - letters.begin();
     base64_.emplace_back();
-    if (!core::fromBase64(whole.substr(at + mark.size(), static_cast<std::size_t>(length)), base64_.back()))
+    if (!core::fromBase64(whole.substr(at + mark.size(), length), base64_.back()))
         fail("a data URI of it is not base64");
     return fmt::format("\"{}{}\"", embedded, base64_.size() - 1);
 }

@@ -18,7 +18,7 @@ figure::Skin skinOf(const GltfModel& gltf, const GltfNodes& nodes, const tinyglt
     figure::Skin skin;
     for (const int joint : from.joints) {
         gltf.at(gltf.content().nodes, joint, "node");
-        skin.joints.push_back(nodes.numberOf[static_cast<std::size_t>(joint)]);
+        skin.joints.push_back(nodes.numberOf[joint]);
     }
     skin.inverseBind.assign(skin.joints.size(), glm::dmat4(1.0));
     if (from.inverseBindMatrices >= 0) {
@@ -51,10 +51,10 @@ void readAnimation(const tinygltf::Animation& from, GltfModel& gltf, const GltfN
         if (way == ways.end()) gltf.fail(fmt::format("there is no interpolation \"{}\"", sampler.interpolation));
         gltf.at(gltf.content().nodes, of.target_node, "node");
         figure::Channel channel;
-        channel.node = nodes.numberOf[static_cast<std::size_t>(of.target_node)];
+        channel.node = nodes.numberOf[of.target_node];
         channel.path = path->second;
         channel.interpolation = way->second;
-        figure::Node& node = figure.nodes[static_cast<std::size_t>(channel.node)];
+        figure::Node& node = figure.nodes[channel.node];
         if (node.matrix) gltf.fail(fmt::format("animation \"{}\" moves a node that has a matrix", animation.name));
         const std::size_t width = channel.path == figure::Path::weights    ? node.weights.size()
                                   : channel.path == figure::Path::rotation ? 4
@@ -86,22 +86,21 @@ GltfNodes readGltfNodes(const GltfModel& gltf, Figure& figure) {
     for (std::size_t n = 0; n < count; ++n)
         for (const int child : gltf.content().nodes[n].children) {
             gltf.at(gltf.content().nodes, child, "node");
-            if (parent[static_cast<std::size_t>(child)] >= 0) gltf.fail(fmt::format("node {} has two parents", child));
-            parent[static_cast<std::size_t>(child)] = static_cast<int>(n);
+            if (parent[child] >= 0) gltf.fail(fmt::format("node {} has two parents", child));
+            parent[child] = static_cast<int>(n);
         }
     isDrawn.assign(count, gltf.content().scenes.empty());
     if (!gltf.content().scenes.empty())
         for (const int root : gltf.at(gltf.content().scenes, std::max(0, gltf.content().defaultScene), "scene").nodes) {
             gltf.at(gltf.content().nodes, root, "node");
-            isDrawn[static_cast<std::size_t>(root)] = true;
+            isDrawn[root] = true;
         }
     numberOf.assign(count, -1);
     std::vector<int> order;
     for (std::size_t n = 0; n < count; ++n)
         if (parent[n] < 0) order.push_back(static_cast<int>(n));
     for (std::size_t next = 0; next < order.size(); ++next)
-        for (const int child : gltf.content().nodes[static_cast<std::size_t>(order[next])].children)
-            order.push_back(child);
+        for (const int child : gltf.content().nodes[order[next]].children) order.push_back(child);
     if (order.size() < count) gltf.fail("nodes are parents of their parents");
     for (const int number : order) {
         const auto n = static_cast<std::size_t>(number);
@@ -109,8 +108,8 @@ GltfNodes readGltfNodes(const GltfModel& gltf, Figure& figure) {
         figure::Node node;
         node.name = from.name;
         if (parent[n] >= 0) {
-            node.parent = numberOf[static_cast<std::size_t>(parent[n])];
-            isDrawn[n] = isDrawn[n] || isDrawn[static_cast<std::size_t>(parent[n])];
+            node.parent = numberOf[parent[n]];
+            isDrawn[n] = isDrawn[n] || isDrawn[parent[n]];
         }
         for (const auto* list : {&from.translation, &from.rotation, &from.scale, &from.matrix, &from.weights})
             for (const double v : *list)

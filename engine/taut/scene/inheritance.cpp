@@ -111,7 +111,7 @@ class Elements {
         return below;
     }
 
-    // What the element's material says of things of its section, just ahead of the defaults.
+    // The values in the element's material for its section, just ahead of the defaults.
     void addMaterial(const Member& element, std::vector<const Node*>& below) const {
         const Member* name = element.value.find("material");
         for (const Node* layer : below)

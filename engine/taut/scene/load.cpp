@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "taut/core/error.h"
 #include "taut/joints/sewn_panels.h"
@@ -130,7 +129,7 @@ std::vector<std::string> layOnBases(Node& root, const std::string& fileName, con
         trees.push_back(treeOf(base.text, problems.addBase(base.text, base.path.string()), problems));
     }
     if (trees.empty()) return {};
-    // From the lowest up, as each was written for what lies below it.
+    // From the lowest up, as each was written for the ones below it.
     Node sum = std::move(trees.back());
     for (auto over = trees.rbegin() + 1; over != trees.rend(); ++over) sum = merged(std::move(sum), *over);
     root = merged(std::move(sum), root);

@@ -69,7 +69,7 @@ std::string manual(const world::Kinds& kinds) {
         if (section.name != "defaults")  // it repeats the keys of the sections above
             writeFields(section, title, section.enter(scene, "name", {}), "  ", titles, out);
     }
-    // What several sections share.
+    // The keys that several sections share.
     out +=
         "\n"
         "Targets\n"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -150,18 +149,16 @@ class ObjReader {
         std::vector<dvec3> places;
         for (std::size_t i = 1; i < words.size(); ++i) {
             corners.push_back(corner(words[i]));
-            places.push_back(positions_[static_cast<std::size_t>(corners.back().position)]);
+            places.push_back(positions_[corners.back().position]);
         }
         ++faceCount_;
         for (const std::array<int, 3>& triangle : polygonTriangles(places)) {
-            const auto at = [&](int i) {
-                return places[static_cast<std::size_t>(triangle[static_cast<std::size_t>(i)])];
-            };
+            const auto at = [&](int i) { return places[triangle[i]]; };
             if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) continue;
             std::array<int, 3> vertices{};
             std::array<dvec2, 3> uv{};
             for (std::size_t i = 0; i < 3; ++i) {
-                const Corner& corner = corners[static_cast<std::size_t>(triangle[i])];
+                const Corner& corner = corners[triangle[i]];
                 vertices[i] = vertex(corner);
                 uv[i] = uvOf(corner);
             }
@@ -200,7 +197,7 @@ class ObjReader {
 
     using Key = std::tuple<double, double, double>;
     Key keyOf(int position) const {
-        const dvec3 p = positions_[static_cast<std::size_t>(position)] + dvec3(0.0);  // -0 becomes +0
+        const dvec3 p = positions_[position] + dvec3(0.0);  // -0 becomes +0
         return {p.x, p.y, p.z};
     }
 
@@ -216,9 +213,7 @@ class ObjReader {
         hasUv_ = hasUv_ && corner.uv >= 0;
         return found->second;
     }
-    dvec2 uvOf(const Corner& corner) const {
-        return corner.uv < 0 ? dvec2(0.0) : uvs_[static_cast<std::size_t>(corner.uv)];
-    }
+    dvec2 uvOf(const Corner& corner) const { return corner.uv < 0 ? dvec2(0.0) : uvs_[corner.uv]; }
 
     std::string_view text_;
     const std::string& fileName_;

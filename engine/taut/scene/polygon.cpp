@@ -38,7 +38,7 @@ std::vector<dvec2> flattened(std::span<const dvec3> corners) {
 
 // Whether the corner at place i of the ring can be cut off.
 bool isEar(const std::vector<dvec2>& points, const std::vector<int>& ring, std::size_t i) {
-    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(ring[k % ring.size()])]; };
+    const auto at = [&](std::size_t k) { return points[ring[k % ring.size()]]; };
     const dvec2 a = at(i + ring.size() - 1), b = at(i), c = at(i + 1);
     if (!(area(a, b, c) > 0.0)) return false;
     for (std::size_t k = i + 2; k < i + ring.size() - 1; ++k) {

@@ -36,7 +36,7 @@ void checkJointName(const NameReference& reference, const world::ColliderTarget&
         return problems.addError(reference.place,
                                  fmt::format("{} has no joints: it is a {}", target.collider, collider.shape),
                                  fmt::format("write {}", target.collider));
-    if (collider.meshData == nullptr || collider.meshData->figure == nullptr) return;  // said already
+    if (collider.meshData == nullptr || collider.meshData->figure == nullptr) return;  // already reported
     std::vector<std::string> names;
     for (const figure::Node& node : collider.meshData->figure->nodes)
         if (!node.name.empty()) names.push_back(node.name);

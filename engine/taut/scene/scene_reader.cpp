@@ -37,7 +37,7 @@ class SceneReader {
     }
 
   private:
-    // Sets the owner of what is read next: "cloth.flag", "solver", "joint", or the file.
+    // Sets the owner of the next fields: "cloth.flag", "solver", "joint", or the file.
     void enter(const std::string& owner) {
         owner_ = owner;
         problems_.about(owner);

@@ -40,7 +40,7 @@ Field likeRow(const std::string& section) {
     return row;
 }
 
-// The section without required fields: others may fill in what it leaves out.
+// The section without required fields: others may fill in missing ones.
 Section partly(Section section) {
     section.variant = nullptr;
     section.variantKey.clear();
@@ -77,7 +77,7 @@ SceneSection defaultsSection(const std::vector<SceneSection>& sections) {
     return all;
 }
 
-// [material.NAME.cloth]: what cloth made of it has unless it says otherwise. Read into a cloth that is thrown away;
+// [material.NAME.cloth]: defaults of cloth made of it. Read into a cloth that is thrown away;
 // scene::inherit() has handed it out.
 Field thingsOfMaterial(const SceneSection& section) {
     Field row;

@@ -15,7 +15,7 @@ namespace {
 // Sections that only a picture shows, and keys of bodies and colliders.
 constexpr std::string_view picturesOnly[] = {"picture",     "camera",     "light", "lamp",
                                              "environment", "background", "label"};
-// What a material says of cloth, each cloth has by now.
+// The values in a material for cloth are in each cloth by now.
 constexpr std::string_view finishOnly[] = {"finish", "visible", "edge", "ball", "cloth"};
 // Sections that change nothing before their time, or nothing at all. For files that are named the content counts.
 constexpr std::string_view neither[] = {"schema", "title", "scene", "defaults", "need", "fit", "check", "golden", "at"};

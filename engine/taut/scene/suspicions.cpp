@@ -48,7 +48,7 @@ void reportSuspicions(const ReadScene& scene, Problems& problems) {
     for (const auto& entry : spec.materials) {
         const std::string& name = entry.first;
         const bool isUsed = usesMaterial(spec, name);
-        if (isUsed || isFabric(name)) continue;  // a fabric may only be what another is like
+        if (isUsed || isFabric(name)) continue;  // a fabric may only serve as `like` of another
         problems.addWarning(scene.owners.at("material." + name), fmt::format("no cloth is made of {}", name));
     }
     if (spec.bodies.empty())

@@ -1,7 +1,5 @@
 #include "taut/spec/private/motion.h"
 
-#include <cmath>
-
 #include "taut/core/trig.h"
 #include "taut/spec/private/rotation.h"
 

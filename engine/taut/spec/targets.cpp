@@ -25,7 +25,7 @@ std::vector<int> gridPoints(const mechanics::Model& model, const GridPlace& plac
     const glm::dvec2 middle = glm::dvec2(u, v) * model.uv.back();
     std::vector<int> points;
     for (const int i : model.groups.at("all"))
-        if (i == nearest || glm::distance(model.uv[static_cast<std::size_t>(i)], middle) <= radius) points.push_back(i);
+        if (i == nearest || glm::distance(model.uv[i], middle) <= radius) points.push_back(i);
     return points;
 }
 

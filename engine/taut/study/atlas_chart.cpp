@@ -18,7 +18,7 @@ using report::Mark;
 using report::Panel;
 using report::Scale;
 
-// Most of what matters is near 1: the root of the logarithm spreads it, -1 for a half, 1 for twice.
+// Most interesting values are near 1: the root of the logarithm spreads it, -1 for a half, 1 for twice.
 double shadeOf(double growth) {
     if (!(growth > 0)) return -1;
     const double octaves = std::log2(growth);
@@ -80,7 +80,7 @@ Panel mapPanel(const StabilityMap& map, const StabilityPanel& source) {
     return panel;
 }
 
-// What a force evaluation buys: without it a method of four stages looks twice as stable as it is.
+// Limits per force evaluation: without them a method of four stages looks twice as stable as it is.
 Panel workPanel(const StabilityMap& map) {
     Panel panel;
     panel.title = "limits for equal work";

@@ -118,36 +118,9 @@ std::string growthCsv(const StabilityMap& map) {
         for (int row = 0; row < map.rows; ++row)
             for (int column = 0; column < map.columns; ++column)
                 table.rows.push_back({panel.method, damping, rounded(map.zetaAt(column)), rounded(map.zAt(row)),
-                                      rounded(panel.growth[static_cast<std::size_t>(row * map.columns + column)])});
+                                      rounded(panel.growth[row * map.columns + column])});
     }
     return report::csv(table);
-}
-
-std::string stabilityJson(const StabilityMap& map, const MachineFacts& machine) {
-    Json json;
-    json["title"] = "growth per step on the damped oscillator";
-    for (const auto& [name, value] : machine) json["machine"][name] = value;
-    json["map"] = {{"columns", map.columns},
-                   {"rows", map.rows},
-                   {"zeta_most", map.mostZeta},
-                   {"omega_h_most", map.mostZ},
-                   {"steps", map.steps}};
-    json["boundary"] = {
-        {"steps", limitSteps}, {"growth_that_counts", growthTolerance}, {"omega_h_most", map.mostMeasured}};
-    json["methods"] = Json::array();
-    for (const StabilityPanel& panel : map.panels) {
-        Json boundaries = Json::array();
-        for (const Boundary& b : panel.boundaries)
-            boundaries.push_back({{"zeta", rounded(b.zeta)}, {"predicted", b.predicted}, {"measured", b.measured}});
-        json["methods"].push_back({{"method", panel.method},
-                                   {"damping", dampingName(panel.damping)},
-                                   {"no_limit", panel.isWithoutLimit},
-                                   {"largest_gap", panel.largestGap},
-                                   {"largest_gap_at_zeta", panel.gapZeta},
-                                   {"boundaries", std::move(boundaries)}});
-    }
-    json["interrupted"] = map.isInterrupted;
-    return json.dump(2) + "\n";
 }
 
 std::string stabilitySummary(const StabilityMap& map) {

@@ -15,7 +15,6 @@ namespace taut::study {
 std::string boundariesCsv(const StabilityMap& map);
 // A row a point of the maps.
 std::string growthCsv(const StabilityMap& map);
-std::string stabilityJson(const StabilityMap& map, const MachineFacts& machine);
 // A line a method and kind of damping: limits at some ζ, and the largest gap.
 std::string stabilitySummary(const StabilityMap& map);
 

@@ -201,16 +201,15 @@ ContactStudy studyContact(const ContactSettings& settings) {
             for (const int detections : settings.detections) {
                 const int steps = factor * problem.fewestSteps;
                 if (detections > steps) continue;
-                if (settings.stop != nullptr && settings.stop->load()) study.isInterrupted = true;
+                if (settings.listener.isStopped()) study.isInterrupted = true;
                 if (study.isInterrupted) return study;
-                if (settings.progress)
-                    settings.progress((done - 1) / all,
-                                      fmt::format("{}, {} steps, {} detections", problem.name, steps, detections));
+                settings.listener.report((done - 1) / all,
+                                         fmt::format("{}, {} steps, {} detections", problem.name, steps, detections));
                 runs.push_back(runOf(problem, steps, detections));
             }
         study.runs.insert(study.runs.end(), runs.begin(), runs.end());
     }
-    if (settings.progress) settings.progress(1.0, "");
+    settings.listener.report(1.0, "");
     return study;
 }
 

@@ -1,11 +1,11 @@
 // How good contact is by how often it is looked for and by how many steps a tick has: problems with a known answer.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "taut/core/private/listener.h"
 
 namespace taut::study {
 
@@ -44,8 +44,7 @@ struct ContactSettings {
     std::vector<std::string> problems{};                     // none: all
     std::vector<int> steps = {1, 4, 16};                     // times the fewest of the problem
     std::vector<int> detections = {1, 2, 4, 8, 16, 32, 64};  // up to the steps
-    const std::atomic<bool>* stop = nullptr;
-    std::function<void(double done, const std::string& doing)> progress{};
+    core::Listener listener{};
 };
 
 ContactStudy studyContact(const ContactSettings& settings = {});

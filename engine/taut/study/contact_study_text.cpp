@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "taut/report/column.h"
 
 namespace taut::study {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using report::In;
 
 constexpr double leastShown = 1e-6, mostShown = 1.0;  // errors on the axis
@@ -61,17 +59,6 @@ std::string contactCsv(const ContactStudy& study) {
     return csv(tableOf(contactColumns(), study.runs, In::csv));
 }
 
-std::string contactJson(const ContactStudy& study, const MachineFacts& machine) {
-    Json json;
-    json["problem"] = "contact";
-    for (const auto& [name, value] : machine) json["machine"][name] = value;
-    for (const ContactProblem& problem : contactProblems())
-        json["problems"].push_back(
-            {{"name", problem.name}, {"title", problem.title}, {"about", problem.about}, {"known", problem.known}});
-    json["runs"] = report::jsonOf<Json>(contactColumns(), study.runs);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 std::string contactSummary(const ContactStudy& study) {
     report::TextTable table;
     table.columns = {"problem", "steps"};
@@ -94,58 +81,39 @@ std::string contactSummary(const ContactStudy& study) {
 }
 
 std::vector<NamedChart> contactCharts(const ContactStudy& study, const std::vector<std::string>& notes) {
-    report::Chart error, cost;
-    error.title = "Contact: error against detections and steps";
-    error.subtitle = "Detections find the pairs that may meet; impulses act in every step. A tick is 1/60 s";
-    cost.title = "Contact: error against cost";
-    cost.subtitle = "Processor time of a tick of 1/60 s; along a curve the detections double, from 1 on";
+    report::Chart chart;
+    chart.title = "Contact: error against detections and steps";
+    chart.subtitle = "Detections find the pairs that may meet; impulses act in every step. A tick is 1/60 s";
+    chart.columns = 3;
+    chart.panelWidth = 330;
+    chart.panelHeight = 280;
+    chart.pngScale = 1.5;
+    chart.notes = notes;
     std::size_t series = 0;
     forEachSeries(study, [&](const ContactProblem& problem, int steps, std::span<const ContactRun> runs) {
-        const bool isNew = error.panels.empty() || error.panels.back().title != problem.title;
-        if (isNew) series = 0;
-        for (report::Chart* chart : {&error, &cost}) {
-            const bool isCost = chart == &cost;
-            if (isNew) {
-                report::Panel panel;
-                panel.title = problem.title;
-                panel.x.scale = report::Scale::log;
-                panel.x.label = isCost ? "processor time of a tick [ms]" : "detections a tick";
-                if (!isCost) {
-                    panel.x.least = 0.8;
-                    panel.x.most = 80;
-                    for (const int n : {1, 2, 4, 8, 16, 32, 64})
-                        panel.x.ticks.push_back({static_cast<double>(n), std::to_string(n), false});
-                }
-                panel.y = errorAxis(chart->panels.size() % 3 == 0);
-                panel.labels.push_back(
-                    {0.03, 0.95, problem.about, "#303030", report::Align::left, 0, 0, 10.5, true, true});
-                chart->panels.push_back(panel);
-            }
-            report::Curve curve;
-            curve.style = styleOfSeries(series);
-            curve.title = fmt::format(
-                "{} steps", series == 0 ? "fewest" : fmt::format("{} times as many", steps / problem.fewestSteps));
-            for (const ContactRun& run : runs)
-                if (run.isWhole)
-                    curve.points.push_back({isCost ? run.milliseconds : run.detections,
-                                            std::clamp(std::abs(run.error), leastShown, mostShown)});
-            report::Panel& panel = chart->panels.back();
-            panel.curves.push_back(curve);
-            if (series == 0)
-                panel.labels.push_back({0.03, 0.87, fmt::format("fewest: {} steps a tick", steps), "#303030",
-                                        report::Align::left, 0, 0, 10.5, true, true});
+        if (chart.panels.empty() || chart.panels.back().title != problem.title) {
+            series = 0;
+            report::Panel& panel = chart.panels.emplace_back();
+            panel.title = problem.title;
+            panel.x = {.label = "detections a tick", .scale = report::Scale::log, .least = 0.8, .most = 80};
+            for (const int n : {1, 2, 4, 8, 16, 32, 64})
+                panel.x.ticks.push_back({static_cast<double>(n), std::to_string(n), false});
+            panel.y = errorAxis(chart.panels.size() % 3 == 1);
+            panel.note(0.03, 0.95, problem.about);
+            panel.note(0.03, 0.87, fmt::format("fewest: {} steps a tick", steps));
         }
+        report::Curve& curve = chart.panels.back().curves.emplace_back();
+        curve.style = styleOfSeries(series);
+        curve.title = fmt::format(
+            "{} steps", series == 0 ? "fewest" : fmt::format("{} times as many", steps / problem.fewestSteps));
+        for (const ContactRun& run : runs)
+            if (run.isWhole)
+                curve.points.push_back(
+                    {static_cast<double>(run.detections), std::clamp(std::abs(run.error), leastShown, mostShown)});
         ++series;
     });
-    for (report::Chart* chart : {&error, &cost}) {
-        chart->columns = 3;
-        chart->panelWidth = 330;
-        chart->panelHeight = 280;
-        chart->pngScale = 1.5;
-        chart->notes = notes;
-    }
-    if (error.panels.empty()) return {};
-    return {{"detections", error}, {"cost", cost}};
+    if (chart.panels.empty()) return {};
+    return {{"detections", chart}};
 }
 
 }  // namespace taut::study

@@ -38,7 +38,7 @@ struct Sought {
     }
 };
 
-// (targets)(points) what a run has in place of what was measured.
+// (targets)(points) the values of a run at the places of the measurements.
 struct FitRun {
     std::vector<std::vector<double>> values;
     std::string failure;

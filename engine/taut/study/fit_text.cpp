@@ -74,7 +74,7 @@ report::Columns<FittedTarget> targetColumns() {
             {"met", &Target::isMet, "verdict", [](const Target& t) { return t.isMet() ? "met" : "not met"; }}};
 }
 
-// What leaves all targets as they are: one number alone, two with their product or quotient kept, or more.
+// The change that leaves all targets as they are: one number alone, two with their product or quotient kept, or more.
 std::string unseenText(const Fit& fit, const std::vector<double>& direction) {
     std::vector<std::size_t> parts;
     double most = 0;

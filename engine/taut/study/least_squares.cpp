@@ -87,7 +87,7 @@ class NormalEquations {
   private:
     double unscaled(double part, std::size_t i) const { return length_[i] > 0 ? part / length_[i] : 0.0; }
 
-    // Of those that have a column.
+    // Of the parameters that have a column.
     template <class Visit>
     void eachDirection(const Visit& visit) const {
         for (std::size_t k = 0; k < length_.size(); ++k) {

@@ -161,7 +161,7 @@ Energies energiesOf(const mechanics::Model& model, const dvec3& gravity, std::sp
         energies.potential -= model.masses[i] * glm::dot(gravity, x[i]);
     }
     for (const mechanics::Spring& spring : model.springs) {
-        const dvec3 d = x[static_cast<std::size_t>(spring.b)] - x[static_cast<std::size_t>(spring.a)];
+        const dvec3 d = x[spring.b] - x[spring.a];
         const double stretch = std::sqrt(glm::dot(d, d)) - spring.restLength;
         energies.potential += 0.5 * spring.stiffness * stretch * stretch;
     }

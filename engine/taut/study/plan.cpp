@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "taut/core/error.h"
@@ -20,7 +19,7 @@ constexpr int mostVerified = 4;            // of one search
 constexpr double stricter = 0.75;          // a target after a verification that failed
 constexpr double mostJitter = 1e-5;        // [m] a start is hardly known better
 constexpr double leastGrowth = 0.1;        // of the target: a smaller one is shaken by that
-constexpr double generatorShare = 0.1;     // of the target, that what is left out in any case may change together
+constexpr double generatorShare = 0.1;     // of the target, for the sum of the generators that are always left out
 constexpr double shareOfGenerators = 0.2;  // of the effort
 
 Candidate plainCandidate(const PlanContext& context) {
@@ -29,7 +28,7 @@ Candidate plainCandidate(const PlanContext& context) {
     return candidate;
 }
 
-// What percents and pixels mean, and whether the motion can be promised at all. Sets grid and target.
+// Resolves percents and pixels, and whether the motion can be predicted at all. Sets grid and target.
 PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     checkNeed(context.spec);
     context.tell("scene as it is", 0.02);
@@ -38,7 +37,7 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
         PlanRun run = play(scene, context.resolution, context.grid,
                            {.effort = std::max(context.left(), 0.0), .withScales = true});
         context.spent += static_cast<std::int64_t>(run.effort);
-        if (run.isTooDear) failForEffort(context);
+        if (run.isTooExpensive) failForEffort(context);
         return run;
     };
     world::SceneSpec model = modelOf(context.spec, context.resolution, plainCandidate(context));
@@ -64,14 +63,15 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     plan.jitterMoves = difference(base, shaken);
     if (plan.jitterMoves == 0)
         throw core::Error(core::ErrorKind::badContent, plan.name + ": error: nothing in the scene can move");
-    plan.isChaotic = !shaken.isTooDear && plan.jitterMoves > context.target;
+    plan.isChaotic = !shaken.isTooExpensive && plan.jitterMoves > context.target;
     plan.seconds = context.grid.tick * context.grid.every *
                    (plan.isChaotic ? samplesWithin(base, shaken, context.target) : context.grid.samples);
     return base;
 }
 
-// What candidates may leave out, in every combination: generators that together change next to nothing, and those that
-// change less than the target where the cost hangs on them. The first set is that of all that change next to nothing.
+// The generators that candidates may leave out, in every combination: all that together change next to nothing, and
+// generators that change less than the target if the cost depends on them. The first set is that of all that change
+// next to nothing.
 std::vector<Generators> generatorsToDrop(const PlanContext& context, const PlanRun& base, Plan& plan) {
     const Generators all = generatorsOf(context.spec);
     const double most = context.left(shareOfGenerators) / static_cast<double>(all.size() + 1);
@@ -180,8 +180,8 @@ void verify(const PlanContext& context, Plan& plan) {
     plan.verification.isCutShort = context.left() <= 0;
 }
 
-// In place of what does not stand the verification the next cheapest is taken; where none does, it is searched for once
-// more with a stricter target.
+// The next cheapest replaces a candidate that fails the verification; if all fail, the search is repeated once with a
+// stricter target.
 void searchAndVerify(PlanContext& context, const PlanReference& reference, std::optional<int> least,
                      const std::vector<Generators>& without, Plan& plan) {
     for (int round = 0; round < 3; ++round, context.target *= stricter) {
@@ -263,7 +263,7 @@ Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
     plan.isCutShort = plan.isCutShort || context.isCutShort;
     addRemarks(context, reference, plan);
     plan.spent = settings.effort - context.left();
-    if (settings.progress) settings.progress({"done", 1.0});
+    settings.listener.report(1.0, "done");
     return plan;
 }
 

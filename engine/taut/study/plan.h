@@ -1,13 +1,12 @@
 // From the need of a scene to the cheapest way to model and compute it, with the evidence. It writes nothing.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "taut/core/private/listener.h"
 #include "taut/scene/private/splice.h"
 #include "taut/study/plan_candidate.h"
 #include "taut/study/plan_need.h"
@@ -17,8 +16,7 @@ namespace taut::study {
 
 struct PlanSettings {
     double effort = 2e10;  // all runs together: evaluations times springs and points, and equivalent work
-    std::function<void(const StudyProgress&)> progress;
-    const std::atomic<bool>* stop = nullptr;
+    core::Listener listener{};
 };
 
 // The effect of leaving out a force generator.

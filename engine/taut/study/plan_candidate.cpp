@@ -26,7 +26,7 @@ using world::SceneSpec;
 constexpr int leastCells = 2;  // of a cloth or rope: a spring across two cells must fit in
 constexpr double leastSafety = 0.01;
 constexpr double springsACell = 5;  // a volume cell takes the time of so many springs (measured: 20 ns against 4)
-constexpr double splitting = 2.2;   // what a step that splits the dashpots off costs, of one that does not
+constexpr double splitting = 2.2;   // cost of a step that splits the dashpots off, over that of one that does not
 
 // A fabric of the library stays as it was measured: a scene file has no place to change it.
 bool isOfLibrary(const std::pair<const std::string, world::MaterialSpec>& material) {

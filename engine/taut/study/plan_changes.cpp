@@ -12,7 +12,7 @@ namespace {
 
 using scene::Change;
 
-// What a plan may change.
+// The keys that a plan may change.
 constexpr std::string_view plannedKeys[] = {"cells",        "segments", "drag_per_s", "damping_time_s", "bend_N",
                                             "bend_N_per_m", "bulk_Pa",  "drag",       "lift",           "integrator",
                                             "dt",           "safety",   "precision"};

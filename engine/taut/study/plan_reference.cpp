@@ -33,7 +33,8 @@ struct ExactMethod {
     double evaluations = 0;  // a step
 };
 
-// Leap-frog, unless its largest stable step makes it many times as dear as what needs more steps to be as exact.
+// Leap-frog, unless its largest stable step makes it many times as expensive as a method with more steps of the same
+// error.
 ExactMethod exactMethod(const PlanContext& context, int count) {
     ExactMethod best;
     double least = HUGE_VAL;
@@ -66,7 +67,7 @@ std::vector<int> ladder(int count, int most) {
     return counts;
 }
 
-// Richardson's: beyond the finer run by a factor of what the two are apart.
+// Richardson's: beyond the finer run by a factor of the difference of the two.
 PlanRun extrapolatedRun(const PlanRun& coarse, const PlanRun& fine, double factor) {
     PlanRun run = fine;
     for (std::size_t s = 0; s < run.at.size(); ++s)
@@ -91,7 +92,7 @@ ExactRun controlledRun(const PlanContext& context, int count) {
     model.solver.cgTolerance = toleranceOf(context);
     ExactRun result{context.run(model), HUGE_VAL,
                     fmt::format("Fehlberg 7(8) at a tolerance of {:.2g} m/s", toleranceOf(context))};
-    // What the finer run errs by is a hundredth of that; ten times more is room for what the motion makes of it.
+    // The error of the finer run is a hundredth of that; the factor of ten is room for its growth with the motion.
     result.error = difference(coarse, result.run) / 10;
     return result;
 }
@@ -124,7 +125,7 @@ ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double
 }
 
 void expectWhole(const PlanContext& context, const ExactRun& exact) {
-    if (exact.run.isTooDear) failForEffort(context);
+    if (exact.run.isTooExpensive) failForEffort(context);
     if (!exact.run.isWhole())
         throw core::Error(core::ErrorKind::diverged, context.spec.file + ": even the reference: " + exact.run.failure);
 }
@@ -132,9 +133,9 @@ void expectWhole(const PlanContext& context, const ExactRun& exact) {
 }  // namespace
 
 void PlanContext::tell(const std::string& doing, double done) const {
-    if (settings.stop != nullptr && *settings.stop)
+    if (settings.listener.isStopped())
         throw core::Error(core::ErrorKind::interrupted, "interrupted before a plan was found");
-    if (settings.progress) settings.progress({doing, done});
+    settings.listener.report(done, doing);
 }
 
 void failForEffort(const PlanContext& context) {
@@ -145,12 +146,12 @@ void failForEffort(const PlanContext& context) {
 PlanRun PlanContext::run(const world::SceneSpec& model, double most) const {
     if (left() <= 0) {
         PlanRun none;
-        none.isTooDear = true;
+        none.isTooExpensive = true;
         isCutShort = true;
         return none;
     }
     PlanRun run = play(model, resolution, grid, {.cost = most, .effort = std::max(left(), 0.0)});
-    if (run.isTooDear && run.cost <= most) isCutShort = true;
+    if (run.isTooExpensive && run.cost <= most) isCutShort = true;
     spent.fetch_add(static_cast<std::int64_t>(run.effort), std::memory_order_relaxed);
     return run;
 }
@@ -175,7 +176,7 @@ ExactRun exactRun(const PlanContext& context, int count, double effortShare) {
 
 PlanReference makePlanReference(const PlanContext& context) {
     PlanReference reference;
-    double before = 0, spent = 0;  // what the two resolutions before changed; of the effort, the last of them
+    double before = 0, spent = 0;  // change between the two resolutions before; effort of the last of them
     for (const int count : ladder(context.resolution.count, context.resolution.most)) {
         const bool isFirst = reference.runs.empty();
         // Four resolutions at least: with two there is no order, with three it may be chance.
@@ -198,13 +199,13 @@ PlanReference makePlanReference(const PlanContext& context) {
         reference.runs[count] = exact.run;
         reference.limit = exact.run;
         reference.error = reference.unknown = exact.error;
-        if (isFirst && count > 0) reference.unknown = reference.error = HUGE_VAL;  // nothing tells what cells err by
+        if (isFirst && count > 0) reference.unknown = reference.error = HUGE_VAL;  // the error of cells is unknown
         if (!isFirst) {
             const double apart = difference(reference.run, exact.run);
             const double finer = std::log(static_cast<double>(count) / reference.count);
             if (before > 0) reference.order = std::log(before / std::max(apart, 1e-300)) / finer;
             // With a lower one no limit is within reach, as of cloth held at a corner, which gives way the more the
-            // finer it is: then what as many cells again would change has to do.
+            // finer it is: then the change by doubling the cells is used.
             const double order = before > 0 ? std::clamp(reference.order, 0.0, mostOrder) : 1.0;
             const double shrinks = std::exp(order * finer);
             const double beyond = order < leastOrder ? 1 / shrinks : 1 / (shrinks - 1);

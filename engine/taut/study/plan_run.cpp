@@ -25,15 +25,15 @@ using glm::dvec3;
 // Places of a body that is compared over resolutions: the ends of so many equal parts of each edge.
 constexpr int partsOfRope = 24, partsOfCloth = 12, partsOfBlock = 5;
 
-// What a call of the forces takes besides, in springs (measured on nets of a few springs: 100 ns against 1 to 2).
+// The fixed cost of a call of the forces, in springs (measured on nets of a few springs: 100 ns against 1 to 2).
 constexpr double costOfCall = 60;
 
 // The cost of a detection of contact between bodies per point, and per pair that it looks at, in springs
 // (measured on a hanging cloth, one that folds and a pile of four: 120 ns, and 0.6 to 1.3 us, against 2 ns).
 constexpr double costOfDetection = 60, costOfPair = 400;
 
-// What a run takes before its first tick, its step found and its world built, in springs (measured: 0.5 ms and 1 to 2
-// us for each spring).
+// The cost of a run before its first tick, to build the world and choose the step, in springs (measured: 0.5 ms and 1
+// to 2 us for each spring).
 constexpr double costOfStart = 1e5, callsOfStart = 300;
 
 // A place as points and their weights.
@@ -73,8 +73,8 @@ std::vector<Place> placesOfGrid(const std::array<int, 3>& cells, const std::arra
                         stride *= cells[d] + 1;
                     }
                     if (weight <= 0) continue;
-                    place.points[static_cast<std::size_t>(place.count)] = point;
-                    place.weights[static_cast<std::size_t>(place.count++)] = weight;
+                    place.points[place.count] = point;
+                    place.weights[place.count++] = weight;
                 }
                 places.push_back(place);
             }
@@ -84,7 +84,7 @@ std::vector<Place> placesOfGrid(const std::array<int, 3>& cells, const std::arra
 std::vector<Place> freePoints(const mechanics::Model& model) {
     std::vector<Place> places;
     for (int i = 0; i < model.pointCount(); ++i)
-        if (!model.held[static_cast<std::size_t>(i)]) places.push_back({{i}, {1.0}, 1});
+        if (!model.held[i]) places.push_back({{i}, {1.0}, 1});
     return places;
 }
 
@@ -103,7 +103,7 @@ class Watcher {
             for (const Place& place : places) {
                 dvec3 x(0.0);
                 for (std::size_t i = 0; i < static_cast<std::size_t>(place.count); ++i)
-                    x += place.weights[i] * positions[static_cast<std::size_t>(place.points[i])];
+                    x += place.weights[i] * positions[place.points[i]];
                 sight.push_back(x);
             }
         }
@@ -136,7 +136,7 @@ double contactCost(const world::World& world) {
            costOfPair * static_cast<double>(contact.testedPairs);
 }
 
-// What was computed so far, each evaluation and product taken to cost what it does and `more`.
+// The cost so far, with `more` added to each evaluation and product.
 double costSoFar(const world::World& world, double more = 0) {
     double sum = contactCost(world);
     for (const world::IslandInfo& island : world.islands())
@@ -191,7 +191,7 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
     SightBounds box;
     if (limits.withScales) box.add(watcher.look());
     // Islands are described from scratch at each call: rarely.
-    const auto isTooDear = [&] {
+    const auto isTooExpensive = [&] {
         const ode::Work work = world.work();
         const double most = (costOfAll + costOfCall) * static_cast<double>(work.evaluations + work.iterations) +
                             (bodiesTouch ? contactCost(world) : 0.0);
@@ -200,11 +200,11 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
     };
     for (int sample = 0; sample < grid.samples; ++sample) {
         const auto start = Clock::now();
-        for (int tick = 0; tick < grid.every && run.failure.empty() && !run.isTooDear; ++tick) {
+        for (int tick = 0; tick < grid.every && run.failure.empty() && !run.isTooExpensive; ++tick) {
             if (const auto divergence = world.advance())
                 run.failure = "diverged at " + std::to_string(divergence->time) + " s";
             const bool isLast = sample + 1 == grid.samples && tick + 1 == grid.every;
-            run.isTooDear = !isLast && run.failure.empty() && isTooDear();
+            run.isTooExpensive = !isLast && run.failure.empty() && isTooExpensive();
         }
         run.seconds += std::chrono::duration<double>(Clock::now() - start).count();
         if (!run.isWhole()) return;

@@ -30,10 +30,10 @@ PlanGrid planGrid(const world::SceneSpec& spec, double horizon);
 using Sight = std::vector<glm::dvec3>;
 
 struct PlanRun {
-    std::string failure;     // why there is none or no end of it; empty: it ran to the end
-    bool isTooDear = false;  // stopped because it cost more than asked for
-    std::vector<Sight> at;   // (samples)
-    ode::Work work;          // the start's too
+    std::string failure;          // why there is none or no end of it; empty: it ran to the end
+    bool isTooExpensive = false;  // stopped because it cost more than asked for
+    std::vector<Sight> at;        // (samples)
+    ode::Work work;               // the start's too
     double cost = 0;    // evaluations of the forces, products of a solver counted as such, times the cost of one, see
                         // costOf(); without those of the start, which are made once for any length of the run
     double effort = 0;  // the same with the start, calls and building the world
@@ -45,7 +45,7 @@ struct PlanRun {
     bool hasContacts = false;
     Scales scales;  // filled on demand
 
-    bool isWhole() const { return failure.empty() && !isTooDear; }
+    bool isWhole() const { return failure.empty() && !isTooExpensive; }
 };
 
 struct RunLimits {

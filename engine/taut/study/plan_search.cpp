@@ -15,7 +15,7 @@ constexpr int moreCounts = 4;           // resolutions above the coarsest that a
 constexpr double stepPrecision = 1.04;  // the number of steps is found to this factor
 constexpr double clearly = 0.99;        // cheaper by less than that is no reason to change anything
 constexpr double leastToScan = 1e8;     // of the effort, and
-constexpr double timesToScan = 1;       // times what was spent before, may go into looking around the cheapest
+constexpr double timesToScan = 1;       // times the effort before, for the search around the cheapest
 constexpr double scanPrecision = 1.02;  // numbers of steps looked at are so far apart, or 1
 constexpr double farFrom = 3;           // times the target: from there steps follow the order
 constexpr int mostRuns = 20;            // of one method at one resolution
@@ -41,7 +41,7 @@ class Search {
         note(trial, run);
     }
 
-    // What is there already stays when nothing found is cheaper.
+    // The scene as written stays if nothing cheaper is found.
     void compareAsWritten() {
         const PlanTrial& written = plan_.trials.front();
         if (written.meets && written.cost < clearly * bestCost()) plan_.chosen = 0;
@@ -63,7 +63,7 @@ class Search {
             for (const std::string& method : names) tryMethod(count + more, method, false);
     }
 
-    // What a scene whose need cannot be met comes down to.
+    // The nearest candidate of a scene whose need cannot be met.
     void tryNearest(int count) {
         const std::vector<std::string> names = methods();
         for (std::size_t i = 0; i < preferred_; ++i) {
@@ -112,7 +112,7 @@ class Search {
     }
 
   private:
-    // The scene's own first: what is not better is not changed.
+    // The scene's own first: it stays unless another is better.
     std::vector<std::string> methods() {
         std::vector<std::string> names{context_.spec.solver.integrator};
         const auto add = [&](std::string_view name) {
@@ -133,11 +133,11 @@ class Search {
         trial.springs = run.springs;
         trial.step = run.step;
         trial.cost = perFrame(run.cost);
-        trial.wasStopped = run.isTooDear;
+        trial.wasStopped = run.isTooExpensive;
         if (!run.failure.empty()) {
             trial.verdict = run.failure;
             trial.cost = PlanTrial::unset;
-        } else if (run.isTooDear) {
+        } else if (run.isTooExpensive) {
             trial.verdict = "stopped: it costs more already";
         } else {
             trial.error = reference_.errorOf(run);
@@ -181,9 +181,9 @@ class Search {
 
         int tooFew = 0, substeps = facts.leastSubsteps;
         for (int runs = 0; runs < mostRuns; ++runs) {
-            const bool isTooDear = leastCost(substeps) * context_.grid.frames() > context_.left(shareToSearch);
-            plan_.isCutShort = plan_.isCutShort || (isTooDear && !cannotWin(substeps));
-            if (cannotWin(substeps) || isTooDear) {
+            const bool isTooExpensive = leastCost(substeps) * context_.grid.frames() > context_.left(shareToSearch);
+            plan_.isCutShort = plan_.isCutShort || (isTooExpensive && !cannotWin(substeps));
+            if (cannotWin(substeps) || isTooExpensive) {
                 trial.candidate.substeps = substeps;
                 trial.step = facts.tick / substeps;
                 trial.springs = facts.springs;
@@ -268,7 +268,8 @@ class Search {
 
     const PlanContext& context_;
     const PlanReference& reference_;
-    const std::vector<Generators>& without_;  // first what changes next to nothing, then what would save something
+    const std::vector<Generators>&
+        without_;  // first generators that change next to nothing, then ones that would save cost
     Plan& plan_;
     double lastError_ = PlanTrial::unset;  // of the method that is tried, and at how many substeps
     int lastSubsteps_ = 0;

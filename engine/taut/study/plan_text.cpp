@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 using report::In;
 
 // See costOf().
-constexpr const char* whatCostIs =
+constexpr const char* costExplained =
     "springs, points and 5 for a volume cell, times evaluations of the forces and products of a solver; 2.2 times as "
     "much where steps split the dashpots off";
 
@@ -88,7 +88,7 @@ std::string evidenceText(const Plan& plan) {
         text += fmt::format("\nResolution: cells along the longest edge{}\n", order) +
                 aligned(tableOf(resolutionColumns(), plan.resolutions, In::people));
     }
-    return text + "\nCandidates (cost: " + std::string(whatCostIs) + "; without the start)\n" +
+    return text + "\nCandidates (cost: " + std::string(costExplained) + "; without the start)\n" +
            aligned(tableOf(trialColumns(plan), plan.trials, In::people)) +
            (plan.alsoTried > 0
                 ? fmt::format("and {} around the cheapest, which are not cheaper or err too much.\n", plan.alsoTried)
@@ -210,7 +210,7 @@ std::string planJson(const Plan& plan, const MachineFacts& machine) {
                          {"error_m", plan.referenceError},
                          {"order", plan.order},
                          {"method", plan.referenceMethod}};
-    json["cost"] = whatCostIs;
+    json["cost"] = costExplained;
     json["candidates"] = report::jsonOf<Json>(trialColumns(plan), plan.trials);
     json["also_tried"] = plan.alsoTried;
     json["verification"] = {{"change_at_quarter_step_m", plan.verification.step},

@@ -26,7 +26,7 @@ mechanics::Model pointsAt(const std::vector<dvec3>& positions, double mass) {
 
 constexpr int clothCells = 16;
 
-// One metre of light cotton, let go at rest. A slight smooth bulge breaks the symmetry that would hide its chaos.
+// One metre of light cotton, released at rest. A slight smooth bulge breaks the symmetry that would hide its chaos.
 std::unique_ptr<Subject> cloth(const char* name, const char* title, const char* hold, const dvec3& down) {
     mechanics::ClothShape shape;
     shape.cells = {clothCells, clothCells};
@@ -41,7 +41,7 @@ std::unique_ptr<Subject> cloth(const char* name, const char* title, const char* 
     const std::string which(hold);
     for (const char* group : {"top", "left", "top-left", "top-right"})
         if (which.find(std::string("(") + group + ")") != std::string::npos)
-            for (const int i : model.groups.at(group)) model.held[static_cast<std::size_t>(i)] = true;
+            for (const int i : model.groups.at(group)) model.held[i] = true;
     const dvec3 normal = glm::normalize(glm::cross(shape.across, shape.down));
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
         const double u = model.uv[i].x, w = model.uv[i].y;
@@ -107,7 +107,7 @@ std::unique_ptr<Subject> makeNet() {
     for (int j = 0; j < side; ++j)
         for (int i = 0; i < side; ++i) {
             const int at = j * side + i;
-            problem.model.held[static_cast<std::size_t>(at)] = i == 0 || j == 0 || i == side - 1 || j == side - 1;
+            problem.model.held[at] = i == 0 || j == 0 || i == side - 1 || j == side - 1;
             if (i + 1 < side && j > 0 && j + 1 < side) problem.model.springs.push_back({at, at + 1, stiffness, 0.0});
             if (j + 1 < side && i > 0 && i + 1 < side) problem.model.springs.push_back({at, at + side, stiffness, 0.0});
         }

@@ -34,7 +34,7 @@ RefinementRun runOf(const RefinementBody& body, const Treatment& treatment, int 
     return run;
 }
 
-// What ever finer bodies tend to (Richardson): the three finest give the order, the last difference the rest. An order
+// The limit of ever finer bodies (Richardson): the three finest give the order, the last difference the rest. An order
 // that is out of reason is taken as 1.
 double limitOf(const std::vector<RefinementRun>& series) {
     const double a = series[series.size() - 3].value, b = series[series.size() - 2].value, c = series.back().value;
@@ -90,9 +90,9 @@ RefinementStudy studyRefinement(const RefinementSettings& settings) {
             if (!applies(body, treatment)) continue;
             std::vector<RefinementRun> series;
             for (const int cells : settings.cells) {
-                if (settings.stop != nullptr && settings.stop->load()) study.isInterrupted = true;
+                if (settings.listener.isStopped()) study.isInterrupted = true;
                 if (study.isInterrupted) return;
-                if (settings.progress) settings.progress(done / all, body.name + ", " + treatment.name);
+                settings.listener.report(done / all, body.name + ", " + treatment.name);
                 series.push_back(runOf(body, treatment, cells));
                 done += costOf(body, cells);
             }
@@ -105,7 +105,7 @@ RefinementStudy studyRefinement(const RefinementSettings& settings) {
         study.bodies.push_back(std::move(facts));
         study.runs.insert(study.runs.end(), runs.begin(), runs.end());
     });
-    if (settings.progress) settings.progress(1.0, "");
+    settings.listener.report(1.0, "");
     return study;
 }
 

@@ -2,12 +2,11 @@
 // weighted by their share of the material or not, against theory. It knows nothing of motion.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "taut/core/private/listener.h"
 #include "taut/study/refinement_bodies.h"
 
 namespace taut::study {
@@ -50,8 +49,7 @@ inline constexpr double refinementFloor = 3e-6;
 struct RefinementSettings {
     std::vector<std::string> bodies;          // none: all
     std::vector<int> cells = {4, 8, 16, 32};  // each twice the one before; at least three
-    const std::atomic<bool>* stop = nullptr;
-    std::function<void(double done, const std::string& doing)> progress{};
+    core::Listener listener{};
 };
 
 RefinementStudy studyRefinement(const RefinementSettings& settings = {});

@@ -16,7 +16,7 @@ using mechanics::Model;
 constexpr double g = -refinementGravity.y;
 
 void hold(Model& model, const char* group) {
-    for (const int i : model.groups.at(group)) model.held[static_cast<std::size_t>(i)] = true;
+    for (const int i : model.groups.at(group)) model.held[i] = true;
 }
 
 // Masses of one build and springs of another: the builders know both ways for cloths, but not one without the other.
@@ -69,7 +69,7 @@ RefinementBody ropeBody(const char* name, const char* title, Rope rope) {
             "elastic catenary",
             false,
             [rope](int cells, Lumped lumped) { return rope.build(cells, lumped); },
-            [](const std::vector<dvec3>& x, int cells) { return -x[static_cast<std::size_t>(cells / 2)].y; }};
+            [](const std::vector<dvec3>& x, int cells) { return -x[cells / 2].y; }};
 }
 
 RefinementBody hangingRope() {
@@ -117,7 +117,7 @@ Model sheet(glm::dvec2 size, glm::ivec2 cells, double stretch, Lumped lumped) {
 // The upper end is held where this puts it, so that the solution holds throughout. Its middle stays.
 void holdAsTheorySays(Model& model, double length, double poisson, double strainPerMetre) {
     for (const int i : model.groups.at("top")) {
-        dvec3& x = model.positions[static_cast<std::size_t>(i)];
+        dvec3& x = model.positions[i];
         const double square = x.x * x.x + x.z * x.z;
         x.x -= poisson * strainPerMetre * length * x.x;
         x.z -= poisson * strainPerMetre * length * x.z;
@@ -126,7 +126,7 @@ void holdAsTheorySays(Model& model, double length, double poisson, double strain
     hold(model, "top");
 }
 
-// The linear theories want small strains: of 1e-6 here, so that what they leave out does not show.
+// The linear theories want small strains: of 1e-6 here, so that the neglected terms do not show.
 constexpr double smallStrain = 1e-6;
 
 RefinementBody clothStrip() {
@@ -210,7 +210,7 @@ RefinementBody clothDrape() {
                 Model model = sheet({1.0, 1.0}, {cells, cells}, 40.0, lumped);
                 for (dvec3& x : model.positions)
                     x = {x.x, -0.1 * std::sin(std::numbers::pi * (x.x + 0.5)) * std::sin(-std::numbers::pi * x.y), x.y};
-                for (const int i : model.groups.at("edges")) model.positions[static_cast<std::size_t>(i)].y = 0.0;
+                for (const int i : model.groups.at("edges")) model.positions[i].y = 0.0;
                 hold(model, "edges");
                 return model;
             },

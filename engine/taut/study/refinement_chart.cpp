@@ -120,17 +120,15 @@ Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, boo
         addSlope(panel, cells, 1, 0.6);
         addSlope(panel, cells, 2, 0.007);
     }
-    // Errors that lie decades below the axis are said, not drawn.
+    // Errors decades below the axis are written, not drawn.
     if (isExact)
         panel.labels.push_back({0.5, 0.5, "exact with every treatment: " + boundText(facts), "#303030",
                                 report::Align::centre, 0, 0, 11, true, true});
     else
         addCurves(panel, study, body.name, [&](const RefinementRun& run) { return std::abs(run.error); });
-    panel.labels.push_back(
-        {0.03, 0.05, body.quantity + ": " + body.theory, "#303030", report::Align::left, 0, 0, 10.5, true, true});
+    panel.note(0.03, 0.05, body.quantity + ": " + body.theory);
     const std::string orders = ordersText(study, body);
-    if (!orders.empty())
-        panel.labels.push_back({0.97, 0.95, orders, "#303030", report::Align::right, 0, 0, 10.5, true, true});
+    if (!orders.empty()) panel.note(0.97, 0.95, orders, report::Align::right);
     return panel;
 }
 
@@ -153,11 +151,9 @@ Panel drapePanel(const RefinementStudy& study, const RefinementFacts& facts, boo
     good.opacity = 0.16;
     panel.regions.push_back(good);
     addCurves(panel, study, body.name, [](const RefinementRun& run) { return 100.0 * run.error; });
-    panel.labels.push_back({0.97, 0.05, body.quantity + ", limit " + number("%.4g mm", 1e3 * facts.reference),
-                            "#303030", report::Align::right, 0, 0, 10.5, true, true});
+    panel.note(0.97, 0.05, body.quantity + ", limit " + number("%.4g mm", 1e3 * facts.reference), report::Align::right);
     const std::string orders = ordersText(study, body);
-    if (!orders.empty())
-        panel.labels.push_back({0.97, 0.13, orders, "#303030", report::Align::right, 0, 0, 10.5, true, true});
+    if (!orders.empty()) panel.note(0.97, 0.13, orders, report::Align::right);
     return panel;
 }
 

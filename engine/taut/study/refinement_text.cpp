@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "taut/report/column.h"
 
 namespace taut::study {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using report::In;
 
 const RefinementFacts& factsOf(const RefinementStudy& study, const std::string& body) {
@@ -21,45 +19,26 @@ const RefinementFacts& factsOf(const RefinementStudy& study, const std::string& 
 }
 
 report::Columns<RefinementRun> runColumns(const RefinementStudy& study) {
-    return {
-        {"body", &RefinementRun::body},
-        {"quantity", [&study](const RefinementRun& run) { return factsOf(study, run.body).body->quantity; }, In::csv},
-        {"treatment", &RefinementRun::treatment},
-        {"cells", &RefinementRun::cells},
-        {"points", &RefinementRun::points},
-        {"springs", &RefinementRun::springs},
-        {"value_m", &RefinementRun::value},
-        {"reference_m", [&study](const RefinementRun& run) { return factsOf(study, run.body).reference; }, In::csv},
-        {"relative_error", &RefinementRun::error},
-        {"order", &RefinementRun::order},
-        {"residual", &RefinementRun::residual},
-        {"steps", &RefinementRun::steps, In::json},
-        {"settled", &RefinementRun::isAtRest}};
+    return {{"body", &RefinementRun::body},
+            {"quantity", [&study](const RefinementRun& run) { return factsOf(study, run.body).body->quantity; }},
+            {"treatment", &RefinementRun::treatment},
+            {"cells", &RefinementRun::cells},
+            {"points", &RefinementRun::points},
+            {"springs", &RefinementRun::springs},
+            {"value_m", &RefinementRun::value},
+            {"reference_m", [&study](const RefinementRun& run) { return factsOf(study, run.body).reference; }},
+            {"reference", [&study](const RefinementRun& run) { return factsOf(study, run.body).body->theory; }},
+            {"relative_error", &RefinementRun::error},
+            {"order", &RefinementRun::order},
+            {"residual", &RefinementRun::residual},
+            {"steps", &RefinementRun::steps},
+            {"settled", &RefinementRun::isAtRest}};
 }
 
 }  // namespace
 
 std::string refinementCsv(const RefinementStudy& study) {
     return csv(tableOf(runColumns(study), study.runs, In::csv));
-}
-
-std::string refinementJson(const RefinementStudy& study, const MachineFacts& machine) {
-    Json json;
-    json["problem"] = "refinement";
-    for (const auto& [name, value] : machine) json["machine"][name] = value;
-    for (const Treatment& treatment : treatments())
-        json["treatments"].push_back({{"name", treatment.name}, {"title", treatment.title}});
-    for (const RefinementFacts& facts : study.bodies) {
-        const RefinementBody& body = *facts.body;
-        Json entry = {{"name", body.name},         {"title", body.title},
-                      {"quantity", body.quantity}, {"reference_m", facts.reference},
-                      {"reference", body.theory},  {"is_theory", body.exact.has_value()}};
-        for (const Treatment& treatment : treatments())
-            entry["order"][treatment.name] = measuredOrder(study, body.name, treatment.name);
-        json["bodies"].push_back(std::move(entry));
-    }
-    json["runs"] = report::jsonOf<Json>(runColumns(study), study.runs);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string refinementSummary(const RefinementStudy& study) {

@@ -83,13 +83,13 @@ class Measurement {
         for (std::size_t i = 0; i < map_.panels.size(); ++i) {
             StabilityPanel& panel = map_.panels[i];
             doing_ = panel.title;
-            panel.boundaries.resize(static_cast<std::size_t>(std::max(2, settings_.boundaries)));
+            panel.boundaries.resize(std::max(2, settings_.boundaries));
             core::parallelFor(static_cast<int>(panel.boundaries.size()), [&](int b) { measureBoundary(panel, b); });
             if (panel.growth.empty()) continue;
             core::parallelFor(map_.rows, [&](int row) { measureRow(panel, row); });
         }
         for (StabilityPanel& panel : map_.panels) findGap(panel);
-        map_.isInterrupted = isStopped();
+        map_.isInterrupted = settings_.listener.isStopped();
         return std::move(map_);
     }
 
@@ -106,19 +106,16 @@ class Measurement {
                 panel.title = method.title;
                 panel.damping = damping;
                 panel.isDampingAlike = isAlike;
-                if (!isAlike || damping == Damping::drag)
-                    panel.growth.assign(static_cast<std::size_t>(map_.columns * map_.rows), 0.0);
+                if (!isAlike || damping == Damping::drag) panel.growth.assign(map_.columns * map_.rows, 0.0);
                 tasks_ += std::max(2, settings_.boundaries) + (panel.growth.empty() ? 0 : map_.rows);
                 map_.panels.push_back(std::move(panel));
             }
         }
     }
 
-    bool isStopped() const { return settings_.stop != nullptr && *settings_.stop; }
-
     void measureBoundary(StabilityPanel& panel, int b) {
-        if (isStopped()) return;
-        Boundary& boundary = panel.boundaries[static_cast<std::size_t>(b)];
+        if (settings_.listener.isStopped()) return;
+        Boundary& boundary = panel.boundaries[b];
         boundary.zeta = map_.mostZeta * b / (static_cast<double>(panel.boundaries.size()) - 1);
         boundary.predicted = predictedLimit(*ode::findMethod(panel.method), boundary.zeta, panel.damping);
         boundary.measured =
@@ -127,9 +124,9 @@ class Measurement {
     }
 
     void measureRow(StabilityPanel& panel, int row) {
-        if (isStopped()) return;
+        if (settings_.listener.isStopped()) return;
         for (int column = 0; column < map_.columns; ++column)
-            panel.growth[static_cast<std::size_t>(row * map_.columns + column)] =
+            panel.growth[row * map_.columns + column] =
                 measuredGrowth(panel.method, map_.zetaAt(column), panel.damping, map_.zAt(row), mapSteps);
         tell();
     }
@@ -149,7 +146,7 @@ class Measurement {
     void tell() {
         const std::lock_guard lock(mutex_);
         ++done_;
-        if (settings_.progress) settings_.progress({doing_, static_cast<double>(done_) / tasks_});
+        settings_.listener.report(static_cast<double>(done_) / tasks_, doing_);
     }
 
     const StabilityMapSettings& settings_;
@@ -166,7 +163,7 @@ double measuredGrowth(std::string_view method, double zeta, Damping damping, dou
     Run runs[2] = {{method, oscillator, z, 1.0, 0.0}, {method, oscillator, z, 0.0, 1.0}};
     std::vector<double> logarithms;  // of the amplitude
     const int burn = steps / 2;
-    logarithms.reserve(static_cast<std::size_t>(steps - burn));
+    logarithms.reserve(steps - burn);
     double scaled = 0;  // logarithm of all scaling so far
     for (int n = 0; n < steps; ++n) {
         for (Run& run : runs) run.step();

@@ -2,12 +2,11 @@
 // grow beside where theory says so. It draws and writes nothing.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "taut/core/private/listener.h"
 #include "taut/ode/method.h"
 #include "taut/study/oscillator.h"
 
@@ -57,17 +56,11 @@ struct StabilityMap {
     double zAt(int row) const { return mostZ * (row + 1) / rows; }
 };
 
-struct AtlasProgress {
-    std::string doing;
-    double done = 0;  // 0 … 1
-};
-
 struct StabilityMapSettings {
-    std::vector<std::string> methods;                    // empty: all
-    int columns = 101;                                   // of a map; as many rows
-    int boundaries = 41;                                 // values of ζ at which the boundary is measured
-    std::function<void(const AtlasProgress&)> progress;  // from one thread at a time
-    const std::atomic<bool>* stop = nullptr;
+    std::vector<std::string> methods;  // empty: all
+    int columns = 101;                 // of a map; as many rows
+    int boundaries = 41;               // values of ζ at which the boundary is measured
+    core::Listener listener{};
 };
 
 StabilityMap measureStability(const StabilityMapSettings& settings);

@@ -68,7 +68,7 @@ class Settling {
             found.residual = now;
         }
         found.isAtRest = found.residual <= tolerance;
-        if (found.isAtRest) {  // once more, and without haste: Newton's step squares what is left
+        if (found.isAtRest) {  // once more, and without haste: Newton's step squares the residual
             method_->step(system_, 0.0, longestStep, state_);
             ++found.steps;
             found.residual = residual();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <optional>
 
 #include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
@@ -23,9 +22,9 @@ constexpr double apart = 1.01;                  // at which bisection ends
 constexpr double leastShareOfLimit = 1.0 / 32;  // of leap-frog's limit: the shortest step tried, or
 constexpr double belowTheory = 0.5;             // of the predicted limit where that is less, but
 constexpr double mostRunSteps = 1e6;            // in a run, however short that limit
-constexpr double beyondTheory = 1.05;           // of the predicted limit: from there on what stands only fails later
+constexpr double beyondTheory = 1.05;           // of the predicted limit: beyond it a run that stands only fails later
 constexpr int lookEvery = 16;                   // steps between looks at the energy
-constexpr int patience = 1000;                  // steps for which a run that has failed is followed to see what breaks
+constexpr int patience = 1000;                  // steps for which a failed run is followed, to find the cause
 constexpr double slowSpeed = 0.1;               // [m/s] up to which everything may always move
 
 // The scene with one step a tick of exactly h, or, with h = 0, with the steps that it would choose.
@@ -49,7 +48,7 @@ class ThresholdSearch {
         : spec_(spec), settings_(settings), result_(result) {}
 
     void run() {
-        tell(0.0, "the reference run");
+        settings_.listener.report(0.0, "the reference run");
         lookAtIslands();
         playReference();
         for (const ode::MethodInfo& method : ode::methods()) {
@@ -68,7 +67,7 @@ class ThresholdSearch {
     }
 
   private:
-    bool isStopped() const { return settings_.stop != nullptr && *settings_.stop; }
+    bool isStopped() const { return settings_.listener.isStopped(); }
 
     void lookAtIslands() {
         const world::World world(inSteps(spec_, "leapfrog", mostStep));
@@ -120,7 +119,7 @@ class ThresholdSearch {
         return steps;
     }
 
-    // Empty when the step stands, else what went first.
+    // Empty if the step stands, else the first failure.
     std::string failure(MethodThreshold& threshold, double h) const {
         ++threshold.runs;
         world::World world(inSteps(spec_, threshold.method, h));
@@ -209,10 +208,7 @@ class ThresholdSearch {
         parts_[index] = part;
         double sum = 0;
         for (double p : parts_) sum += p;
-        tell(sum / static_cast<double>(parts_.size()), result_.methods[index].title);
-    }
-    void tell(double done, const std::string& doing) const {
-        if (settings_.progress) settings_.progress({doing, done});
+        settings_.listener.report(sum / static_cast<double>(parts_.size()), result_.methods[index].title);
     }
 
     const world::SceneSpec& spec_;

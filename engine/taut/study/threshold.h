@@ -2,12 +2,11 @@
 // nothing.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "taut/core/private/listener.h"
 #include "taut/ode/method.h"
 #include "taut/study/stability_map.h"
 
@@ -71,10 +70,9 @@ struct SceneThresholds {
 };
 
 struct ThresholdSettings {
-    std::vector<std::string> methods;                    // empty: all
-    double seconds = 0;                                  // [s] of motion; 0: the length of the scene, at most 0.5
-    std::function<void(const AtlasProgress&)> progress;  // from one thread at a time
-    const std::atomic<bool>* stop = nullptr;
+    std::vector<std::string> methods;  // empty: all
+    double seconds = 0;                // [s] of motion; 0: the length of the scene, at most 0.5
+    core::Listener listener{};
 };
 
 // Bisects until the stable and unstable steps are 1 % apart. Double precision, all bodies by the same method; every

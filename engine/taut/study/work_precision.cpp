@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <span>
-#include <utility>
 
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
@@ -29,7 +28,7 @@ class Gathering {
     Gathering(const WorkPrecision& study) : study_(study) {}
 
     void add(int sample, const Observation& seen) {
-        const Observation& wanted = study_.reference.at[static_cast<std::size_t>(sample)];
+        const Observation& wanted = study_.reference.at[sample];
         energy_ = std::max(energy_, std::abs(seen.energy - wanted.energy));
         if (sample < study_.window) {
             const double rms = rmsDifference(seen.values, wanted.values, study_.dimensions);
@@ -68,7 +67,7 @@ class Gathering {
     int beyond_ = 0;
 };
 
-// The points of a curve that are at a floor, whatever sets it: from the first point on after which the error falls less
+// The points of a curve that are at a floor of any cause: from the first point on after which the error falls less
 // than a third as fast with the step as it did, to the next point and on average to the last. Points above `most` are
 // too coarse to show one.
 std::span<RunPoint> floorOf(std::span<RunPoint> curve, double RunPoint::*error, double most, int order) {
@@ -91,7 +90,7 @@ class Sweep {
         : subject_(subject), settings_(settings), study_(study), secondsPerCurve_(secondsPerCurve) {}
 
     void curve(const MethodFacts& method, Precision precision);
-    bool isStopped() const { return settings_.stop != nullptr && settings_.stop->load(); }
+    bool isStopped() const { return settings_.listener.isStopped(); }
     std::function<void(double)> report;  // of 0 … 1 of the curve
 
   private:
@@ -105,7 +104,7 @@ class Sweep {
     double secondsPerCurve_;
 };
 
-// Two to four times what the method stands; where no step is stable, what leap-frog would not stand either.
+// Two to four times the stable step of the method; if no step is stable, of leap-frog.
 double Sweep::firstStep(const MethodFacts& method) const {
     double limit = method.stepLimit;
     for (const MethodFacts& other : study_.methods)
@@ -265,9 +264,6 @@ std::string_view nameOf(RunStatus status) {
 }
 
 WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& settings) {
-    const auto tell = [&](const std::string& doing, double done) {
-        if (settings.progress) settings.progress({doing, done});
-    };
     WorkPrecision study;
     study.name = subject.name();
     study.title = subject.title();
@@ -277,14 +273,14 @@ WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& se
     study.methods = chosenMethods(subject, settings);
     double duration = settings.seconds > 0 ? settings.seconds : subject.duration();
 
-    tell("horizon", 0.0);
+    settings.listener.report(0.0, "horizon");
     study.horizon = subject.exact(0.0) ? Horizon{duration, false, 1.0} : findHorizon(subject, duration);
-    // Unless asked for, not much of what can only be told in the mean.
+    // Unless asked for, not much of the motion that can be predicted in the mean only.
     if (settings.seconds == 0 && study.horizon.isReached) duration = std::min(duration, 3 * study.horizon.seconds);
     study.grid = subject.grid(duration, study.horizon.seconds);
     study.window =
         std::clamp(static_cast<int>(study.horizon.seconds / study.grid.spacing + 1e-6), 1, study.grid.samples);
-    tell("reference", 0.02);
+    settings.listener.report(0.02, "reference");
     study.reference = makeReference(subject, study.grid, study.window, 0.1 * settings.budget);
     study.hasContacts = std::any_of(study.reference.at.begin(), study.reference.at.end(),
                                     [](const Observation& seen) { return seen.hasTouched; });
@@ -298,14 +294,16 @@ WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& se
     for (const MethodFacts& method : study.methods)
         for (const Precision precision : settings.precisions) {
             const std::string doing = method.name + ", " + std::string(nameOf(precision));
-            sweep.report = [&](double part) { tell(doing, before + (1 - before) * (done + part) / curves); };
+            sweep.report = [&](double part) {
+                settings.listener.report(before + (1 - before) * (done + part) / curves, doing);
+            };
             sweep.report(0);
             if (!sweep.isStopped()) sweep.curve(method, precision);
             done += 1;
         }
     study.isInterrupted = sweep.isStopped();
     addRemarks(subject, study);
-    tell("done", 1.0);
+    settings.listener.report(1.0, "done");
     return study;
 }
 

@@ -1,13 +1,12 @@
 // The error and cost of every method at every step. It draws and writes nothing.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "taut/core/private/listener.h"
 #include "taut/study/horizon.h"
 #include "taut/study/reference.h"
 #include "taut/study/subject.h"
@@ -68,19 +67,13 @@ struct WorkPrecision {
     bool isInterrupted = false;
 };
 
-struct StudyProgress {
-    std::string doing;
-    double done = 0;  // 0 … 1
-};
-
 struct StudySettings {
     std::vector<std::string> methods;  // empty: all
     std::vector<Precision> precisions = {Precision::single_, Precision::double_};
     double seconds = 0;  // [s] of motion; 0: as the subject says, at most three horizons
     double budget = 40;  // [s] of wall time to aim at
     int halvings = 0;    // of the step, exactly so many for every curve and untimed; 0: as many as the budget allows
-    std::function<void(const StudyProgress&)> progress;
-    const std::atomic<bool>* stop = nullptr;
+    core::Listener listener{};
 };
 
 // Throws core::Error(usage) for a method that is not there or does not fit the subject.

@@ -10,7 +10,6 @@
 namespace taut::study {
 namespace {
 
-using report::Axis;
 using report::Chart;
 using report::Panel;
 using report::Scale;
@@ -26,7 +25,7 @@ std::string frameText(double frame) {
     return "1/" + number(1 / frame) + " s";
 }
 
-// What a chart puts on its axes.
+// The quantities on the axes of a chart.
 struct Quantities {
     std::function<double(const RunPoint&)> x, y;
     std::string xLabel, yLabel;

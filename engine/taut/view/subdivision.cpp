@@ -1,9 +1,10 @@
-// Catmull and Clark's surface of quadrangles and Loop's of triangles, and where they meet what is both: each face is
-// split in its plane, then every vertex goes to the mean of what the faces around it say (Warren and Schaefer: A
+// Catmull and Clark's surface of quadrangles and Loop's of triangles, and their mean where they meet: each face is split
+// in its plane, then every vertex goes to the mean of the rules of the faces around it (Warren and Schaefer: A
 // Factored Approach to Subdivision Surfaces, 2004). A border is a cubic B-spline of its own vertices.
 //
-// Such a surface lies inside of what its vertices bend about, by a sixth of their second differences. So they do not
-// control it themselves: each is first moved by as much as the surface would miss it, which leaves the square of that.
+// Such a surface lies on the inner side of a bend of its vertices, by a sixth of their second differences. So they do
+// not control it themselves: each is first moved by as much as the surface would miss it, which leaves the square of
+// that.
 #include "taut/view/private/subdivision.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ std::size_t sidesOf(const Face& face) {
     return face[3] == noVertex ? 3 : 4;
 }
 
-// What lies around a vertex, counter-clockwise: at a border from its first edge to its last.
+// The neighbours of a vertex, counter-clockwise: at a border from its first edge to its last.
 struct Fan {
     std::vector<std::uint32_t> edges;     // the vertices at their other ends
     std::vector<std::uint32_t> opposite;  // (faces) the far corner of a quadrangle, noVertex of a triangle
@@ -138,7 +139,7 @@ double stepOf(const Fan& fan) {
     return angles == 6.0 ? 1.5 : 12.0 / angles;
 }
 
-// Calls add(vertex, weight) for what a vertex of split faces is smoothed to.
+// Calls add(vertex, weight) for the smoothed place of a vertex of split faces.
 template <class Add>
 void smooth(std::uint32_t v, const Fan& fan, Add&& add) {
     if (fan.isFixed) return add(v, 1.0);

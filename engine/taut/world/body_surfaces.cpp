@@ -1,7 +1,6 @@
 #include "taut/world/private/body_surfaces.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 
@@ -16,15 +15,15 @@
 namespace taut::world {
 namespace {
 
-// The surface with the body's model numbers plus `offset`, whatever the island numbers.
+// The surface with the body's model numbers plus `offset`, in place of those of the island.
 contact::ContactSurface loneSurface(const Body& body, const mechanics::RigidPart& part, int offset, int bond) {
     contact::ContactSurface surface = surfaceOf(body, part, 0, bond);
     std::vector<int> own;
     for (std::size_t i = 0; i < body.pointOf.size(); ++i) {
         own.resize(std::max(own.size(), static_cast<std::size_t>(body.pointOf[i]) + 1));
-        own[static_cast<std::size_t>(body.pointOf[i])] = offset + static_cast<int>(i);
+        own[body.pointOf[i]] = offset + static_cast<int>(i);
     }
-    const auto renumber = [&](int& i) { i = own[static_cast<std::size_t>(i)]; };
+    const auto renumber = [&](int& i) { i = own[i]; };
     for (int& i : surface.points) renumber(i);
     for (std::array<int, 3>& triangle : surface.triangles)
         for (int& i : triangle) renumber(i);
@@ -114,19 +113,17 @@ void BodySurfaces::look() {
             static_cast<int>(s), [&](std::size_t triangle) { return body.damage.isTriangleGone(triangle); },
             [&](int a, int b) { return body.damage.isSevered(a - first, b - first); });
     }
-    for (int i = carried_.first(); i < carried_.end(); ++i) x_[static_cast<std::size_t>(i)] = carried_.valueAt(i, x_);
+    for (int i = carried_.first(); i < carried_.end(); ++i) x_[i] = carried_.valueAt(i, x_);
     if (!isOther) return;
     elements_->refresh();
     patches_->takeBalls();
 }
 
 bool BodySurfaces::cross(const std::vector<bool>& first, const std::vector<bool>& second) {
-    const auto isOf = [](const std::vector<bool>& side, int surface) {
-        return side[static_cast<std::size_t>(surface)];
-    };
+    const auto isOf = [](const std::vector<bool>& side, int surface) { return side[surface]; };
     for (const contact::Crossing& crossing : contact::findCrossings(*elements_, *patches_, x_)) {
-        const int edge = elements_->edges()[static_cast<std::size_t>(crossing.edge)].surface;
-        const int triangle = elements_->triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
+        const int edge = elements_->edges()[crossing.edge].surface;
+        const int triangle = elements_->triangles()[crossing.triangle].surface;
         if ((isOf(first, edge) && isOf(second, triangle)) || (isOf(second, edge) && isOf(first, triangle))) return true;
     }
     return false;
@@ -137,8 +134,7 @@ double BodySurfaces::distance(const std::vector<bool>& first, const std::vector<
     if (!any(first) || !any(second)) return std::numeric_limits<double>::infinity();
     if (cross(first, second)) return 0;
     return contact::distanceBetween(
-        *elements_, *patches_, x_, [&](int s) { return first[static_cast<std::size_t>(s)]; },
-        [&](int s) { return second[static_cast<std::size_t>(s)]; });
+        *elements_, *patches_, x_, [&](int s) { return first[s]; }, [&](int s) { return second[s]; });
 }
 
 // Bodies on both sides are measured against the others, one at a time.
@@ -202,11 +198,11 @@ BodySurfaces::Place BodySurfaces::furthest(double up) {
         if (const collision::Convex* shape = pieces_[s].shape.get(); parts_[s].sag > 0) {
             const RigidMarks marks = marksOf(body);
             std::array<glm::dvec3, 3> now;
-            for (std::size_t k = 0; k < 3; ++k) now[k] = x_[static_cast<std::size_t>(first_[s] + marks.points[k])];
+            for (std::size_t k = 0; k < 3; ++k) now[k] = x_[first_[s] + marks.points[k]];
             const collision::Frame at = marks.motionTo(now).of(pieces_[s].at);
             compare(at.toWorld(shape->support(glm::dvec3(0.0, up, 0.0) * at.rotation)));
         } else {
-            for (const int i : elements_->surface(static_cast<int>(s)).points) compare(x_[static_cast<std::size_t>(i)]);
+            for (const int i : elements_->surface(static_cast<int>(s)).points) compare(x_[i]);
         }
     }
     return furthest;

@@ -108,7 +108,7 @@ std::vector<int> ColliderSurfaces::surfacesOf(const std::string& collider) const
     return all;
 }
 
-// What was the end of a figure's tick becomes the start of the next.
+// The end of a figure's tick becomes the start of the next.
 void ColliderSurfaces::setEnds(Collider& own, double end) {
     own.xFrom.swap(own.xTo);
     own.xTo = own.figure->at(end, own.to).places();
@@ -133,7 +133,7 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double end, 
         for (int s = own.firstSurface; s < own.lastSurface; ++s) elements.setStill(s, !own.moves);
         if (!own.moves && !moved) continue;
         const Placing from(own.from), to(own.to);
-        const std::span<dvec3> velocities = v.subspan(static_cast<std::size_t>(own.firstPoint), own.vertices.size());
+        const std::span<dvec3> velocities = v.subspan(own.firstPoint, own.vertices.size());
         double square = 0;
         for (std::size_t i = 0; i < velocities.size(); ++i) {
             velocities[i] =
@@ -153,7 +153,7 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double end, 
 void ColliderSurfaces::place(double share, std::span<dvec3> x) const {
     for (const Collider& own : colliders_) {
         if (!own.moves) continue;
-        const std::span<dvec3> places = x.subspan(static_cast<std::size_t>(own.firstPoint), own.vertices.size());
+        const std::span<dvec3> places = x.subspan(own.firstPoint, own.vertices.size());
         const Placing place(between(own.from, own.to, share));
         for (std::size_t i = 0; i < places.size(); ++i)
             places[i] = own.figure == nullptr ? place(own.vertices[i])
@@ -164,7 +164,7 @@ void ColliderSurfaces::place(double share, std::span<dvec3> x) const {
 
 void ColliderSurfaces::placeAll(std::span<dvec3> x) const {
     for (const Collider& own : colliders_) {
-        const std::span<dvec3> places = x.subspan(static_cast<std::size_t>(own.firstPoint), own.vertices.size());
+        const std::span<dvec3> places = x.subspan(own.firstPoint, own.vertices.size());
         const Placing place(own.to);
         for (std::size_t i = 0; i < places.size(); ++i)
             places[i] = own.figure == nullptr ? place(own.vertices[i]) : own.xTo[i];

@@ -37,8 +37,8 @@ std::vector<BodyCrossing> crossingsOf(ContactStage& stage) {
     std::vector<BodyCrossing> all;
     for (const contact::Crossing& crossing : stage.crossings()) {
         const auto& elements = stage.elements();
-        const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
-        const int triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
+        const int edge = elements.edges()[crossing.edge].surface;
+        const int triangle = elements.triangles()[crossing.triangle].surface;
         if (!stage.isOfBody(edge) || !stage.isOfBody(triangle)) continue;
         all.push_back(
             {crossing.place, stage.depthOf(crossing), &stage.bodyOf(edge), &stage.bodyOf(triangle), crossing.edge});
@@ -56,7 +56,7 @@ void ContactReport::look(const ContactStage& stage, double start) {
         if (c.surfaceB == ContactStage::noSurface ||
             (!stage.elements().isRigid(c.surfaceA) && !stage.elements().isRigid(c.surfaceB)))
             contacts_.push_back({c.place, c.normal, c.impulse, bodyOf(c.surfaceA), bodyOf(c.surfaceB)});
-    // Edges that cross, by the names of both sides: two bodies, or a body and a figure.
+    // Edges that cross, by the names of the two sides: two bodies, or a body and a figure.
     std::map<std::pair<std::string, std::string>, std::set<int>> edges;
     for (const contact::Crossing& crossing : stage.crossingsBefore())
         if (const auto sides = stage.sidesOf(crossing))
@@ -106,7 +106,7 @@ void ContactReport::visit(StateBytes& bytes, std::span<const Body* const> bodies
         auto number = static_cast<std::int64_t>(std::find(bodies.begin(), bodies.end(), body) - bodies.begin());
         const auto count = static_cast<std::int64_t>(bodies.size());  // of a figure
         bytes.atLeast(number, 0, count);
-        body = number < count ? bodies[static_cast<std::size_t>(number)] : nullptr;
+        body = number < count ? bodies[number] : nullptr;
     };
     bytes.each(said_, [&](Said& said) {
         for (std::string* text : {&said.first, &said.second, &said.text}) bytes(*text);

@@ -1,7 +1,6 @@
 #include "taut/world/private/convex_colliders.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "taut/spec/private/motion.h"
 

@@ -13,10 +13,11 @@ namespace {
 using glm::dvec3;
 using Near = collision::Colliders::Near;
 
-constexpr double shareKept = 0.25;  // of the thickness, between what is drawn and the collider
-constexpr double deepest = 3.0;     // thicknesses; what is deeper is there on purpose, such as points that it holds
-constexpr int mostPasses = 4;       // each leaves at most 0.4 of the depth, as much as the way out is aslant
-constexpr int drawnAtOnce = 256;    // vertices in a task
+constexpr double shareKept = 0.25;  // of the thickness, between the drawn surface and the collider
+constexpr double deepest =
+    3.0;  // thicknesses; deeper points are there on purpose, for instance if the collider holds them
+constexpr int mostPasses = 4;     // each leaves at most 0.4 of the depth, as much as the way out is aslant
+constexpr int drawnAtOnce = 256;  // vertices in a task
 
 double easedStep(double from, double to, double x) {
     const double u = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -29,7 +30,7 @@ struct Push {
     dvec3 direction{0.0};
 };
 
-// What a place asks for.
+// The displacement that a place needs.
 //
 //     distance then
 //      2k |      /     It stays in place at 2k from the collider and beyond, and ends at k from within,
@@ -74,7 +75,7 @@ std::vector<Parents> parentsIn(std::span<const std::uint32_t> triangles, std::si
     return parents;
 }
 
-// What is near the vertices of a sheet. Only every fourth is measured if that says enough of those between.
+// The colliders near the vertices of a sheet. Only every fourth is measured if that suffices for the others.
 class NearSheet {
   public:
     NearSheet(const collision::Colliders& colliders, double thickness, std::span<const std::uint32_t> triangles,
@@ -146,13 +147,13 @@ class NearSheet {
     std::vector<Near> near_;
 };
 
-// Moves once what was moved the time before; returns whether any did.
+// Moves the vertices that moved the time before once more; returns whether any did.
 bool moveOut(NearSheet& near, double thickness, std::span<const std::uint32_t> triangles, std::vector<char>& isMoved,
              view::Geometry& geometry) {
     std::vector<Push> pushes(isMoved.size());
     for (std::size_t v = 0; v < pushes.size(); ++v)
         if (isMoved[v] != 0) ask(near[v], thickness, geometry.normals[v], pushes[v]);
-    // Where corners lie on different faces of a collider, what is between them may be inside.
+    // Where corners lie on different faces of a collider, points between them may be inside.
     const auto askAmid = [&](std::span<const std::uint32_t> vertices) {
         const Near found = near.amid(vertices);
         glm::vec3 normal(0.0F);

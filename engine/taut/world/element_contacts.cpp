@@ -7,14 +7,14 @@ namespace taut::world {
 namespace {
 
 // Of the thickness:
-constexpr double closeShare = 0.05;   // what is nearer counts though nothing closes
+constexpr double closeShare = 0.05;   // nearer pairs count even if they do not approach
 constexpr double betweenShare = 0.8;  // edges and faces keep this distance from colliders
 
 double longestEdge(const contact::Elements& elements, int surface, std::span<const dvec3> x) {
     double square = 0;
     for (int e = elements.firstEdgeOf(surface); e < elements.firstEdgeOf(surface + 1); ++e) {
-        const contact::Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
-        const dvec3 way = x[static_cast<std::size_t>(edge.b)] - x[static_cast<std::size_t>(edge.a)];
+        const contact::Edge& edge = elements.edges()[e];
+        const dvec3 way = x[edge.b] - x[edge.a];
         if (!edge.isGone) square = std::max(square, glm::dot(way, way));
     }
     return std::sqrt(square);
@@ -53,8 +53,8 @@ std::span<const ElementTouch> ElementContacts::find(const contact::Elements& ele
         if (!surface.meetsShapes || surface.isConvex) continue;
         core::Aabb box;
         for (const int i : surface.points) {
-            box.add(x0[static_cast<std::size_t>(i)]);
-            box.add(x1[static_cast<std::size_t>(i)]);
+            box.add(x0[i]);
+            box.add(x1[i]);
         }
         box.grow((1 + closeShare) * surface.thickness);
         double longest = -1;  // found where it is needed
@@ -101,8 +101,8 @@ bool ElementContacts::measurePoints(const Query& query) {
 
 void ElementContacts::addPoints(const Query& query) {
     for (const int i : query.elements.surface(query.surface).points) {
-        const collision::Nearest& near = near_[static_cast<std::size_t>(i)];
-        if (near.distance < query.reach(ways_[static_cast<std::size_t>(i)]))
+        const collision::Nearest& near = near_[i];
+        if (near.distance < query.reach(ways_[i]))
             add(query, 3 * i, {i, -1, -1}, {near.distance, near.normal, {1.0, 0.0, 0.0}});
     }
 }
@@ -110,7 +110,7 @@ void ElementContacts::addPoints(const Query& query) {
 void ElementContacts::addEdges(const Query& query) {
     const std::vector<contact::Edge>& edges = query.elements.edges();
     for (int e = query.elements.firstEdgeOf(query.surface); e < query.elements.firstEdgeOf(query.surface + 1); ++e) {
-        const contact::Edge& edge = edges[static_cast<std::size_t>(e)];
+        const contact::Edge& edge = edges[e];
         if (edge.isGone || edge.a == edge.b) continue;
         const auto a = static_cast<std::size_t>(edge.a), b = static_cast<std::size_t>(edge.b);
         if (isNear_[a] == 0 && isNear_[b] == 0) continue;
@@ -125,8 +125,8 @@ void ElementContacts::addFaces(const Query& query) {
     const std::vector<contact::Triangle>& triangles = query.elements.triangles();
     for (int t = query.elements.firstTriangleOf(query.surface); t < query.elements.firstTriangleOf(query.surface + 1);
          ++t) {
-        const contact::Triangle& triangle = triangles[static_cast<std::size_t>(t)];
-        const auto isNear = [&](int i) { return isNear_[static_cast<std::size_t>(i)] != 0; };
+        const contact::Triangle& triangle = triangles[t];
+        const auto isNear = [&](int i) { return isNear_[i] != 0; };
         if (triangle.isGone || std::none_of(triangle.points.begin(), triangle.points.end(), isNear)) continue;
         double least = 1e300, way = 0;
         for (const int point : triangle.points) {
@@ -136,7 +136,7 @@ void ElementContacts::addFaces(const Query& query) {
         }
         const double reach = query.reach(way);
         if (least > reach + query.longest) continue;
-        const auto at = [&](std::size_t k) { return local_[static_cast<std::size_t>(triangle.points[k])]; };
+        const auto at = [&](std::size_t k) { return local_[triangle.points[k]]; };
         const auto near = collision::nearestInFace(*query.shape.convex, at(0), at(1), at(2));
         // A face is pierced between its corners; where one of them is in the shape, that one tells the way out.
         if (near && near->distance < reach && (near->distance > 0 || least >= 0))
@@ -185,8 +185,7 @@ void ElementContacts::add(const Query& query, int element, const std::array<int,
                        .thickness = thickness,
                        .velocity = dvec3(0.0),
                        .spin = collision::spinBetween(shape.from, shape.to, query.seconds)};
-    for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k)
-        touch.place += touch.weights[k] * query.x0[static_cast<std::size_t>(points[k])];
+    for (std::size_t k = 0; k < 3 && points[k] >= 0; ++k) touch.place += touch.weights[k] * query.x0[points[k]];
     const dvec3 on = touch.place - near.distance * touch.normal;  // of the shape
     touch.velocity = (shape.to.toWorld(shape.from.toLocal(on)) - on) / query.seconds;
     touches_.push_back(touch);

@@ -1,7 +1,6 @@
 #include "taut/world/private/joints.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <optional>
 
@@ -88,7 +87,7 @@ double sizeAtRest(const Body& body) {
     return glm::length(box.high - box.low);
 }
 
-// What a seam cannot do, or only by force.
+// Warnings of seams that cannot close, or only by force.
 std::vector<core::Finding> seamWarnings(const JointReport& report) {
     constexpr double mostGathered = 2.5;  // times as long: ruffles are twice
     std::vector<core::Finding> warnings;
@@ -153,8 +152,7 @@ bool isJoint(const WorldImpl& w, const std::string& name) {
 void releaseJoints(WorldImpl& w, const std::string& name) {
     for (const auto& island : w.islands)
         island->release(
-            w.now(),
-            [&](const JointTie& tie) { return w.spec.joints[static_cast<std::size_t>(tie.joint)].name == name; });
+            w.now(), [&](const JointTie& tie) { return w.spec.joints[tie.joint].name == name; });
 }
 
 void beginJoints(WorldImpl& w) {

@@ -1,63 +1,43 @@
 #include "taut/spec/kinds.h"
 
-// One line for each kind, in the order of the manual: the function that returns its row, in a file of its own.
-#define TAUT_BODIES(KIND) \
-    KIND(clothKind)       \
-    KIND(ropeKind)        \
-    KIND(blockKind)       \
-    KIND(netKind)         \
-    KIND(solidKind)
-#define TAUT_JOINTS(KIND) \
-    KIND(weldKind)        \
-    KIND(springKind)      \
-    KIND(rodKind)         \
-    KIND(hingeKind)       \
-    KIND(ballKind)
-#define TAUT_FORCES(KIND) \
-    KIND(anchorKind)      \
-    KIND(windKind)        \
-    KIND(fillingKind)
-#define TAUT_ACTIONS(KIND) \
-    KIND(grabKind)         \
-    KIND(moveKind)         \
-    KIND(releaseKind)      \
-    KIND(pushKind)         \
-    KIND(holdKind)         \
-    KIND(freeKind)         \
-    KIND(cutKind)          \
-    KIND(addMassKind)      \
-    KIND(rampKind)         \
-    KIND(spawnKind)
+// One line for each kind, in the order of the manual: its table, and the function that returns its row, in a file of
+// its own.
+#define TAUT_KINDS(KIND)                   \
+    KIND(BodySpec, bodies, clothKind)      \
+    KIND(BodySpec, bodies, ropeKind)       \
+    KIND(BodySpec, bodies, blockKind)      \
+    KIND(BodySpec, bodies, netKind)        \
+    KIND(BodySpec, bodies, solidKind)      \
+    KIND(JointSpec, joints, weldKind)      \
+    KIND(JointSpec, joints, springKind)    \
+    KIND(JointSpec, joints, rodKind)       \
+    KIND(JointSpec, joints, hingeKind)     \
+    KIND(JointSpec, joints, ballKind)      \
+    KIND(ForceSpec, forces, anchorKind)    \
+    KIND(ForceSpec, forces, windKind)      \
+    KIND(ForceSpec, forces, fillingKind)   \
+    KIND(ActionSpec, actions, grabKind)    \
+    KIND(ActionSpec, actions, moveKind)    \
+    KIND(ActionSpec, actions, releaseKind) \
+    KIND(ActionSpec, actions, pushKind)    \
+    KIND(ActionSpec, actions, holdKind)    \
+    KIND(ActionSpec, actions, freeKind)    \
+    KIND(ActionSpec, actions, cutKind)     \
+    KIND(ActionSpec, actions, addMassKind) \
+    KIND(ActionSpec, actions, rampKind)    \
+    KIND(ActionSpec, actions, spawnKind)
 
 namespace taut::world {
 
-#define TAUT_BODY(kind) Kind<BodySpec> kind();
-#define TAUT_JOINT(kind) Kind<JointSpec> kind();
-#define TAUT_FORCE(kind) Kind<ForceSpec> kind();
-#define TAUT_ACTION(kind) Kind<ActionSpec> kind();
-TAUT_BODIES(TAUT_BODY)
-TAUT_JOINTS(TAUT_JOINT)
-TAUT_FORCES(TAUT_FORCE)
-TAUT_ACTIONS(TAUT_ACTION)
-#undef TAUT_BODY
-#undef TAUT_JOINT
-#undef TAUT_FORCE
-#undef TAUT_ACTION
+#define TAUT_DECLARE(Spec, table, kind) Kind<Spec> kind();
+TAUT_KINDS(TAUT_DECLARE)
+#undef TAUT_DECLARE
 
 Kinds builtIn() {
     Kinds kinds;
-#define TAUT_BODY(kind) kinds.bodies.add(kind());
-#define TAUT_JOINT(kind) kinds.joints.add(kind());
-#define TAUT_FORCE(kind) kinds.forces.add(kind());
-#define TAUT_ACTION(kind) kinds.actions.add(kind());
-    TAUT_BODIES(TAUT_BODY)
-    TAUT_JOINTS(TAUT_JOINT)
-    TAUT_FORCES(TAUT_FORCE)
-    TAUT_ACTIONS(TAUT_ACTION)
-#undef TAUT_BODY
-#undef TAUT_JOINT
-#undef TAUT_FORCE
-#undef TAUT_ACTION
+#define TAUT_ADD(Spec, table, kind) kinds.table.add(kind());
+    TAUT_KINDS(TAUT_ADD)
+#undef TAUT_ADD
     kinds.methods = ode::builtInMethods();
     kinds.shapes = collision::builtInShapes();
     return kinds;

@@ -24,7 +24,7 @@ glm::vec3 placeAbove(const LabelSubject& subject) {
     const std::vector<bool> isHeld = heldPointsOf(subject.island->plan());
     const auto include = [&](bool heldOnly) {
         for (int i : subject.body->pointOf) {
-            if (heldOnly && !isHeld[static_cast<std::size_t>(i)]) continue;
+            if (heldOnly && !isHeld[i]) continue;
             low = glm::min(low, subject.island->position(i));
             high = glm::max(high, subject.island->position(i));
         }

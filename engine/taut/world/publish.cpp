@@ -101,7 +101,7 @@ std::vector<dvec3> placesAhead(const Island& island, double ahead) {
 void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view) {
     const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
     if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
-    std::map<std::string, glm::mat4> poses;  // of what carries ties
+    std::map<std::string, glm::mat4> poses;  // of the carriers of ties
     std::map<std::string, int> count;        // number of ties so far, by name of the drawing
     const auto matrix = [&](const std::string& holder) {
         auto known = poses.find(holder);
@@ -113,7 +113,7 @@ void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view
         const IslandPlan& plan = island->plan();
         const std::vector<dvec3> x = placesAhead(*island, ahead);
         for (const JointTie& tie : plan.ties) {
-            const auto& drawing = w.drawings[static_cast<std::size_t>(tie.joint)];
+            const auto& drawing = w.drawings[tie.joint];
             if (!drawing) continue;
             const int number = count[drawing->name()]++;
             if (!holds(plan, tie)) continue;
@@ -168,7 +168,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
     });
     // Bodies, dulled if frozen.
     std::map<const Island*, std::vector<dvec3>> places;  // of the islands so far, if extrapolated
-    std::optional<collision::Colliders> colliders;       // for what is drawn finer
+    std::optional<collision::Colliders> colliders;       // for bodies that are drawn finer
     for (const WorldImpl::Member& member : w.bodies) {
         const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
         const Island& island = islandOf(*part.body);
@@ -180,7 +180,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
         } else {
             auto known = places.find(&island);
             if (known == places.end()) known = places.emplace(&island, placesAhead(island, ahead)).first;
-            for (int i : part.body->pointOf) positions.emplace_back(known->second[static_cast<std::size_t>(i)]);
+            for (int i : part.body->pointOf) positions.emplace_back(known->second[i]);
         }
         const std::size_t first = view.surfaces.size();
         part.drawing->addSurfaces(positions, view.surfaces);

@@ -20,8 +20,8 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-// Of a rigid body what touches may be points, of a block what carries the surface.
-bool isWhatIsDrawn(const Body& body) {
+// Whether triangles() returns the drawn surface of a body; otherwise it returns the surface in contact.
+bool usesDrawnSurface(const Body& body) {
     const bool isMesh = body.spec->hasCarriedSurface() && body.spec->finish.skinData == nullptr;
     return body.spec->isRigid() || isMesh || body.damage.goneTetrahedra() > 0;
 }
@@ -114,10 +114,10 @@ PointsNow World::points(const Selection& selection) const {
         auto known = velocities.find(&island);
         if (known == velocities.end()) known = velocities.emplace(&island, island.velocities(impl_->now())).first;
         for (int i : numbers) {
-            const int point = body->pointOf[static_cast<std::size_t>(i)];
+            const int point = body->pointOf[i];
             points.x.push_back(island.position(point));
-            points.v.push_back(known->second[static_cast<std::size_t>(point)]);
-            points.mass.push_back(island.plan().points[static_cast<std::size_t>(point)].mass);
+            points.v.push_back(known->second[point]);
+            points.mass.push_back(island.plan().points[point].mass);
         }
     }
     return points;
@@ -128,7 +128,7 @@ std::vector<glm::dvec3> World::positions(const Selection& selection) const {
     std::vector<glm::dvec3> positions;
     for (const auto& [body, numbers] : selection.parts) {
         const Island& island = islandOf(*body);
-        for (int i : numbers) positions.push_back(island.position(body->pointOf[static_cast<std::size_t>(i)]));
+        for (int i : numbers) positions.push_back(island.position(body->pointOf[i]));
     }
     return positions;
 }
@@ -138,15 +138,14 @@ std::vector<std::array<glm::dvec3, 3>> World::triangles(const Selection& bodies)
     std::vector<Corners> triangles;
     for (const Selection::Part& part : bodies.parts) {
         const Body& body = *part.body;
-        if (isWhatIsDrawn(body)) {
+        if (usesDrawnSurface(body)) {
             addDrawn(*impl_, body, triangles);
             continue;
         }
         const Island& island = islandOf(body);
         const auto add = [&](const std::array<int, 3>& corners) {
             auto& triangle = triangles.emplace_back();
-            for (std::size_t i = 0; i < 3; ++i)
-                triangle[i] = island.position(body.pointOf[static_cast<std::size_t>(corners[i])]);
+            for (std::size_t i = 0; i < 3; ++i) triangle[i] = island.position(body.pointOf[corners[i]]);
         };
         for (std::size_t t = 0; t < body.model.triangles.size(); ++t)
             if (!body.damage.isTriangleGone(t)) add(body.model.triangles[t]);

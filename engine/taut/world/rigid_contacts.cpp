@@ -1,7 +1,6 @@
 #include "taut/world/private/rigid_contacts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "taut/core/private/parallel.h"
@@ -13,8 +12,8 @@ using collision::Frame;
 using collision::Manifold;
 
 // Of the thickness:
-constexpr double nearShare = 0.05;   // what is nearer counts though nothing closes
-constexpr double metShare = 0.01;    // what is nearer at the start touches then
+constexpr double nearShare = 0.05;   // nearer pairs count even if they do not approach
+constexpr double metShare = 0.01;    // nearer pairs touch at the start
 constexpr double foundShare = 1e-9;  // of the moment when they meet
 constexpr int mostMoments = 20;      // at which it is sought
 constexpr int pairsAtOnce = 32;
@@ -41,10 +40,10 @@ void RigidContacts::takeShapes(std::span<const dvec3> x0, std::span<const dvec3>
     for (const Solid& own : solids_) {
         const auto at = [&](std::span<const dvec3> x) {
             std::array<dvec3, 3> now;
-            for (std::size_t k = 0; k < 3; ++k) now[k] = x[static_cast<std::size_t>(own.marks.points[k])];
+            for (std::size_t k = 0; k < 3; ++k) now[k] = x[own.marks.points[k]];
             return own.marks.motionTo(now).of(own.piece.at);
         };
-        const auto stays = [&](int i) { return x0[static_cast<std::size_t>(i)] == x1[static_cast<std::size_t>(i)]; };
+        const auto stays = [&](int i) { return x0[i] == x1[i]; };
         const bool isStill = std::all_of(own.marks.points.begin(), own.marks.points.end(), stays);
         const Frame from = at(x0);
         shapes_.push_back(inMotion(
@@ -58,8 +57,7 @@ void RigidContacts::takeShapes(std::span<const dvec3> x0, std::span<const dvec3>
 void RigidContacts::findPairs(const MayTouch& mayTouch) {
     pairs_.clear();
     const auto take = [&](int a, int b) {
-        const ShapeInMotion &first = shapes_[static_cast<std::size_t>(std::min(a, b))],
-                            &second = shapes_[static_cast<std::size_t>(std::max(a, b))];
+        const ShapeInMotion &first = shapes_[std::min(a, b)], &second = shapes_[std::max(a, b)];
         if (first.surface < 0 || !mayTouch(first.surface, second.surface, second.collider)) return;
         pairs_.push_back(std::minmax(a, b));
     };
@@ -76,7 +74,7 @@ void RigidContacts::findPairs(const MayTouch& mayTouch) {
             for (const int k : order_) take(k, static_cast<int>(plane));
     const dvec3 size = all.halfSize();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto box = [&](int k) -> const core::Aabb& { return shapes_[static_cast<std::size_t>(k)].box; };
+    const auto box = [&](int k) -> const core::Aabb& { return shapes_[k].box; };
     std::sort(order_.begin(), order_.end(), [&](int a, int b) {
         return box(a).low[axis] < box(b).low[axis] || (box(a).low[axis] == box(b).low[axis] && a < b);
     });
@@ -145,15 +143,15 @@ std::span<const RigidTouch> RigidContacts::find(std::span<const dvec3> x0, std::
     const int count = static_cast<int>(pairs_.size()), tasks = (count + pairsAtOnce - 1) / pairsAtOnce;
     perTask_.resize(std::max(perTask_.size(), static_cast<std::size_t>(tasks)));
     core::parallelFor(tasks, [&](int task) {
-        std::vector<RigidTouch>& own = perTask_[static_cast<std::size_t>(task)];
+        std::vector<RigidTouch>& own = perTask_[task];
         own.clear();
         for (int k = task * pairsAtOnce; k < std::min((task + 1) * pairsAtOnce, count); ++k) {
-            const auto [a, b] = pairs_[static_cast<std::size_t>(k)];
-            touch(shapes_[static_cast<std::size_t>(a)], shapes_[static_cast<std::size_t>(b)], seconds, own);
+            const auto [a, b] = pairs_[k];
+            touch(shapes_[a], shapes_[b], seconds, own);
         }
     });
     for (int task = 0; task < tasks; ++task) {
-        const std::vector<RigidTouch>& own = perTask_[static_cast<std::size_t>(task)];
+        const std::vector<RigidTouch>& own = perTask_[task];
         touches_.insert(touches_.end(), own.begin(), own.end());
     }
     return touches_;

@@ -96,8 +96,8 @@ std::vector<std::string> ownActions(const SceneSpec& scene, std::int64_t tick) {
     return names;
 }
 
-// What a world has that is not of the engine: "force attraction.well", "body ring.hoop", "method mine", "shape torus",
-// and the actions so far.
+// The kinds in a world that are not of the engine: "force attraction.well", "body ring.hoop", "method mine", "shape
+// torus", and the actions so far.
 std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added,
                                   const std::vector<std::unique_ptr<Island>>& islands, std::int64_t tick) {
     static const Kinds known = builtIn();
@@ -147,7 +147,7 @@ void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const st
 }  // namespace
 
 void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied) {
-    // What has to agree, then the tick.
+    // The facts that have to agree, then the tick.
     visitBits(bytes);
     visitKinds(bytes, ownKinds(w.spec, w.added, w.islands, w.tick), ownActions(w.spec, longestWay));
     double rate = w.ticksPerSecond;

@@ -1,7 +1,6 @@
 #include "taut/world/private/sleep.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <optional>
 
@@ -14,7 +13,7 @@ bool mayAnySleep(const WorldImpl& w) {
     return w.spec.solver.sleepError > 0 && !w.keepsSteps;
 }
 
-// The islands by number, each with the least number of those that it hangs together with by contact.
+// (islands) The least number of an island to which it is connected by contact.
 std::vector<std::size_t> companiesOf(const WorldImpl& w) {
     std::vector<std::size_t> lowest(w.islands.size());
     std::iota(lowest.begin(), lowest.end(), std::size_t{0});
@@ -81,7 +80,7 @@ void endWindow(WorldImpl& w) {
     }
 }
 
-// [m] What figures that move in this tick sweep.
+// [m] The space swept by figures in this tick.
 std::vector<core::Aabb> figuresOnTheWay(const WorldImpl& w) {
     std::vector<core::Aabb> boxes;
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {

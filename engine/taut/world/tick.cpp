@@ -23,7 +23,7 @@ void undoTick(WorldImpl& w) {
 void closeIslands(WorldImpl& w) {
     if (std::none_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->isOpen(); })) return;
     w.threads.run([&] {
-        const auto island = [&](int i) -> Island& { return *w.islands[static_cast<std::size_t>(i)]; };
+        const auto island = [&](int i) -> Island& { return *w.islands[i]; };
         core::parallelFor(
             static_cast<int>(w.islands.size()), [&](int i) { return island(i).callsBack(); },
             [&](int i) { island(i).close(w.now()); });
@@ -40,7 +40,7 @@ std::optional<Divergence> tickIslands(WorldImpl& w, const std::vector<ColliderMo
     std::optional<ContactStage::Outcome> outcome;
     w.threads.run([&] {
         core::parallelFor(
-            static_cast<int>(alone.size()), [&](int i) { return alone[static_cast<std::size_t>(i)]->callsBack(); },
+            static_cast<int>(alone.size()), [&](int i) { return alone[i]->callsBack(); },
             [&](int i) {
                 const auto k = static_cast<std::size_t>(i);
                 faults[k] = alone[k]->tick(time, moving);
@@ -84,7 +84,7 @@ bool touchesAny(const WorldImpl& w) {
 }
 
 void makeContactStage(WorldImpl& w) {
-    // The faces that a cut bares are surface from now on, and what no joint or collider holds any more touches.
+    // The faces that a cut bares are surface from now on, and released points touch again.
     core::Hash ties;
     for (const auto& island : w.islands) {
         const IslandPlan& plan = island->plan();

@@ -32,7 +32,7 @@ std::vector<std::pair<Island*, std::vector<int>>> byIsland(const std::vector<Pic
 }
 
 double massOf(const Picked& point) {
-    return point.island->plan().points[static_cast<std::size_t>(point.point)].mass;
+    return point.island->plan().points[point.point].mass;
 }
 
 void performDue(World& world) {
@@ -46,8 +46,7 @@ std::vector<Picked> pick(const WorldImpl& w, const PointsAction& action) {
     std::vector<Picked> points;
     const std::string selector = parseTarget(action.target).selector;
     for (const Body* body : matchBodies(bodiesOf(w), action.target))
-        for (int i : selectPoints(body->model, selector))
-            points.push_back({&islandOf(*body), body, body->pointOf[static_cast<std::size_t>(i)]});
+        for (int i : selectPoints(body->model, selector)) points.push_back({&islandOf(*body), body, body->pointOf[i]});
     if (points.empty()) failAction(action, "target = \"" + action.target + "\" names no point");
     const auto place = [&](const Picked& p) { return p.island->position(p.point); };
     if (action.near) {

@@ -134,7 +134,7 @@ void UndoingWorld::addForce(CallbackSpec spec) {
             added_.lateForces.push_back(force);
         });
     Added added = added_;
-    World(spec_, added.options).addForce(force);  // it refuses what is not allowed
+    World(spec_, added.options).addForce(force);  // it refuses a force that is not allowed
     added.options.forces.push_back(force);
     world_ = made(added);
     added_ = std::move(added);

@@ -1,10 +1,10 @@
 // A world for programs whose forces and systems may throw. If one throws in the middle of a tick or an action, the
 // world returns to the state before. It knows no language.
 //
-// It goes back through another world, made of the same scene, that reads what save() wrote. A tick that throws may have
-// changed all that a world has: its bodies, plans, networks, methods, forces, the fields of the scene. save() lists all
-// this in one place, as differences from the scene. Keeping values instead, such as IslandMemory for an island with an
-// unchanged plan, would need a second list.
+// It goes back through another world, made of the same scene, that reads the bytes of save(). A tick that throws may
+// have changed everything in a world: its bodies, plans, networks, methods, forces, the fields of the scene. save()
+// lists all this in one place, as differences from the scene. Keeping values instead, such as IslandMemory for an
+// island with an unchanged plan, would need a second list.
 #pragma once
 
 #include <memory>
@@ -34,14 +34,14 @@ class UndoingWorld {
     const SceneSpec& spec() const { return spec_; }
     bool isTicking() const { return isTicking_; }  // a force or a system is asking
 
-    // As in World. Passes on what a force, a system or an action throws; everything is then as it was before. For that
-    // it keeps the state before each tick that has callbacks or actions, at the cost of a save().
+    // As in World. Passes on exceptions of a force, a system or an action; everything is then as it was before. For
+    // that it keeps the state before each tick that has callbacks or actions, at the cost of a save().
     std::optional<Divergence> advance();
     // To be called between two ticks. A system may call it too, but core::Error(usage) is thrown for the move of a
     // collider.
     void apply(const ActionSpec& action);
-    // Moves a collider to its pose at the end of the coming tick; if a system calls, of this tick. It sweeps what is in
-    // its way. Throws core::Error(usage) for an unknown collider.
+    // Moves a collider to its pose at the end of the coming tick; if a system calls, of this tick. It pushes
+    // bodies out of its way. Throws core::Error(usage) for an unknown collider.
     void place(const std::string& collider, const collision::Pose& pose);
     collision::Pose poseOf(const std::string& collider) const;  // throws for an unknown collider too
 

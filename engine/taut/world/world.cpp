@@ -171,7 +171,7 @@ std::vector<std::byte> World::save() const {
 
 void World::restore(std::span<const std::byte> content, std::span<const RampAction> applied) {
     TAUT_EXPECTS(impl_->tick == impl_->startTick);
-    if (impl_->tick > 0) {  // bytes are read into what has not begun at all
+    if (impl_->tick > 0) {  // bytes are read into a world that has not begun
         WorldImpl& old = *impl_;
         auto fresh = std::make_unique<WorldImpl>(
             *old.start, Options{.threads = old.threadCount, .forces = old.added, .keepsSteps = old.keepsSteps});

@@ -47,7 +47,7 @@ struct Options {
 class World {
   public:
     // Builds everything; throws core::Error(badContent) with file:line:column where the scene is at fault. A scene made
-    // in code must keep what spec.h asks for. With a kept state in the scene the world goes on from it, at its tick.
+    // in code must satisfy spec.h. With a kept state in the scene the world goes on from it, at its tick.
     explicit World(const SceneSpec& spec, const Options& options = {});
     ~World();
     World(World&&) noexcept;
@@ -62,8 +62,8 @@ class World {
     // Plays one tick: every island does its substeps of forces, integration and collision, side by side. If an island
     // diverges, the world keeps the state of the tick before and the diagnosis is returned; only the views may be
     // called after that. If the scene asks for freezing, an island that diverges keeps its last good state from then
-    // on, the others go on, and nothing is returned. What an action, a system or a force throws is passed on. The tick
-    // is then half done, and nothing may be called: undoing_world.h can go back.
+    // on, the others go on, and nothing is returned. Exceptions of an action, a system or a force are passed on.
+    // The tick is then half done, and nothing may be called: undoing_world.h can go back.
     std::optional<Divergence> advance();
 
     // Does an action now, between two ticks; advance() does the actions of the scene when their tick begins. Bodies
@@ -94,8 +94,8 @@ class World {
     Metrics metrics(const Selection& selection, Measures what = Measures::all) const;
     PointsNow points(const Selection& selection) const;
     std::vector<glm::dvec3> positions(const Selection& selection) const;  // those of points() [m], at less cost
-    // (triangles) corners [m] of all the bodies' surfaces, without what cuts and tears took away and with what they
-    // bared; of rigid bodies as they are drawn.
+    // (triangles) corners [m] of all the bodies' surfaces, without faces that cuts and tears removed and with faces
+    // that they exposed; of rigid bodies as they are drawn.
     std::vector<std::array<glm::dvec3, 3>> triangles(const Selection& bodies) const;
 
     // save() returns everything that the ticks so far have changed, as bytes. restore() reads them into a world that
@@ -117,7 +117,7 @@ class World {
     std::vector<FrozenIsland> frozen() const;     // in the order of islands()
     std::vector<core::Finding> warnings() const;  // steps over the limit, working stretch left, frozen, …
 
-    // Entities with their components (components.h), open to new kinds of both: a component added here together with
+    // Entities with their components (components.h), open to new kinds: a component added here together with
     // a system below needs no change in this class.
     ecs::Registry& registry();
 
@@ -137,10 +137,10 @@ class World {
     void addForce(std::shared_ptr<const Force> force);
 
     // Adds a collider or a body during a run. A new body is an island of its own; the existing winds and colliders act
-    // on it. Throws and expects what the constructor does.
+    // on it. Throws and expects the same as the constructor.
     ecs::Entity spawn(const ColliderSpec& spec);
     ecs::Entity spawn(const BodySpec& spec);
-    // Removes the entity and what belongs to it; what is tied to a removed collider becomes free. Expects an entity
+    // Removes the entity and its parts; points tied to a removed collider become free. Expects an entity
     // that is alive and, if it is a body, is not joined to another.
     void destroy(ecs::Entity entity);
 

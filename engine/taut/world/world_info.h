@@ -33,7 +33,7 @@ struct BodyHash {
     std::uint64_t hash = 0;
 };
 
-// What a joint of the scene ties together.
+// The two sides of a joint of the scene.
 struct JointInfo {
     std::string a, b;  // points, as the scene names them
     std::string name;  // empty: none

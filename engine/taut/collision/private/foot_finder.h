@@ -64,7 +64,7 @@ class FootFinder {
     Nearest nearestFrom(const dvec3& p, const Foot& foot) const;
     Nearest nearest(const dvec3& p) const { return nearestFrom(p, foot(p, place(p))); }
 
-    const Facet& triangle(int i) const { return facets_.triangles[static_cast<std::size_t>(i)]; }
+    const Facet& triangle(int i) const { return facets_.triangles[i]; }
     const MeshTree& tree() const { return tree_; }
     const core::Aabb& bounds() const { return bounds_; }
     bool isClosed() const { return facets_.isClosed; }

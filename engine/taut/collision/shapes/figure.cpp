@@ -1,4 +1,4 @@
-// A mesh that an animation moves. It has no form: contact between surfaces stops what meets its faces.
+// A mesh that an animation moves. It has no form: contact between surfaces stops bodies at its faces.
 #include <limits>
 
 #include "taut/collision/shape_table.h"

@@ -51,7 +51,7 @@ Kernels inUse(InstructionSet set, Kernels narrowest, Wider... wider) {
     return copies[static_cast<std::size_t>(set)];
 }
 
-// How it was selected: "TAUT_SIMD", "--isa", or the times of springs in the trial: "trial: sse2 2.1, avx2 1.0 ns".
+// How it was selected: "TAUT_SIMD", or the times of springs in the trial: "trial: sse2 2.1, avx2 1.0 ns".
 std::string instructionSetReason();
 
 // Takes a set as TAUT_SIMD has it, for `reason`; "auto" tries which is fastest. Applies to kernels looked up

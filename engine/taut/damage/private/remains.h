@@ -66,8 +66,8 @@ class Remains {
         return world::groupsOf(
             corners, [this](int a, int b) { return hold(a, b); });
     }
-    bool isAnyWholeAt(int point) const { return !fans_[static_cast<std::size_t>(point)].empty(); }
-    const Corners& besideOf(int point) const { return beside_[static_cast<std::size_t>(point)]; }  // by whole springs
+    bool isAnyWholeAt(int point) const { return !fans_[point].empty(); }
+    const Corners& besideOf(int point) const { return beside_[point]; }  // by whole springs
     // The point that carries vertices of the skin beyond a point: itself where something is intact, or of a block, in
     // a slice that is one layer of points, two springs across each other; else one of these that a spring holds to it.
     // -1: none, it is a crumb.
@@ -84,7 +84,7 @@ class Remains {
             for (std::size_t n = 0; n < mechanics::cellTetrahedra.size(); ++n)
                 if (damage_.isTetrahedronGone(c, n) == isGone) visit(tetrahedronOf(model_.cells[c], n));
     }
-    const dvec3& rest(int point) const { return model_.positions[static_cast<std::size_t>(point)]; }  // [m]
+    const dvec3& rest(int point) const { return model_.positions[point]; }  // [m]
 
   private:
     template <std::size_t N>

@@ -46,7 +46,7 @@ class Sides {
         eachCube(lattice.counts, [&](const glm::ivec3& cube) {
             const int standIn = standIns_[lattice.indexOf(cube)];
             if (standIn < 0) return;
-            const mechanics::LatticeCell& cell = lattice.cells[static_cast<std::size_t>(standIn)];
+            const mechanics::LatticeCell& cell = lattice.cells[standIn];
             const std::array<int, 4> corners = cornersOf(cell, firstGone(cell));
             for (const Corners& group : remains_.groupsOf(corners)) visit(cube, planeOf(group, {corners, {}}));
         });
@@ -67,7 +67,7 @@ class Sides {
 
     static std::array<int, 4> cornersOf(const mechanics::LatticeCell& cell, int number);
     int firstGone(const mechanics::LatticeCell& cell) const {
-        return firstGone_[static_cast<std::size_t>(&cell - frame_.lattice().cells.data())];
+        return firstGone_[&cell - frame_.lattice().cells.data()];
     }
     void findStandIns();
     Tetrahedron tetrahedronAt(const dvec3& place) const;

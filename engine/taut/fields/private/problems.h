@@ -54,7 +54,7 @@ class Problems {
     std::vector<Problem> sorted(const std::vector<Problem>& problems) const;
     core::Finding finding(const Problem& problem, core::Severity severity) const;
 
-    const File& writtenIn(Place place) const { return files_[static_cast<std::size_t>(-place.origin)]; }
+    const File& writtenIn(Place place) const { return files_[-place.origin]; }
     std::string_view lineOf(Place place) const;
 
     std::deque<std::string> baseTexts_;

@@ -1,9 +1,9 @@
-// The constraints of an island: what projects them, and onto which arrays. It stands between the method and the
-// contacts. It knows no kind of constraint and no tick.
+// Projects the constraints of an island, between the method and the contacts. It knows no kind of constraint and no
+// tick.
 //
 // A step goes from x0 to x' = x0 + h v'. Constraints then move x' to x, where they hold, along gradients at x0. They
 // change v by (x - x')/h. Under leap-frog, whose v is the velocity of the step, this is SHAKE. Velocities at the time
-// of x are projected too, as in RATTLE: the stored ones of other methods, and those that leap-frog predicts. Several
+// of x are projected too, as in RATTLE: the stored velocities, or under leap-frog the predicted ones. Several
 // constraints take turns until none moves anything.
 #pragma once
 
@@ -77,10 +77,8 @@ class ConstraintSlot {
     // [N s] The impulse by which a tie has pulled its first end since forgetImpulses(). Some constraints give it in
     // their own axes.
     void forgetImpulses() { std::fill(impulse_.begin(), impulse_.end(), dvec3(0.0)); }
-    const dvec3& impulse(std::size_t constraint, int tie) const {
-        return impulse_[static_cast<std::size_t>(ties_[constraint].first + tie)];
-    }
-    // What these impulses add to ω² [1/s²] at t [s], if they took `seconds` [s].
+    const dvec3& impulse(std::size_t constraint, int tie) const { return impulse_[ties_[constraint].first + tie]; }
+    // The share of these impulses in ω² [1/s²] at t [s], if they took `seconds` [s].
     double turning(double t, double seconds) {
         load(t, state_.v);
         double most = 0;
@@ -89,7 +87,7 @@ class ConstraintSlot {
             gather(tie);
             forces.clear();
             for (int own = 0; own < tie.constraint->size(); ++own)
-                forces.push_back(impulse_[static_cast<std::size_t>(tie.first + own)] / seconds);
+                forces.push_back(impulse_[tie.first + own] / seconds);
             most = std::max(most, tie.constraint->turning(tie.x, tie.w, forces));
         }
         findJoined(x_);
@@ -187,8 +185,7 @@ class ConstraintSlot {
         std::vector<bool> counts;
         for (Tie& tie : ties_) {
             counts.clear();
-            for (const std::size_t n : tie.numbers)
-                counts.push_back(n >= points_.size() || only[static_cast<std::size_t>(points_[n])]);
+            for (const std::size_t n : tie.numbers) counts.push_back(n >= points_.size() || only[points_[n]]);
             gather(tie);
             most = std::max(most, tie.constraint->strain(tie.x, counts));
         }
@@ -232,7 +229,7 @@ class ConstraintSlot {
     void store(Planes& planes, const std::vector<dvec3>& values) {
         for (std::size_t i = 0; i < points_.size(); ++i) planar_.set(planes, points_[i], values[i]);
     }
-    // Keeps the state to see later what contact changes: x in placed_, stored v in stored_, v at the time of x in
+    // Keeps the state, to find the change by contact later: x in placed_, stored v in stored_, v at the time of x in
     // reached_.
     void keep() {
         reached_ = v_;
@@ -259,7 +256,7 @@ class ConstraintSlot {
     void seePull(const Tie& tie, const std::vector<dvec3>& now, const std::vector<dvec3>& before) {
         for (std::size_t k = 0; k < tie.numbers.size(); ++k) {
             if (!(tie.w[k] > 0)) continue;
-            pull_[static_cast<std::size_t>(tie.first)] += (now[k] - before[tie.numbers[k]]) / tie.w[k];
+            pull_[tie.first] += (now[k] - before[tie.numbers[k]]) / tie.w[k];
             return;
         }
     }
@@ -281,15 +278,13 @@ class ConstraintSlot {
         if (bodies.empty()) return bodies;
         for (Tie& tie : ties_)
             for (const auto& [a, b, number, length, isMost] : tie.constraint->pairs(time_)) {
-                const auto numberOf = [&](int end) {
-                    return static_cast<int>(tie.numbers[static_cast<std::size_t>(end)]);
-                };
+                const auto numberOf = [&](int end) { return static_cast<int>(tie.numbers[end]); };
                 joined_.addPair({a.renumbered(numberOf), b.renumbered(numberOf),
                                  static_cast<std::size_t>(tie.first + number), length, isMost});
             }
         return bodies;
     }
-    // What pairs of ties hold of rigid bodies (joined_bodies.h). Returns whether they hold any.
+    // Projects the pairs of ties that hold rigid bodies (joined_bodies.h). Returns whether there are any.
     bool joinBodies(bool (Constraint::*projection)(const Constraint::Moment&)) {
         constexpr int mostSolves = 20;
         const bool isOfPlaces = projection == &Constraint::projectPositions;
@@ -352,7 +347,7 @@ class ConstraintSlot {
         }
     };
     Couple coupleOf(const Tie& tie, const Constraint::Drive& drive) const {
-        const auto numberOf = [&](int end) { return static_cast<int>(tie.numbers[static_cast<std::size_t>(end)]); };
+        const auto numberOf = [&](int end) { return static_cast<int>(tie.numbers[end]); };
         Couple couple{drive.a, drive.b, {}};
         for (auto* spots : {&couple.a, &couple.b})
             for (Spot& spot : *spots) spot = spot.renumbered(numberOf);
@@ -363,8 +358,8 @@ class ConstraintSlot {
         couple.across = {acrossOf(couple.a), acrossOf(couple.b)};
         return couple;
     }
-    // Torques of hinges during a step of h [s] change where it has led. How easily a hinge turns with all that hangs on
-    // it is what an impulse of 1 N m s does to velocities. Expects places on colliders in from_ as they were.
+    // Torques of hinges during a step of h [s] change its result. The inertia of a hinge with its load is measured by
+    // an impulse of 1 N m s. Expects in from_ the places on colliders at the start of the step.
     void drive(double h) {
         for (const Tie& tie : ties_)
             for (const Constraint::Drive& own : tie.constraint->drives()) {
@@ -405,8 +400,7 @@ class ConstraintSlot {
                 gather(tie);
                 const auto size = static_cast<std::size_t>(tie.constraint->size());
                 const bool isOne = size == 1;
-                const std::span<dvec3> pull =
-                    isOne ? std::span(ignored) : std::span(pull_).subspan(static_cast<std::size_t>(tie.first), size);
+                const std::span<dvec3> pull = isOne ? std::span(ignored) : std::span(pull_).subspan(tie.first, size);
                 if (!((*tie.constraint).*projection)({tie.w, tie.from, tie.x, tie.v, pull, time_})) continue;
                 moves = moves || !isJoined || hasMoved(tie, isOfPlaces);
                 if (isOne) isOfPlaces ? seePull(tie, tie.x, x_) : seePull(tie, tie.v, v_);
@@ -425,8 +419,8 @@ class ConstraintSlot {
     Planar<Real> planar_;
     std::vector<Tie> ties_;
     std::vector<int> points_;                // all points of any tie, ascending
-    std::vector<Constraint::Place> places_;  // likewise
-    double time_ = 0;                        // [s] of what was loaded
+    std::vector<Constraint::Place> places_;  // all places of any tie
+    double time_ = 0;                        // [s] of the loaded values
     // (points, then places)
     std::vector<double> inverseMass_;
     std::vector<dvec3> from_, x_, v_;

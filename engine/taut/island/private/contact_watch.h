@@ -1,4 +1,4 @@
-// What bringing points out of colliders does to the energy of an island. It knows no method.
+// Measures how bringing points out of colliders changes the energy of an island. It knows no method.
 //
 // Why it is measured. A contact is resolved by moving a point out of the collider and by an impulse (position
 // projection). The impulse adds no energy, for restitution is at most 1. The move does work against the springs and
@@ -47,11 +47,9 @@ class ContactWatch {
         springsAt_.assign(plan.points.size(), {});
         cellsAt_.assign(plan.points.size(), {});
         for (std::size_t s = 0; s < plan.springs.size(); ++s)
-            for (int end : {plan.springs[s].a, plan.springs[s].b})
-                springsAt_[static_cast<std::size_t>(end)].push_back(static_cast<int>(s));
+            for (int end : {plan.springs[s].a, plan.springs[s].b}) springsAt_[end].push_back(static_cast<int>(s));
         for (std::size_t c = 0; c < cells_.size(); ++c)
-            for (int corner : cells_[c].points)
-                cellsAt_[static_cast<std::size_t>(corner)].push_back(static_cast<int>(c));
+            for (int corner : cells_[c].points) cellsAt_[corner].push_back(static_cast<int>(c));
         isCounted_.assign(plan.points.size(), false);
     }
 
@@ -73,7 +71,7 @@ class ContactWatch {
     double energy(const IslandPlan& plan, const std::vector<int>& points, bool isAll, const Planes& places,
                   const Planes& velocities, const dvec3& gravity) {
         const int count = isAll ? static_cast<int>(plan.points.size()) : static_cast<int>(points.size());
-        const auto pointAt = [&](int k) { return isAll ? k : points[static_cast<std::size_t>(k)]; };
+        const auto pointAt = [&](int k) { return isAll ? k : points[k]; };
         double sum = 0;
         for (int k = 0; k < count; ++k) {
             const int i = pointAt(k);
@@ -84,16 +82,16 @@ class ContactWatch {
                 sum += 0.5 * plan.points[own].mass * glm::dot(u, u) -
                        plan.points[own].weighedMass() * glm::dot(gravity, planar_.at(places, i));
             for (int s : springsAt_[own]) {
-                const mechanics::Spring& spring = plan.springs[static_cast<std::size_t>(s)];
+                const mechanics::Spring& spring = plan.springs[s];
                 const int other = spring.a == i ? spring.b : spring.a;
-                if (isCounted_[static_cast<std::size_t>(other)] && other != i) continue;
+                if (isCounted_[other] && other != i) continue;
                 const dvec3 d = planar_.at(places, spring.b) - planar_.at(places, spring.a);
                 const double stretch = std::sqrt(glm::dot(d, d)) - spring.restLength;
                 sum += 0.5 * spring.stiffness * stretch * stretch;
             }
-            for (int c : cellsAt_[own]) sum += cellEnergy(cells_[static_cast<std::size_t>(c)], i, places);
+            for (int c : cellsAt_[own]) sum += cellEnergy(cells_[c], i, places);
         }
-        for (int k = 0; k < count; ++k) isCounted_[static_cast<std::size_t>(pointAt(k))] = false;
+        for (int k = 0; k < count; ++k) isCounted_[pointAt(k)] = false;
         return sum;
     }
 
@@ -106,7 +104,7 @@ class ContactWatch {
         double lowest = std::numeric_limits<double>::infinity(), mass = 0;
         for (int i = 0; i < static_cast<int>(plan.points.size()); ++i) {
             if (!isFree(plan, i)) continue;
-            mass += plan.points[static_cast<std::size_t>(i)].weighedMass();
+            mass += plan.points[i].weighedMass();
             lowest = std::min(lowest, -glm::dot(gravity, planar_.at(x, i)));
         }
         return mass > 0 ? energy(plan, {}, true, x, w, gravity) - mass * lowest : 0.0;
@@ -115,7 +113,7 @@ class ContactWatch {
     // Each cell counts at the first of its corners that is counted.
     double cellEnergy(const mechanics::VolumeCell& cell, int point, const Planes& places) const {
         for (int corner : cell.points)
-            if (corner != point && isCounted_[static_cast<std::size_t>(corner)]) return 0.0;
+            if (corner != point && isCounted_[corner]) return 0.0;
         return mechanics::volumeEnergy(cell, mechanics::cornersOf(cell, places.data(), planar_.stride));
     }
 

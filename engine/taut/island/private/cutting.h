@@ -10,7 +10,7 @@
 
 namespace taut::world {
 
-// What a cut crosses in one island.
+// The elements of one island that a cut crosses.
 struct CutEdges {
     struct Edge {
         Body* body;

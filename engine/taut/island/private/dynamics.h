@@ -1,5 +1,5 @@
-// The moving points of one island: its system, state and method. The interface is in double precision, whatever
-// precision the island computes in. It knows no tick and no reason why a plan changes.
+// The moving points of one island: its system, state and method. The interface is in double precision,
+// also if the island computes in single precision. It knows no tick and no reason why a plan changes.
 #pragma once
 
 #include <bitset>
@@ -25,8 +25,8 @@ struct IslandInfo;
 enum class Change {
     lengths,   // rest lengths of springs
     material,  // springs, drag, bulk moduli of cells
-    points,    // masses, drag, what is held
-    grips,     // their number, and what they hold on to
+    points,    // masses, drag, held points
+    grips,     // their number, and their holders
     damage,    // springs, cells and triangles that are gone
     shape,     // damage and constraints
     count
@@ -101,8 +101,8 @@ class Dynamics {
     virtual bool settle() = 0;
     // The largest |l - L|/L of ties of constraints whose points count, at t [s].
     virtual double strain(double t, const std::vector<bool>& only) = 0;
-    // [N s] The impulse of ties of constraints since forgetImpulses(). turning(): what these impulses, over so many
-    // seconds up to t [s], add to ω² [1/s²].
+    // [N s] The impulse of ties of constraints since forgetImpulses(). turning(): the share of these impulses, over so
+    // many seconds up to t [s], in ω² [1/s²].
     virtual void forgetImpulses() = 0;
     virtual dvec3 impulse(const JointTie::Part& part) const = 0;
     virtual double turning(double t, double seconds) = 0;
@@ -138,14 +138,14 @@ class Dynamics {
                                             std::span<const ContactAcceleration> pressed) = 0;
     virtual void synchronise(double t, std::span<const collision::Contact> contacts) = 0;
     virtual void setVelocity(int point, const dvec3& v) = 0;
-    // Whether every velocity is a number below the limit; likewise only at the points that the last collide() touched.
+    // Whether every velocity is a number below the limit; or only those of points that the last collide() touched.
     virtual bool isBounded() const = 0;
     virtual bool isTouchedBounded() const = 0;
     virtual dvec3 position(int point) const = 0;
     virtual void positions(std::vector<dvec3>& x) const = 0;
     virtual void positions(std::span<dvec3> x) const = 0;
 
-    // What the generators add to the stability bound, at t [s].
+    // The share of the generators in the stability bound, at t [s].
     virtual mechanics::StabilityShare stabilityShare(double t) const = 0;
     virtual void addEnergies(double t, const std::vector<bool>& only, double& weight, double& other) const = 0;
     virtual void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const = 0;

@@ -25,8 +25,8 @@ struct Envelope {
 // [s] largest damping time of its springs.
 double largestTau(const IslandPlan& plan);
 
-// What a hand adds to ω² [1/s²] and to the damping [1/s] of each point of its grip: K/M and 2ζ√(K/M). K is the strength
-// of the hand [N/m], M the mass of the grip [kg]. Both are the same for all points, since they share by mass.
+// The share of a hand in ω² [1/s²] and in the damping [1/s] of each point of its grip: K/M and 2ζ√(K/M). K is the
+// strength of the hand [N/m], M the mass of the grip [kg]. Both are the same for all points, since they share by mass.
 struct GripRates {
     double omega2 = 0, damping = 0;
 };

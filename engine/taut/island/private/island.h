@@ -1,6 +1,6 @@
-// One island: the bodies that move together, their state, and what is done to them. island_report.h tells of it.
+// One island: the bodies that move together, their state, and the operations on them. island_report.h reports on it.
 //
-//   island.cpp          ticks, and what is changed between two ticks
+//   island.cpp          ticks, and changes between two ticks
 //   island_saving.cpp   its bytes
 #pragma once
 
@@ -54,7 +54,7 @@ struct ColliderMotion {
     collision::Pose from, to;
 };
 
-// What becomes of one try of a tick.
+// The outcome of one try of a tick.
 enum class TickVerdict { stands, again, fails };
 
 // [rad] Largest ω H of the motion that contact causes. H is the time from one step of contact to the next.
@@ -128,18 +128,18 @@ class Island {
     // Sleep: world/private/sleep.h decides. An island that sleeps keeps its places to the bit, at speed 0, and later
     // ticks do nothing. Changes open it as any other; then it has to be woken before close().
     bool isAsleep() const { return sleep_.company != 0; }
-    // The number of those that fell asleep together, which wake together; 0: awake.
+    // The number of the islands that fell asleep together, and wake together; 0: awake.
     std::int64_t company() const { return sleep_.company; }
     bool isStill() const { return isAsleep() || frozen_; }
     // At the end of a tick, while awake. A window of rest ends, and the next begins, or it is looked at in between.
     void watchRest(bool isMiddle);
     void beginRestWindow(std::int64_t number);
-    // At the end of a window that lasted `seconds`: whether it was calm, and what acts on the points is steady.
+    // At the end of a window: whether it was calm, and the forces on the points are steady.
     bool isCalm();
     // Whether no point of a calm island could go further than the error allows. supports (points; empty: none): by
     // other bodies, with those of colliders to come. footholds: where solids are pressed. t [s]: now.
     struct Support {
-        dvec3 push{0.0};        // what presses the point, as a direction; 0: nothing
+        dvec3 push{0.0};        // direction of the pressure on the point; 0: none
         bool mayStick = false;  // friction could hold it by a margin
     };
     struct Foothold {
@@ -161,7 +161,7 @@ class Island {
         double energy = 0;    // [J]
         dvec3 momentum{0.0};  // [kg m/s]
     };
-    // What falling asleep has taken since the start.
+    // Energy and momentum lost by falling asleep since the start.
     const Slept& slept() const { return sleep_.taken; }
 
     // Changes between two ticks. The first one opens the island: velocities are brought to the time of the positions.
@@ -170,7 +170,7 @@ class Island {
     void open(const TickTime& time);
     void close(const TickTime& time);
     bool isOpen() const { return isOpen_; }
-    // Opens; returns the plan, where `what` may be changed. Points and springs keep their number and their ends.
+    // Opens; returns the plan, in which this part may be changed. Points and springs keep their number and their ends.
     IslandPlan& change(const TickTime& time, Change what);
     // Opens; adds to the velocity of points [m/s].
     void push(const TickTime& time, std::span<const int> points, const dvec3& velocity);
@@ -180,7 +180,7 @@ class Island {
     void lead(const TickTime& time, const std::string& hand, const mechanics::PosePath& path, bool bends);
     // Sets the path of a collider, "collider.pole"; opens where it does not go on from the path before.
     void carry(const TickTime& time, const std::string& collider, const mechanics::PosePath& path);
-    // Lets go of the wanted ties of joints; opens where any of them holds.
+    // Releases the wanted ties of joints; opens if any of them holds.
     void release(const TickTime& time, const std::function<bool(const JointTie&)>& wanted);
     // Takes over the forces. Opens where a force jumps, but not where wind and gravity change steadily.
     void setForces(const TickTime& time, const ForceList& forces);
@@ -196,7 +196,7 @@ class Island {
     // (points) [m/s] at the time of the tick; zero when frozen. May cost an evaluation.
     std::vector<dvec3> velocities(const TickTime& time);
 
-    // The state of a body: x and the stored v of its points in the order of authoring, and what else it has.
+    // The state of a body: x and the stored v of its points in the order of authoring, and its other state.
     void addToHash(const Body& body, core::Hash& hash) const { dynamics_->addToHash(body, hash); }
     // The same as one number, kept while it sleeps.
     std::uint64_t hashAsleep(const Body& body);

@@ -118,10 +118,10 @@ class IslandContacts {
     }
 
     // Forces have acted on these velocities for `seconds` [s] since the state, the pressure of other bodies has not.
-    // Adds its accelerations of the last step of contact. An impact does not last, so each addition is limited by what
-    // forces have added.
+    // Adds its accelerations of the last step of contact. An impact does not last, so each addition is limited by
+    // the change by forces.
     void bear(std::span<const ContactAcceleration> pressed, double seconds, Planes& velocities) const {
-        constexpr double most = 2.0;  // times what forces have added
+        constexpr double most = 2.0;  // times the change by forces
         for (const ContactAcceleration& one : pressed) {
             const dvec3 v = planar_.at(velocities, one.point), added = v - planar_.at(state_.v, one.point);
             const dvec3 push = seconds * one.acceleration;
@@ -129,7 +129,7 @@ class IslandContacts {
             planar_.set(velocities, one.point, v + (size > limit ? limit / size : 1.0) * push);
         }
     }
-    // Forces have changed these velocities since the state. Removes, point by point, what contacts do not let pass.
+    // Forces have changed these velocities since the state. Removes, point by point, the components that contacts stop.
     void bear(std::span<const collision::Contact> contacts, Planes& velocities) const {
         forEachPoint(
             contacts,
@@ -166,7 +166,7 @@ class IslandContacts {
                 if (constraint->carries(i)) carried_.push_back(i);
         if (carried_.empty()) return all;
         masses_.assign(all, all + planar_.stride);
-        for (const int i : carried_) masses_[static_cast<std::size_t>(i)] = Real(0);
+        for (const int i : carried_) masses_[i] = Real(0);
         return masses_.data();
     }
 
@@ -280,7 +280,7 @@ class IslandContacts {
     }
 
     // Adds the work on points that were outside before the step. Points that begin inside a collider, or nearer than
-    // its thickness, are brought out whatever the step. A shorter step would add as much for them.
+    // its thickness, are left out: a shorter step would add as much for them.
     void addWork(const collision::Colliders& colliders, bool isAll, double h, const dvec3& gravity) {
         outside_.clear();
         forEachPoint(records_, [&](std::span<const collision::Contact> contacts) {
@@ -302,8 +302,8 @@ class IslandContacts {
         return 0.0;
     }
 
-    // The energy before and after, with velocities at the time of the positions: half of what the
-    // last forces gave is added. A moving surface does work of its own. Seen from the surface it is zero.
+    // The energy before and after, with velocities at the time of the positions: half of the last
+    // kick is added. A moving surface does work of its own. Seen from the surface it is zero.
     void addWorkOnTouched(const dvec3& gravity) {
         forEachPoint(records_, [&](std::span<const collision::Contact> contacts) {
             const int point = contacts.front().point;
@@ -357,11 +357,11 @@ class IslandContacts {
     std::vector<int> outside_;                               // those of touched_ that were outside before the step
     std::vector<collision::Contact> records_, moreRecords_;  // of the last collide(), if it kept them
     std::vector<Slide> slides_;                              // (supports)
-    std::vector<ode::Support> supports_;                     // likewise
+    std::vector<ode::Support> supports_;                     // (supports)
     ContactWatch<Real> watch_;
     Planes placed_, placedFrom_, placedSpeeds_;  // scratch for place()
-    std::vector<Real> placedMasses_;             // likewise
-    std::vector<int> carried_;                   // likewise, points
+    std::vector<Real> placedMasses_;             // scratch for place()
+    std::vector<int> carried_;                   // scratch for place(): points
     std::vector<Real> masses_;                   // (points) [1/kg], where some are carried
 };
 

@@ -1,4 +1,4 @@
-// What an island reports: energies, frequencies, warnings, and why it stopped. It changes nothing.
+// The report of an island: energies, frequencies, warnings, and why it stopped. It changes nothing.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ void addMetrics(Island& island, const TickTime& time, const std::function<bool(c
 
 IslandInfo infoOf(const Island& island, const TickTime& time);
 
-// Warnings for the time before the first tick, and of what has changed since (a working stretch exceeded).
+// Warnings before the first tick, and of later changes (a working stretch exceeded).
 std::vector<std::string> warningsOf(const Island& island);
 
 // Expects that the island is in its last good state.

@@ -1,4 +1,4 @@
-// What holds points of rigid bodies together or at a distance, in pairs, solved for all bodies at once.
+// Constraints that hold points of rigid bodies together or at a distance, in pairs, solved for all bodies at once.
 //
 //     a body k moves by      δ(r) = F/m + (I⁻¹ Σ r × f) × r        f  impulses at its points, F their sum
 //     a pair (a, b) holds    δ(a) - δ(b) = x_b - x_a               f  +p at a, -p at b
@@ -8,7 +8,7 @@
 // settle so. Here the impulses p of all pairs solve one symmetric system, A p = x_b - x_a, by conjugate gradients. It
 // is the linear part of the motion, so a few solves follow each other. A pin of two bodies already fixes the
 // distance of any other place from it, so the second pin of a hinge acts across the axle only. Points get p
-// over their own mass, from which their bodies find theirs. No body gains momentum by it.
+// over their own mass, from which their bodies find theirs. This adds no momentum.
 #pragma once
 
 #include <algorithm>
@@ -63,12 +63,12 @@ class JoinedBodies {
     std::vector<core::RigidMotion> bodies_;
     std::vector<int> bodyOf_;  // (points) -1: none
     std::vector<Pair> pairs_;
-    std::vector<glm::dvec3> p_, left_, way_, moved_;  // (pairs) impulse, what is left, direction, A times it
+    std::vector<glm::dvec3> p_, left_, way_, moved_;  // (pairs) impulse, residual, direction, A times it
     std::vector<glm::dvec3> best_;                    // (pairs) the impulses that left least
     std::vector<glm::dvec3> along_;                   // (pairs) unit, of a rod; 0
     std::vector<std::array<glm::dvec3, 2>> given_;    // (pairs) unit, to earlier pairs of the same bodies; 0
     std::vector<bool> isSlack_;                       // (pairs) of a leash: it does not count
-    std::vector<double> ease_;                        // (pairs) [1/kg] about what an impulse of 1 does
+    std::vector<double> ease_;                        // (pairs) [1/kg] approximate response to an impulse of 1
     std::vector<glm::dvec3> sum_, turn_;              // (bodies) of impulses, and of their moments
     std::vector<glm::dvec3> force_;                   // (points) of impulses
 };

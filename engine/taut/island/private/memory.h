@@ -19,8 +19,8 @@ inline constexpr int mostContactFactor = 1024;
 // How much energy contact with colliders may add in all, and the steps that keep it below that.
 //
 // An impact shifts its point by up to v h against springs, which adds energy. The budget is 2 % of the most energy at
-// any touch. A tick that adds more than a quarter of what is left is repeated in steps half as long, so the sum stays
-// below the budget however many impacts come. After a second in which contact has changed the energy by next to
+// any touch. A tick that adds more than a quarter of the rest is repeated in steps half as long, so the sum stays below
+// the budget for any number of impacts. After a second in which contact has changed the energy by next to
 // nothing, steps become longer again.
 struct ContactBudget {
     static constexpr double share = 0.02;   // of the most energy at a touch, for the sum
@@ -30,8 +30,8 @@ struct ContactBudget {
     double most = 0;                // [J] largest sum at any time
     int factor = 1, calmTicks = 0;  // by which steps are shorter; ticks since they need not be
 
-    // [J] The most energy at a touch, without what contact itself has added. A moving collider, a hand or the wind may
-    // have brought far more energy than there was at the very first touch.
+    // [J] The most energy at a touch, without the energy added by contact itself. A moving collider, a hand or the wind
+    // may have brought far more energy than there was at the very first touch.
     double energyAtTouch(const ContactWork& work) const {
         return std::max(sum.atTouch, work.atTouch - std::max(sum.added, 0.0));
     }

@@ -13,7 +13,7 @@ namespace taut::world {
 class PrecisionWatch {
   public:
     // Looks for points that are stuck from the start: gravity over one tick, or the given velocity, is too slow along
-    // an axis. step [s]; limitingSpring: what sets it, in words.
+    // an axis. step [s]; limitingSpring: its cause, in words.
     void foresee(const IslandPlan& plan, const Dynamics& dynamics, double t, double tickSeconds, double step,
                  const std::string& limitingSpring);
     // After every tick.

@@ -8,7 +8,7 @@
 //     kept       x0                     xm                       x1     v = (x1 - x0) / T
 //                                                                       a = (x1 - 2 xm + x0) / (T/2)²
 //
-// v and a are means over half a second. What trembles faster has little of both, but then its whole way is seen.
+// v and a are means over half a second. A faster jitter has little of either, but then its entire amplitude is seen.
 // Stored velocities would not do: those of pressed points contain half a kick of the forces.
 #pragma once
 
@@ -48,7 +48,7 @@ class RestWatch {
     // Whether it has seen the whole window, and all were calm.
     bool isCalm() const { return isWatching() && !middle_.empty(); }
 
-    // A calm island could not fall asleep, which was dear to find out: it watches every second window, every fourth ...
+    // A calm island could not fall asleep, and the test was expensive: it watches every second window, every fourth ...
     // By their numbers, so that islands that touch watch the same ones.
     void fail() { every_ = std::min(2 * every_, seldom); }
     void forgive() { every_ = 1; }

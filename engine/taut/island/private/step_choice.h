@@ -55,17 +55,17 @@ struct StepChoice {
     bool splits = false;           // the dashpots act apart from the other forces
     double step = 0;               // h = tick / substeps [s]
     double limit = 0;              // largest stable step [s], by the bound that holds in any shape, also of cells
-    ode::FastestMode mode;         // what the limit is computed from
+    ode::FastestMode mode;         // source of the limit
     mechanics::FrequencyBound anywhere, here;
-    std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
+    std::string limitingSpring;  // cause of the limit, in words; empty: no limit
     std::vector<std::string> warnings;
     std::optional<core::Finding> fault;  // if the step is so long that it will end the run
-    std::vector<std::string> advice;     // what would allow a longer step
+    std::vector<std::string> advice;     // changes that would allow a longer step
 };
 
 // Without `now`: the step that holds for all that the envelope allows. With `now`, where dt is "auto" and the method's
-// limit is a promise: a step that holds for that state, and the rule by which it may change. share: what generators add
-// besides the springs and hands. leastOmega(): a lower bound of the fastest motion at the start [1/s], asked only for a
+// limit is a promise: a step that holds for that state, and the rule by which it may change. share: of the generators,
+// besides springs and hands. leastOmega(): a lower bound of the fastest motion at the start [1/s], called only for a
 // step over a limit. inParts(n): the substeps of a tick that needs n. Throws core::Error(badContent) when "auto" has no
 // answer or a tick would need more than a million steps.
 StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds,

@@ -62,7 +62,7 @@ class StepFollowing {
         return substeps_ > 0 && substeps_ <= mostSubsteps && most_ <= mostSubsteps && calmTicks_ >= 0 &&
                calmTicks_ <= patience_ && most_ >= 0;
     }
-    // Visits what a checkpoint saves.
+    // Visits the members that a checkpoint saves.
     template <class Visit>
     void visit(Visit&& each) {
         each(substeps_);

@@ -1,7 +1,7 @@
 // The lengths at which the springs of an island yield or break, and which of the springs that are too long break at
 // once. It changes nothing.
 //
-// Far from a tear a sheet is strained evenly, and a spring breaks at the break strain ε_break whatever the cell size.
+// Far from a tear a sheet is strained evenly, and a spring breaks at the break strain ε_break for any cell size.
 // At the tip of a tear this would depend on the mesh: the strain of the next spring grows as 1/√l when the cell l
 // shrinks, while the energy that a tear takes per area is a property of the material. The crack band model (Bažant and
 // Oh 1983, with a sudden drop) makes that energy independent of the mesh: the break strain at the tip grows as
@@ -47,7 +47,7 @@ class Strength {
         int spring;
         double overload;
     };
-    // Of the overloaded springs: those that no other in reach exceeds, so that the others first feel the relief. Two
+    // The overloaded springs that no other in reach exceeds, so that the others first feel the relief. Two
     // springs are in reach if they share a point or have neighbouring points.
     std::vector<int> firstToBreak(std::vector<Break> over) const;
 
@@ -60,10 +60,8 @@ class Strength {
         const auto p = static_cast<std::size_t>(point);
         return {ways_.data() + first_[p], ways_.data() + first_[p + 1]};
     }
-    bool isOwn(int spring) const { return plan_.origins[static_cast<std::size_t>(spring)].body >= 0; }
-    bool isBend(int spring) const {
-        return plan_.springs[static_cast<std::size_t>(spring)].kind == mechanics::SpringKind::bend;
-    }
+    bool isOwn(int spring) const { return plan_.origins[spring].body >= 0; }
+    bool isBend(int spring) const { return plan_.springs[spring].kind == mechanics::SpringKind::bend; }
     // Calls each(point) for the point and its neighbours along structural springs that hold.
     template <class Each>
     bool anyNear(int point, Each&& each) const;

@@ -1,4 +1,4 @@
-// The force through ties of breakable joints, as the mean over a tick. An impact counts by its impulse, whatever the
+// The force through ties of breakable joints, as the mean over a tick. An impact counts by its impulse, with any
 // step. It changes nothing.
 #pragma once
 

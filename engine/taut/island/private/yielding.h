@@ -22,9 +22,9 @@ class Yielding {
     // After a substep. Returns whether the plan has changed.
     bool giveWay(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces);
 
-    // Keeps what has yielded and broken so far.
+    // Keeps the yielded lengths and the broken springs so far.
     void keep();
-    // Restores what has yielded and broken since keep().
+    // Restores the state at keep().
     void undo(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces);
 
   private:

@@ -33,7 +33,7 @@ CellCorners cornersOf(const VolumeCell& cell, const Real* planes, std::ptrdiff_t
 // The same from points [m].
 inline CellCorners cornersOf(const VolumeCell& cell, std::span<const glm::dvec3> points) {
     CellCorners p;
-    for (std::size_t c = 0; c < p.size(); ++c) p[c] = points[static_cast<std::size_t>(cell.points[c])];
+    for (std::size_t c = 0; c < p.size(); ++c) p[c] = points[cell.points[c]];
     return p;
 }
 

@@ -81,7 +81,7 @@ class ElementBending final : public ForceGenerator<Real> {
     static Four four(const glm::dvec3& v) {
         return {{static_cast<Real>(v.x), static_cast<Real>(v.y), static_cast<Real>(v.z), 0}};
     }
-    std::size_t slotOf(int point) const { return slots_[static_cast<std::size_t>(point)]; }
+    std::size_t slotOf(int point) const { return slots_[point]; }
     static Rows rowsOf(const std::vector<std::vector<Entry>>& lists);
     // x + τ v of the points by slots.
     void gather(const Real* x, const Real* v, double dampingTime, int stride) const;

@@ -84,7 +84,7 @@ class GridFriction final : public ForceGenerator<Real> {
     };
 
     int size() const { return friction_.stuck.columns * friction_.stuck.rows; }
-    int numberOf(int point) const { return points_[static_cast<std::size_t>(point)]; }  // in the island
+    int numberOf(int point) const { return points_[point]; }  // in the island
     void gather(const Motion<Real>& motion) const;
     // Calls each(part) for all points, several rows at a time.
     template <class Each>

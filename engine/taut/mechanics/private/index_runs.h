@@ -45,8 +45,7 @@ class IndexRuns {
         loosePoints_.erase(std::unique(loosePoints_.begin(), loosePoints_.end()), loosePoints_.end());
         for (int s : left) {
             sources_.push_back(s);
-            for (std::size_t c = 0; c < Corners; ++c)
-                loose_[c].push_back(placeOf(elements[static_cast<std::size_t>(s)][c]));
+            for (std::size_t c = 0; c < Corners; ++c) loose_[c].push_back(placeOf(elements[s][c]));
         }
     }
 

@@ -43,8 +43,8 @@ class Triangulation {
     bool isInCircle(const Triangle& of, int point) const;
     bool isKept(int a, int b) const;
 
-    Triangle& at(int t) { return triangles_[static_cast<std::size_t>(t)]; }
-    const Triangle& at(int t) const { return triangles_[static_cast<std::size_t>(t)]; }
+    Triangle& at(int t) { return triangles_[t]; }
+    const Triangle& at(int t) const { return triangles_[t]; }
     static std::size_t slotOf(const Triangle& triangle, int point);
     int triangleAt(int a, int b) const;
     int apexBeyond(int t, std::size_t k) const;

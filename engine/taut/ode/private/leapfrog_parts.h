@@ -17,8 +17,7 @@ template <class Real>
 void takeAsPredicted(State<Real>& state, std::span<const int> points) {
     for (int p = 0; p < state.layout.planes; ++p) {
         const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(p) * state.layout.stride;
-        for (int i : points)
-            state.memory[0][static_cast<std::size_t>(plane + i)] = state.v[static_cast<std::size_t>(plane + i)];
+        for (int i : points) state.memory[0][plane + i] = state.v[plane + i];
     }
 }
 

@@ -19,7 +19,7 @@ class Supports {
 
     void resize(Layout layout) {
         layout_ = layout;
-        holds_.assign(static_cast<std::size_t>(layout.count), Hold::none);
+        holds_.assign(layout.count, Hold::none);
         rubbed_ = core::AlignedArray<Real>(layout.size());
     }
 
@@ -64,7 +64,7 @@ class Supports {
     void forEachPlane(const Support& support, F&& f) const {
         for (int p = 0; p < layout_.planes; ++p)
             f(static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * layout_.stride + support.point),
-              support.normal[static_cast<std::size_t>(p)]);
+              support.normal[p]);
     }
     double along(const Support& support, const Real* rows) const {
         double sum = 0;

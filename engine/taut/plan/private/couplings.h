@@ -22,9 +22,9 @@ class Sets {
   public:
     explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
     int find(int i) {
-        while (parent_[static_cast<std::size_t>(i)] != i) {
-            int& up = parent_[static_cast<std::size_t>(i)];
-            up = parent_[static_cast<std::size_t>(up)];
+        while (parent_[i] != i) {
+            int& up = parent_[i];
+            up = parent_[up];
             i = up;
         }
         return i;
@@ -32,7 +32,7 @@ class Sets {
     void unite(int a, int b) {
         a = find(a);
         b = find(b);
-        parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        parent_[std::max(a, b)] = std::min(a, b);
     }
 
   private:

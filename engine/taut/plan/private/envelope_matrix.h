@@ -18,48 +18,41 @@ class EnvelopeMatrix {
     }
     void clear() { lower_.assign(lower_.size(), 0.0); }
     // Expects an element within the envelope, left of the diagonal.
-    double& at(int row, int column) {
-        return lower_[start_[static_cast<std::size_t>(row)] +
-                      static_cast<std::size_t>(column - first_[static_cast<std::size_t>(row)])];
-    }
+    double& at(int row, int column) { return lower_[start_[row] + static_cast<std::size_t>(column - first_[row])]; }
     double at(int row, int column) const { return const_cast<EnvelopeMatrix&>(*this).at(row, column); }
     // diagonal: (rows)
     void factor(std::span<const double> diagonal) {
         for (int i = 0; i < rows(); ++i) {
-            const int first = first_[static_cast<std::size_t>(i)];
+            const int first = first_[i];
             for (int j = first; j < i; ++j) {
                 double sum = at(i, j);
                 for (int k = first < firstOf(j) ? firstOf(j) : first; k < j; ++k) sum -= at(i, k) * at(j, k);
                 at(i, j) = sum;
             }
-            double pivot = diagonal[static_cast<std::size_t>(i)];
+            double pivot = diagonal[i];
             for (int j = first; j < i; ++j) {
-                const double scaled = at(i, j) * inversePivot_[static_cast<std::size_t>(j)];
+                const double scaled = at(i, j) * inversePivot_[j];
                 pivot -= scaled * at(i, j);
                 at(i, j) = scaled;
             }
-            inversePivot_[static_cast<std::size_t>(i)] =
-                pivot > leastPivot * diagonal[static_cast<std::size_t>(i)] ? 1.0 / pivot : 0.0;
+            inversePivot_[i] = pivot > leastPivot * diagonal[i] ? 1.0 / pivot : 0.0;
         }
     }
     // (rows) right-hand sides, then the solution.
     template <class Value>
     void solve(std::span<Value> values) const {
         for (int i = 0; i < rows(); ++i)
-            for (int j = firstOf(i); j < i; ++j)
-                values[static_cast<std::size_t>(i)] -= at(i, j) * values[static_cast<std::size_t>(j)];
-        for (int i = 0; i < rows(); ++i)
-            values[static_cast<std::size_t>(i)] *= inversePivot_[static_cast<std::size_t>(i)];
+            for (int j = firstOf(i); j < i; ++j) values[i] -= at(i, j) * values[j];
+        for (int i = 0; i < rows(); ++i) values[i] *= inversePivot_[i];
         for (int i = rows() - 1; i >= 0; --i)
-            for (int j = firstOf(i); j < i; ++j)
-                values[static_cast<std::size_t>(j)] -= at(i, j) * values[static_cast<std::size_t>(i)];
+            for (int j = firstOf(i); j < i; ++j) values[j] -= at(i, j) * values[i];
     }
 
   private:
     static constexpr double leastPivot = 1e-10;  // of the diagonal element
 
     int rows() const { return static_cast<int>(first_.size()); }
-    int firstOf(int row) const { return first_[static_cast<std::size_t>(row)]; }
+    int firstOf(int row) const { return first_[row]; }
 
     std::vector<int> first_;            // (rows) first column of the envelope
     std::vector<std::size_t> start_;    // (rows) start in lower_

@@ -105,9 +105,9 @@ class Pins final : public ConstraintOf<Pins> {
     std::vector<dvec3> sum_;              // (nodes) scratch
     std::vector<int> nodeOf_;             // (as Moment) of nodes_; -1: none
     std::vector<double> diagonal_;        // (rows) scratch
-    std::vector<dvec3> pull_;             // (rows) likewise
-    std::vector<dvec3> way_;              // (clusters) likewise
-    std::vector<double> ease_;            // (clusters) [1/kg] likewise
+    std::vector<dvec3> pull_;             // (rows) scratch
+    std::vector<dvec3> way_;              // (clusters) scratch
+    std::vector<double> ease_;            // (clusters) [1/kg] scratch
 };
 
 }  // namespace taut::world

@@ -22,15 +22,15 @@ class ScenePoints {
     explicit ScenePoints(std::span<Body* const> bodies);
 
     std::span<Body* const> bodies() const { return bodies_; }
-    Body& body(int number) const { return *bodies_[static_cast<std::size_t>(number)]; }
+    Body& body(int number) const { return *bodies_[number]; }
     std::size_t count() const;
     // Points of all bodies are numbered body by body; spots before planning have these global numbers.
-    int global(PointRef p) const { return firstGlobal_[static_cast<std::size_t>(p.body)] + p.point; }
+    int global(PointRef p) const { return firstGlobal_[p.body] + p.point; }
     PointRef refOf(int global) const;
     // The number in the island of a planned body.
-    int pointOf(PointRef p) const { return body(p.body).pointOf[static_cast<std::size_t>(p.point)]; }
+    int pointOf(PointRef p) const { return body(p.body).pointOf[p.point]; }
 
-    dvec3 position(PointRef p) const { return body(p.body).model.positions[static_cast<std::size_t>(p.point)]; }
+    dvec3 position(PointRef p) const { return body(p.body).model.positions[p.point]; }
     double distance(PointRef a, PointRef b) const;  // [m]
     // The points that a side names, each once; those of one target in the order of its bodies. Throws
     // core::Error(badContent) if there are none.

@@ -26,14 +26,14 @@ Line lineOf(const mechanics::Model& model, std::span<const int> points);
 // (points) Those before and after each on the border of the surface; none inside.
 std::vector<std::vector<int>> borderNeighbours(const mechanics::Model& model);
 
-// What a seam sews: places, and how long the edge is between them. It is closed if its ends are one place.
+// An edge that a seam sews: places, and how long the edge is between them. It is closed if its ends are one place.
 struct SewnEdge {
     std::vector<dvec3> places;  // [m]
     std::vector<double> steps;  // [m] from each to the next; closed: from the last to the first too
     bool isClosed() const { return steps.size() == places.size(); }
 };
 
-// A spot of each edge, in numbers of its places; one of both is a place.
+// A spot of each edge, in numbers of its places; at least one of the two is a place.
 struct SewnPair {
     Spot a, b;
     bool operator==(const SewnPair&) const = default;

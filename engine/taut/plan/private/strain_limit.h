@@ -2,10 +2,10 @@
 //
 //     n·(x_b - x_a) <= l_most      or the length when the step began, if that is more by rounding
 //
-// along the line n of both ends when the step began, so that impulses keep momentum and angular momentum (rods.h). Each
+// along the line n of the ends when the step began, so that impulses keep momentum and angular momentum (rods.h). Each
 // of these sets holds the state in which nothing moves, so a projection onto any of them, over-relaxed or not, takes
-// kinetic energy and never adds any, in whatever order and however often (Agmon 1954). Springs take turns until none is
-// too long: all of them now and then, in between those that are nearly as long as they may be.
+// kinetic energy and never adds any, in any order and number (Agmon 1954). Springs take turns until none is
+// too long: all of them now and then, in between only springs near their longest length.
 #pragma once
 
 #include "taut/plan/constraint.h"

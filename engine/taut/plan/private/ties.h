@@ -1,5 +1,5 @@
-// Points that are tied to colliders and move with them: what `hold_on`, joints and the action hold add to a plan. It
-// knows no tick. World moves the grips that it makes.
+// Points that are tied to colliders and move with them: the additions of `hold_on`, joints and the action hold to a
+// plan. It knows no tick. World moves the grips that it makes.
 #pragma once
 
 #include <functional>
@@ -17,11 +17,11 @@ class JointSide;
 struct JointSpec;
 struct SceneSpec;
 
-// What can carry points, by name: "collider.pole", and joints and faces of figures (parseCollider()).
+// The carriers of points, by name: "collider.pole", and joints and faces of figures (parseCollider()).
 struct Holders {
     // The present pose; nothing if there is none of that name.
     std::function<std::optional<collision::Pose>(const std::string& holder)> poseOf;
-    // What of a collider carries a point at x [m]: the nearest face of a figure, else what is named.
+    // The part of a collider that carries a point at x [m]: the nearest face of a figure, else the named part.
     std::function<std::string(const std::string& collider, const dvec3& x)> nearest;
 };
 

@@ -53,7 +53,7 @@ class GltfModel {
     const T& at(const std::vector<T>& all, int number, const char* what) const {
         if (number < 0 || static_cast<std::size_t>(number) >= all.size())
             fail(fmt::format("there is no {} {}: the file has {}", what, number, all.size()));
-        return all[static_cast<std::size_t>(number)];
+        return all[number];
     }
     // The numbers of an accessor. Fails if its elements do not have `width` components.
     GltfNumbers numbers(int accessorNumber, std::size_t width, const char* what) const;

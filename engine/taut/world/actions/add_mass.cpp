@@ -19,7 +19,7 @@ void AddMassAction::perform(World& world) const {
     for (const auto& [island, numbers] : byIsland(points)) {
         IslandPlan& plan = island->change(w.now(), Change::points);
         for (int i : numbers) {
-            double& now = plan.points[static_cast<std::size_t>(i)].mass;
+            double& now = plan.points[i].mass;
             now += mass / static_cast<double>(points.size());
             if (!(now > 0)) failAction(*this, "this leaves a point of \"" + target + "\" without any mass");
         }

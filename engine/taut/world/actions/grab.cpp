@@ -47,7 +47,7 @@ void GrabAction::perform(World& world) const {
     for (const Picked& p : points) hand.from += p.island->position(p.point) / static_cast<double>(points.size());
     hand.to = hand.from;
     hand.start = w.tick;
-    // All points of the bodies within the radius; then only those that are free.
+    // All points of the bodies within the radius; then only the free ones.
     if (radius > 0) {
         GrabAction bodiesOnly = *this;
         bodiesOnly.target = withoutSelector(target);
@@ -78,7 +78,7 @@ void GrabAction::perform(World& world) const {
         grip.path = mechanics::LinearPath{hand.from, hand.from};
         IslandPlan& plan = island->change(w.now(), Change::grips);
         for (int i : numbers) {
-            const double share = plan.points[static_cast<std::size_t>(i)].mass;
+            const double share = plan.points[i].mass;
             grip.offsets.push_back(island->position(i) - hand.from);
             if (rigid) continue;
             grip.stiffness.push_back(share * rates.omega2);

@@ -41,7 +41,7 @@ void pin(const PointsAction& action, WorldImpl& w, bool isHeld) {
             island->release(w.now(), [&own = numbers](const JointTie& tie) {
                 return tie.b < 0 && std::binary_search(own.begin(), own.end(), tie.a);
             });
-        for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = isHeld;
+        for (int i : numbers) plan.points[i].held = isHeld;
         if (isHeld) island->stop(w.now(), numbers);
     }
 }
@@ -59,7 +59,7 @@ void HoldAction::perform(World& world) const {
     std::vector<dvec3> x;
     for (const auto& [island, numbers] : byIsland(points)) {
         IslandPlan& plan = untied(*island, w.now(), numbers);
-        for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = false;
+        for (int i : numbers) plan.points[i].held = false;
         x.clear();
         for (std::size_t i = 0; i < plan.points.size(); ++i) x.push_back(island->position(static_cast<int>(i)));
         for (Grip& grip : tieTo(holders, holdOn, numbers, x))

@@ -1,4 +1,4 @@
-// Lets go a hand, or the joints of a name.
+// Releases a hand, or the joints of a name.
 #include <algorithm>
 
 #include "taut/world/private/actions/rows.h"

@@ -28,7 +28,7 @@ Island& islandOf(const Body& body);
 // Draws bodies anew whose damage has grown.
 void redrawDamage(WorldImpl& w);
 
-// The forces of the scene in its present state, followed by those that were added.
+// The forces of the scene in its present state, followed by the added ones.
 ForceList forcesOf(const WorldImpl& w);
 
 }  // namespace taut::world

@@ -17,7 +17,7 @@ namespace taut::world {
 
 class BodySurfaces {
   public:
-    // Takes whole bodies, whatever points the selections name. Valid until a body comes or goes.
+    // Takes entire bodies, even if the selections name points. Valid until a body comes or goes.
     explicit BodySurfaces(const Selection& bodies) : BodySurfaces(bodies, bodies) {}
     BodySurfaces(const Selection& first, const Selection& second);
     BodySurfaces(const BodySurfaces&) = delete;
@@ -58,7 +58,7 @@ class BodySurfaces {
     std::vector<std::size_t> damage_;              // (surfaces) number of severed edges taken into account
     std::size_t goneAround_ = 0;                   // of all bodies
     std::vector<bool> isFirst_, isSecond_;         // (surfaces)
-    std::vector<glm::dvec3> x_;                    // (points) one body after the other, then what they carry
+    std::vector<glm::dvec3> x_;                    // (points) one body after the other, then the points that they carry
     contact::CarriedPoints carried_;
     std::unique_ptr<contact::Elements> elements_;
     std::unique_ptr<contact::Bvh> patches_;

@@ -1,7 +1,7 @@
-// Colliders as surfaces of a ContactGroup, with which they move. Corners and edges of rigid ones catch what the points
-// of bodies miss, such as a cloth over a corner between two of its points. A figure is stopped by nothing else: its
-// faces, edges and corners move evenly from where they are at the start of a tick to where they are at its end. Knows
-// no bodies.
+// Colliders as surfaces of a ContactGroup, with which they move. Corners and edges of rigid ones catch elements
+// that the points of bodies miss, such as a cloth over a corner between two of its points. A figure is stopped by
+// nothing else: its faces, edges and corners move evenly from where they are at the start of a tick to where they are
+// at its end. Knows no bodies.
 #pragma once
 
 #include <span>

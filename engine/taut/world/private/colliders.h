@@ -1,4 +1,4 @@
-// The colliders of a world: where they are, how they move in a tick, and what they carry.
+// The colliders of a world: their places, their motion in a tick, and the points that they carry.
 #pragma once
 
 #include <optional>
@@ -23,9 +23,9 @@ void rebuildColliders(WorldImpl& w);
 
 // Computes the pose of each collider at the end of the coming tick.
 void placeColliders(WorldImpl& w);
-// The colliders that move in this tick, and those that came to rest after the last tick.
+// The colliders that move in this tick, and the ones that came to rest after the last tick.
 std::vector<ColliderMotion> movingColliders(WorldImpl& w);
-// Carries what is tied to colliders through the coming tick.
+// Carries the points tied to colliders through the coming tick.
 void carryTied(WorldImpl& w);
 
 Holders holdersOf(const WorldImpl& w);  // as long as it lives

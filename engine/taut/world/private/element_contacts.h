@@ -1,5 +1,5 @@
 // Deformable bodies against convex shapes whose distance is a formula: points, edges and faces of theirs near solids,
-// and near colliders the edges and faces, as what comes between the points that islands, or whole bodies, bring out.
+// and near colliders the edges and faces, since islands, or entire bodies, bring out points only.
 // Found at the start of a block, like the contacts of rigid shapes (rigid_contacts.h).
 #pragma once
 

@@ -2,11 +2,11 @@
 // of the same name:
 //
 //   bodies        bodies come, each to an island, and go; forces on them
-//   colliders     places of colliders, and what they carry
+//   colliders     places of colliders, and the points that they carry
 //   timeline      actions that are due, and the points that they name; actions/ has each kind
 //   hands         hands and their ways
 //   ramps         fields of the scene that change during the run
-//   joints        ties of the scene's joints, and which of them let go
+//   joints        ties of the scene's joints, and their release
 //   tick          takes islands through a tick, or back
 //   publish       the view for a picture
 //   saving        all of it as bytes
@@ -65,7 +65,7 @@ struct WorldImpl {
 
     // Contact between bodies.
     std::unique_ptr<ContactStage> contactStage;  // of bodies that touch; null: to be made anew
-    std::uint64_t contactTies = 0;               // of bared faces and what holds, when the stage was made
+    std::uint64_t contactTies = 0;               // of exposed faces and holding ties, when the stage was made
     StepFollowing contactPace;                   // pace of the contact stage; saved
     std::vector<contact::KeptForce> keptForces;  // of its contacts as the last tick ended; saved
     ContactReport contactReport;

@@ -1,4 +1,4 @@
-// What the joints of a scene tie, what they name but do not tie, and which ties let go.
+// The joints of a scene: their ties, the sides that they could not tie, and the release of ties.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ bool isJoint(const WorldImpl& w, const std::string& name);
 void releaseJoints(WorldImpl& w, const std::string& name);
 // Begins those whose time has come.
 void beginJoints(WorldImpl& w);
-// Lets go of the ties that the last tick overloaded. Runs between two ticks, so a repeated tick need not restore them.
+// Releases the ties that the last tick overloaded. Runs between two ticks, so a repeated tick need not restore them.
 void breakJoints(WorldImpl& w);
 int jointsLeft(const WorldImpl& w, const JointInfo& info);  // ties that hold
 

@@ -1,4 +1,4 @@
-// Text for a picture: what the labels of a scene say at a moment, and where.
+// Text for a picture: the labels of a scene at a moment, and their places.
 #pragma once
 
 #include <span>

@@ -26,7 +26,7 @@ struct RigidTouch {
     int number;               // among the places of the pair
     dvec3 normal;             // unit, towards the first
     dvec3 onFirst, onSecond;  // [m] where they press each other, at the start of the block
-    double gap, thickness;    // [m] then; of both
+    double gap, thickness;    // [m] then; sum of the two
     dvec3 velocity;           // [m/s] of the collider's surface there
     dvec3 spin;               // [rad/s] of the collider
 };

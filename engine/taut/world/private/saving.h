@@ -1,4 +1,4 @@
-// A world as bytes: what its ticks have changed. The scene is not in them; it makes the world into which they are read.
+// A world as bytes: the changes by its ticks. The scene is not in them; it makes the world into which they are read.
 #pragma once
 
 #include <span>

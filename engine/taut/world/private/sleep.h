@@ -5,18 +5,18 @@
 //
 // Falling asleep, at the end of a window of half a second (rest_watch.h), in a serial order:
 // - an island is calm if none of its points went further than a third of the error in the window;
-// - it rests if in addition no point could go further than another third: see rest_bound.h. What friction holds counts
-//   as held: at colliders the points that it did not let go in the window, between bodies those whose friction in the
-//   last tick was below 0.9 of what Coulomb allows, if anything of the company is held or rubs on a collider;
+// - it rests if in addition no point could go further than another third: see rest_bound.h. Points held by friction
+//   count as held: at colliders if they did not slide in the window, between bodies if the friction in the last tick
+//   was below 0.9 of the limit by Coulomb, if anything of the company is held or rubs on a collider;
 // - a solid rests if friction holds it so at three places or more that are not on one line, and none of its points went
 //   further than a hundredth of the error in the window;
 // - islands that press each other fall asleep together, as a company, once all of them rest.
 //
 // Waking, the whole company at once: any change of an island, of its forces or its grips, and a moving collider near
-// it, before the tick; contact with a body that is awake, within the tick, which is then taken again. A collider that
+// it, before the tick; contact with a body that is awake, within the tick, which is then repeated. A collider that
 // comes, and a body or collider that goes, wake all.
 //
-// Restorable: what islands keep is saved with them. Nothing here outlives a tick.
+// Restorable: the data of islands is saved with them. Nothing here outlives a tick.
 #pragma once
 
 #include <span>

@@ -6,7 +6,7 @@
 
 namespace taut::world {
 
-// Reports what an action lacks, where no single field can tell.
+// Reports a missing key of an action where no single field is at fault.
 void reportLack(const fields::CheckInput& input, const char* what, const char* remedy);
 // Reports an action that names no target or no hand.
 void needsTarget(const fields::CheckInput& input, const ActionSpec& action);

@@ -14,13 +14,13 @@ out vec4 colour;
 float hiddenNearby(vec3 place, vec3 normal, float ahead) {
     const float reach = 0.15;       // [m]
     const float mostPixels = 48.0;  // `around` in engine/taut/render/targets.cpp
-    const int taps = 8;
+    const int taps = 12;
     float radius = min(reach / (ahead * length(upWay)), mostPixels);
-    float angle = 6.2831853 * pixelNoise(), sum = 0.0;
-    vec2 side = vec2(cos(angle), sin(angle));
+    float noise = pixelNoise(), sum = 0.0;
+    vec2 side = vec2(0.8, 0.6);
     ivec2 last = textureSize(shapes, 0) - 1;
     for (int i = 0; i < taps; ++i) {
-        vec2 there = floor(gl_FragCoord.xy + side * (radius * (float(i) + 0.5) / float(taps)));
+        vec2 there = floor(gl_FragCoord.xy + side * (radius * (float(i) + noise) / float(taps)));
         uint nearness = texelFetch(shapes, clamp(ivec2(there), ivec2(0), last), 0).z;
         vec3 way = firstWay + (there.x + 0.5) * rightWay + (there.y + 0.5) * upWay;
         vec3 to = eye.xyz + way / max(uintBitsToFloat(nearness), 1e-6) - place;  // far away where there is nothing
@@ -29,7 +29,7 @@ float hiddenNearby(vec3 place, vec3 normal, float ahead) {
         sum += max(rise, 0.0) * max(1.0 - square / (reach * reach), 0.0);
         side = goldenTurn * side;
     }
-    return min(2.5 / float(taps) * sum, 0.85);
+    return min(3.0 / float(taps) * sum, 0.85);
 }
 
 void main() {

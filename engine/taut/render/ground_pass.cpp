@@ -17,11 +17,11 @@ constexpr int steadyPictures = 8;  // after so many with the maps in the same pl
 
 }  // namespace
 
-GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, bool keepsStill,
-                       bool transparent)
+GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, const RendererOptions& options)
     : gl_(&gl),
-      keepsStill_(keepsStill),
-      isTransparent_(transparent),
+      keepsStill_(options.keepsStill),
+      isTransparent_(options.alpha),
+      plainByGl_(options.plainByGl),
       shaders_(&shaders),
       textures_(gl, budget),
       layout_(gl, GlKind::vertexArray),
@@ -73,7 +73,7 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
     kind.isAround = view.environment && view.environment->isShown && !isTransparent_;
     const view::Finish* pattern = view.ground && !isTransparent_ ? view.ground->pattern.get() : nullptr;
     now_ = &groundsUnder(kind, pattern != nullptr ? pattern->pattern : view::Pattern::plain);
-    isPlain_ = pattern == nullptr && !kind.isAround && !isTransparent_;
+    isPlain_ = pattern == nullptr && !kind.isAround && !isTransparent_ && !plainByGl_;
     mesh_ = {};
     if (view.ground) {
         std::vector<Shadower> above{lights.sun};

@@ -119,7 +119,7 @@ struct RendererParts {
 
     void addGrounds(const Gl& gl, const RendererOptions& options) {
         while (grounds.size() < shiftsOf(options.samples).size())
-            grounds.push_back(std::make_unique<GroundPass>(gl, shaders, textures, options.keepsStill, options.alpha));
+            grounds.push_back(std::make_unique<GroundPass>(gl, shaders, textures, options));
     }
 
     ShaderFolder shaders;

@@ -15,13 +15,14 @@
 #include "taut/render/private/program.h"
 #include "taut/render/private/targets.h"
 #include "taut/render/private/texture_cache.h"
+#include "taut/render/renderer.h"
 
 namespace taut::render {
 
 class GroundPass {
   public:
-    // `transparent`: without sky, and of the ground the part of its colour under shadows, 0 … 1.
-    GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, bool keepsStill, bool transparent);
+    // Of the options it takes `alpha`, `keepsStill` and `plainByGl`.
+    GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, const RendererOptions& options);
 
     // Call before anything else of a picture is drawn, with the frame block and the maps in place. `block` has the
     // common inputs of all shaders.
@@ -73,7 +74,7 @@ class GroundPass {
     void drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles);
 
     const Gl* gl_;
-    bool keepsStill_, isTransparent_;
+    bool keepsStill_, isTransparent_, plainByGl_;
     const ShaderFolder* shaders_;
     TextureCache textures_;
     std::map<std::pair<LightKind, view::Pattern>, Grounds> grounds_;

@@ -142,12 +142,13 @@ void fillPixels(const GroundArgs& args, int x, int y, int count, std::uint32_t* 
         if (depths != nullptr) __builtin_memcpy(&depth, depths + i, bytes);
         const Floats column = static_cast<float>(x + i) + steps;
         const Floats ground = args.depthStart + args.depthUp * static_cast<float>(y) + args.depthAlong * column;
-        const Ints isUndrawn = (before & ~0xffffff) == nothing;
-        if (!isAny(isUndrawn | (ground < depth))) continue;
+        const Ints mark = before & ~0xffffff, isUndrawn = mark == nothing;
+        const Ints isBehind = (mark != 0) & (ground < depth);  // without a mark it is ground that GL has drawn
+        if (!isAny(isUndrawn | isBehind)) continue;
         GroundRow row = placesOf(args, column + 0.5F, static_cast<float>(y) + 0.5F);
         if (args.hidden != nullptr) findOpen(args, row);
         const Ints colour = coloursOf(args, row, column + 0.5F, static_cast<float>(y) + 0.5F);
-        const Ints isOwn = isUndrawn | (row.isGround & (ground < depth));
+        const Ints isOwn = isUndrawn | (row.isGround & isBehind);
         before = isOwn ? colour : before;
         depth = isOwn ? (row.isGround ? ground : all(1.0F)) : depth;
         __builtin_memcpy(colours + i, &before, bytes);

@@ -43,10 +43,9 @@ void addLamp(int lamp, vec3 place, vec3 normal, vec3 smoothNormal, vec3 toEye, v
 
 // `normal` is that of the threads, `smoothNormal` of the surface, both on the side that is seen; `pixel` the size of a
 // pixel there [m], `fibres` a unit vector in the surface where there is anisotropy. `pattern`: colour of the front,
-// openness 0 … 1; `back`: colour of the back, roughness; `kind`: sheen, dulled less greyed, translucency, woven; `unhidden`:
-// part of the light from all around that surfaces nearby leave.
+// openness 0 … 1; `back`: colour of the back, roughness; `kind`: sheen, dulled less greyed, translucency, woven.
 vec3 lit(vec3 place, vec3 toEye, vec3 smoothNormal, vec3 normal, vec3 fibres, float pixel, bool isBack, vec4 pattern,
-         vec4 back, vec4 kind, float anisotropy, float unhidden) {
+         vec4 back, vec4 kind, float anisotropy) {
     float open = pattern.a, roughness = back.a;
     vec3 albedo = albedoOf(isBack, pattern.rgb, back.rgb, kind.y);
     vec3 through = isBack ? pattern.rgb : back.rgb;
@@ -69,7 +68,7 @@ vec3 lit(vec3 place, vec3 toEye, vec3 smoothNormal, vec3 normal, vec3 fibres, fl
         glossColour += 0.5 * anisotropy * albedo;
     }
 
-    vec3 diffuse = lightColour.rgb * direct + lightOn(normal) * (open * unhidden);
+    vec3 diffuse = lightColour.rgb * direct + lightOn(normal) * open;
 #if LAMPS > 0
     Lamplight fromLamps = Lamplight(vec3(0.0), vec3(0.0), vec3(0.0));
     addLamp(0, place, normal, smoothNormal, toEye, fibres, pixel, kind.w, exponent, fromLamps);
@@ -93,7 +92,7 @@ vec3 lit(vec3 place, vec3 toEye, vec3 smoothNormal, vec3 normal, vec3 fibres, fl
     light += kind.z * shining * fromLamps.behind + glossColour * open * fromLamps.mirrored;
 #endif
     vec3 mirrored = reflect(-toEye, normal);
-    light += lightFrom(mirrored, 2.0 * roughness * roughness) * (fresnel * (1.0 - roughness) * 0.6 * open * unhidden);
+    light += lightFrom(mirrored, 2.0 * roughness * roughness) * (fresnel * (1.0 - roughness) * 0.6 * open);
     light += kind.x * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight.rgb);
     return light;
 }

@@ -27,6 +27,6 @@ void main() {
 #endif
     float pixel = sqrt(length(cross(dFdx(place), dFdy(place))));
     vec3 light = lit(place, normalize(eye.xyz - place), smoothNormal, normal, fibres, pixel, isBack, front, back, kind,
-                     anisotropy, 1.0);
+                     anisotropy);
     colour = vec4(filmic(light), 1.0);
 }

@@ -275,7 +275,9 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     parts->lightMaps.bind();
     parts->occlusion.bindMap();
     ground.begin(view, block, lights, items, occlusion, parts->lightMaps, parts->targets);
-    parts->targets.beginSurfaces(pass.part);
+    parts->targets.bindSurfaces();
+    gl().DepthMask(GL_TRUE);
+    gl().Clear(GL_DEPTH_BUFFER_BIT);
     parts->surfaces.draw(scene.solid, parts->meshes);
     passDone("surfaces");
     parts->targets.bindShading();
@@ -324,7 +326,9 @@ void Renderer::Impl::smooth(const Scene& scene, const Pass& pass, Drawn& drawn) 
 // Alone into the targets of the picture, and from there over it. The frame block and the maps are in place.
 void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, const LightKind& lights, Drawn& drawn) {
     const PixelBox part = pixelBox(scene.shadedThin, pass.projection, options.width, options.height);
-    parts->targets.beginSurfaces(part);
+    parts->targets.bindSurfaces();
+    gl().DepthMask(GL_TRUE);
+    gl().Clear(GL_DEPTH_BUFFER_BIT);
     parts->surfaces.draw(scene.shadedThin, parts->thinMeshes);
     parts->targets.bindShading();
     gl().ClearColor(0.0F, 0.0F, 0.0F, 0.0F);

@@ -88,18 +88,6 @@ void Targets::bindSurfaces() const {
     gl_->Disable(GL_FRAMEBUFFER_SRGB);
 }
 
-void Targets::beginSurfaces(const PixelBox& part) const {
-    constexpr int around = 48;  // mostPixels in shaders/light.frag
-    constexpr std::array<GLuint, 4> nothing{};
-    bindSurfaces();
-    gl_->DepthMask(GL_TRUE);
-    gl_->Clear(GL_DEPTH_BUFFER_BIT);
-    gl_->Enable(GL_SCISSOR_TEST);
-    gl_->Scissor(part.x - around, part.y - around, part.width + 2 * around, part.height + 2 * around);
-    gl_->ClearBufferuiv(GL_COLOR, 1, nothing.data());
-    gl_->Disable(GL_SCISSOR_TEST);
-}
-
 void Targets::bindShading() const {
     bind(target_);
     bindTexture(tintsUnit, tints_);

@@ -21,9 +21,7 @@ class Targets {
 
     void bindSurfaces() const;  // target for visible surfaces, with the depth of the picture; bytes are kept as they
                                 // are
-    void beginSurfaces(const PixelBox& part) const;  // the same, where they are drawn and as far around as light.frag
-                                                     // looks for them
-    void bindShading() const;  // target with one sample per pixel; the visible surfaces are bound to its units
+    void bindShading() const;   // target with one sample per pixel; the visible surfaces are bound to its units
 
     // The shaded picture: bytes red, green, blue, mark from the lowest on; rows from below.
     void colours(std::vector<std::uint32_t>& to) const;               // (width · height)

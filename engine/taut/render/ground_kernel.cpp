@@ -51,13 +51,14 @@ Floats toned(Floats light) {
     return limited((x * (2.51F * x + 0.03F)) / (x * (2.43F * x + 0.59F) + 0.14F), 0.0F, 1.0F);
 }
 
-// A byte of the sRGB curve: the power 1 / 2.4 as a polynomial of the fourth root, right to 0.003.
+// A byte of the sRGB curve: the power 1 / 2.4 as a polynomial of the fourth root, right to 0.003, less what the curve
+// of Mesa is low by.
 Ints curveByte(Floats light) {
     light = limited(light, 0.0F, 1.0F);
     const Floats q = root(root(light));
     const Floats curve =
         ((((-16.003543F * q + 69.551822F) * q - 142.176691F) * q + 317.274569F) * q + 42.06837F) * q - 15.715575F;
-    return __builtin_convertvector((light < 0.0031308F ? 255.0F * 12.92F * light : curve) + 0.5F, Ints);
+    return __builtin_convertvector((light < 0.0031308F ? 255.0F * 12.92F * light : curve) + 0.395F, Ints);
 }
 
 // Of each of some pixels beside each other.

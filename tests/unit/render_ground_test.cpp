@@ -42,11 +42,11 @@ view::FrameView plainView() {
     return view;
 }
 
-// 0.11 in the mean, for the sRGB curve of a software GL is low by that. What is off by more lies at borders between
-// things, and where lines are finer than pixels, the size of which GL finds from pixel to pixel.
+// Rounding takes few bytes to the next. What is off by more lies at borders between things, and where lines are finer
+// than pixels, the size of which GL finds from pixel to pixel.
 void expectAlike(const view::FrameView& view, double far = 0.0002) {
     const Difference difference = differenceOf(view);
-    EXPECT_LT(difference.mean, 0.2);
+    EXPECT_LT(difference.mean, 0.02);
     EXPECT_LE(difference.far, far);
 }
 

@@ -81,6 +81,8 @@ TAUT_DRAWS(flag);
 TAUT_DRAWS(curtain);
 TAUT_DRAWS(poncho);
 TAUT_DRAWS(show);
+TAUT_DRAWS(dress);
+TAUT_DRAWS(laundry);
 
 #define TAUT_DRAWS_FINER(scene)                                                                                    \
     BENCHMARK_CAPTURE(drawScene, scene##_as_computed, #scene, true, 0)->Unit(benchmark::kMillisecond)->MinTime(2); \

@@ -11,7 +11,11 @@ namespace {
 // A cloth that moves over a ball and a box that sinks through the ground, both of which stand still as it goes on.
 view::FrameView stillFrame(int number) {
     view::FrameView view = floorView();
-    view.ground->gridSpacing = 0.5F;
+    // Nothing is kept of plain ground: checks.
+    view::Finish checks;
+    checks.pattern = view::Pattern::checker;
+    checks.repeat = 0.5F;
+    view.ground->pattern = std::make_shared<const view::Finish>(checks);
     view.light.direction = {0.5F, -1.0F, -0.3F};
     static const view::Mesh ball = view::sphereMesh(0.4F), box = view::boxMesh(glm::vec3(0.3F), 0.02F);
     static const view::Mesh sheet = view::quadMesh({0.3F, 1.0F, 0.2F}, 0.6F);

@@ -304,6 +304,8 @@ keys = [{ t = 0, eye = [1, 2, 3], target = [4, 5, 6], fov_deg = 30, ease = "hold
 eye = [3, 2, 1]
 target = [0, 1, 0.5]
 orbit_period_s = 20
+follow = "rope.rail"
+follow_lag_s = 0.25
 [lamp.rim]
 direction = [2, -1, 0]
 colour = [0.2, 0.4, 0.6]

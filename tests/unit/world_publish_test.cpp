@@ -43,6 +43,27 @@ TEST(Publish, EveryBodyAndVisibleColliderIsASurfaceAndTheLevelPlaneTheGround) {
     EXPECT_TRUE(view.marks.lines.empty());
 }
 
+// In the air: y = −g t² / 2, after which a lag T takes the camera by −g (t² / 2 − T t + T² (1 − exp(−t / T))).
+TEST(Publish, ACameraFollowsABodyWithItsLag) {
+    SceneSpec scene = smallScene();
+    scene.colliders.clear();
+    scene.cameras[0].follow = scene.cameras[1].follow = "cloth.a";
+    scene.cameras[0].followLag = 0.0;
+    scene.cameras[1].followLag = 0.2;
+    const auto moved = [&](const std::string& camera, double seconds) {
+        scene.picture.camera = camera;
+        World world(scene);
+        while (world.time() < seconds) (void)world.advance();
+        const view::Camera now = world.view(false).camera;
+        return glm::dvec3(now.eye) - (camera == "close" ? glm::dvec3(1) : glm::dvec3(9));
+    };
+    const double g = 9.80665, t = 0.5, lag = 0.2;
+    EXPECT_NEAR(moved("close", t).y, -0.5 * g * t * t, 0.01);  // drag takes a little
+    // A tick of 1/60 s late at 4.9 m/s less 2.9 m/s.
+    EXPECT_NEAR(moved("far", t).y, -g * (0.5 * t * t - lag * t + lag * lag * (1 - std::exp(-t / lag))), 0.05);
+    EXPECT_NEAR(moved("far", t).x, 0.0, 1e-6);
+}
+
 // A rounded foot has normals that lean down.
 TEST(Publish, ABoxOnTheGroundHasASharpFootAndOneAboveItHasNot) {
     const auto leansDown = [](double height) {

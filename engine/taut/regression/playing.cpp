@@ -6,7 +6,6 @@
 #include "taut/ecs/registry.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario_checks.h"
-#include "taut/spec/private/motion.h"
 #include "taut/world/components.h"
 #include "taut/world/world.h"
 
@@ -88,7 +87,7 @@ class Player {
         view::FrameView view = world.view(request.debug);
         if (!request.camera.empty())
             world.registry().each<world::CameraPart>([&](ecs::Entity, const world::CameraPart& part) {
-                if (part.spec.name == request.camera) view.camera = world::cameraAt(part.spec, world.time());
+                if (part.spec.name == request.camera) view.camera = world::cameraOf(part, world.time());
             });
         return view;
     }

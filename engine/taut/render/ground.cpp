@@ -13,6 +13,8 @@ namespace {
 
 constexpr int halfCells = 20;  // cells from the middle to the rim
 
+constexpr int piecesAcross = 3;  // of a cell, where shadows are looked for more closely
+
 // Grid lines: dense near the middle.
 float gridLine(int i) {
     const float t = static_cast<float>(i) / static_cast<float>(halfCells);
@@ -150,6 +152,31 @@ GroundMesh groundMesh(glm::vec3 middle, float height, float radius, std::span<co
         }
     }
     return mesh;
+}
+
+void leaveShaded(GroundMesh& mesh, const std::function<bool(std::span<const glm::vec3, 4> corners)>& isLit) {
+    std::vector<std::uint32_t> left;
+    for (std::size_t i = 0; i < mesh.shaded.size(); i += 6) {
+        const glm::vec3 low = mesh.positions[mesh.shaded[i]], high = mesh.positions[mesh.shaded[i + 2]];
+        // The same places on both sides of a border between cells.
+        const auto at = [&](float from, float to, int piece) {
+            return glm::mix(from, to, static_cast<float>(piece) / piecesAcross);
+        };
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (int row = 0; row <= piecesAcross; ++row)
+            for (int column = 0; column <= piecesAcross; ++column)
+                mesh.positions.emplace_back(at(low.x, high.x, column), low.y, at(low.z, high.z, row));
+        for (int row = 0; row < piecesAcross; ++row) {
+            for (int column = 0; column < piecesAcross; ++column) {
+                const auto a = first + static_cast<std::uint32_t>(row * (piecesAcross + 1) + column);
+                const std::uint32_t b = a + 1, d = a + piecesAcross + 1, c = d + 1;
+                const std::array<glm::vec3, 4> corners{mesh.positions[a], mesh.positions[b], mesh.positions[c],
+                                                       mesh.positions[d]};
+                if (!isLit(corners)) left.insert(left.end(), {a, d, c, a, c, b});
+            }
+        }
+    }
+    mesh.shaded = std::move(left);
 }
 
 }  // namespace taut::render

@@ -17,11 +17,11 @@ constexpr int steadyPictures = 8;  // after so many with the maps in the same pl
 
 }  // namespace
 
-GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, bool keepsStill,
-                       bool transparent)
+GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, const RendererOptions& options)
     : gl_(&gl),
-      keepsStill_(keepsStill),
-      isTransparent_(transparent),
+      keepsStill_(options.keepsStill),
+      isTransparent_(options.alpha),
+      plainByGl_(options.plainByGl),
       shaders_(&shaders),
       textures_(gl, budget),
       layout_(gl, GlKind::vertexArray),
@@ -58,7 +58,7 @@ bool GroundPass::StillShade::operator==(const StillShade& other) const {
 
 void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, const LightSet& lights,
                        std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion,
-                       Targets& targets) {
+                       const LightMaps& maps, Targets& targets) {
     StillShade shade{block, {}};
     std::vector<Bounds> all, moving;
     for (const DrawItem& item : items) {
@@ -73,12 +73,14 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
     kind.isAround = view.environment && view.environment->isShown && !isTransparent_;
     const view::Finish* pattern = view.ground && !isTransparent_ ? view.ground->pattern.get() : nullptr;
     now_ = &groundsUnder(kind, pattern != nullptr ? pattern->pattern : view::Pattern::plain);
+    isPlain_ = pattern == nullptr && !kind.isAround && !isTransparent_ && !plainByGl_;
     mesh_ = {};
     if (view.ground) {
         std::vector<Shadower> above{lights.sun};
         for (const Shadower& lamp : lights.lampShadows)
             if (towardsLight(lamp.box).y > 0.0F) above.push_back(lamp);
         mesh_ = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, above, all, occlusion, moving);
+        if (isPlain_) leaveShaded(mesh_, [&](std::span<const glm::vec3, 4> corners) { return maps.isLit(corners); });
         gl_->BindVertexArray(layout_.id());
         gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
         gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh_.positions.size() * sizeof(glm::vec3)),
@@ -98,7 +100,7 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
         lamp.mapSize = glm::vec4(0.0F);
         lamp.colour.w = 0.0F;
     }
-    const bool isStill = keepsStill_ && !view.showMarks && before_ == now;
+    const bool isStill = keepsStill_ && !isPlain_ && !view.showMarks && before_ == now;
     before_ = now;
     shadeStays_ = isStill && shadeNow_ == shade ? shadeStays_ + 1 : 0;
     shadeNow_ = std::move(shade);
@@ -163,6 +165,7 @@ void GroundPass::draw(const glm::mat4& projection) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
     drawCells(now_->shaded, mesh_.shaded);
+    if (isPlain_) return;
     drawCells(now_->darkened, mesh_.darkened);
     if (isKept_)
         drawCells(now_->open, mesh_.open);

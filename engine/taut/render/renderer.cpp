@@ -13,6 +13,7 @@
 #include "taut/render/private/edge_pass.h"
 #include "taut/render/private/environment_map.h"
 #include "taut/render/private/frame_block.h"
+#include "taut/render/private/ground_fill.h"
 #include "taut/render/private/ground_pass.h"
 #include "taut/render/private/hem.h"
 #include "taut/render/private/label_pass.h"
@@ -118,7 +119,7 @@ struct RendererParts {
 
     void addGrounds(const Gl& gl, const RendererOptions& options) {
         while (grounds.size() < shiftsOf(options.samples).size())
-            grounds.push_back(std::make_unique<GroundPass>(gl, shaders, textures, options.keepsStill, options.alpha));
+            grounds.push_back(std::make_unique<GroundPass>(gl, shaders, textures, options));
     }
 
     ShaderFolder shaders;
@@ -273,7 +274,7 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     gl().BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
     parts->lightMaps.bind();
     parts->occlusion.bindMap();
-    ground.begin(view, block, lights, items, occlusion, parts->targets);
+    ground.begin(view, block, lights, items, occlusion, parts->lightMaps, parts->targets);
     parts->targets.bindSurfaces();
     gl().DepthMask(GL_TRUE);
     gl().Clear(GL_DEPTH_BUFFER_BIT);
@@ -294,7 +295,13 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     parts->shaded.box = pass.part;
     parts->targets.depths(pass.part, parts->shaded.depth);
     passDone("read");
-    ground.fill(pass.part, parts->shaded.depth, drawn.colours, options.width);
+    if (ground.isPlain())
+        fillGround(groundArgs(view, block, lights, pass.projection, parts->targets.size(), pass.shift,
+                              occlusion ? parts->occlusion.hidden() : std::span<const float>()),
+                   pass.part, parts->shaded.depth, drawn.colours, options.width);
+    else
+        ground.fill(pass.part, parts->shaded.depth, drawn.colours, options.width);
+    passDone("fill");
     smooth(scene, pass, drawn);
     if (!scene.thin.empty()) drawThin(scene, pass, lights.kind, drawn);
     passDone("edges");

@@ -31,6 +31,7 @@ struct RendererOptions {
     bool shadows = true;     // false: for a picture without them
     bool occlusion = true;   // false: things do not darken the ground around them
     bool keepsStill = true;  // false: nothing is kept from picture to picture, to compare
+    bool plainByGl = false;  // plain ground and sky too, to compare
     bool alpha = false;      // no sky, and of the ground its shadows alone; the picture has alpha then
     std::vector<std::shared_ptr<const Layer>> layers{};  // Image::layers, in that order
 

@@ -14,6 +14,23 @@ constexpr std::uint16_t untouched = 65535;
 
 }  // namespace
 
+bool isLit(std::span<const glm::vec2> bounds, std::span<const glm::vec3, 4> corners) {
+    glm::vec3 low = corners[0], high = corners[0];
+    for (const glm::vec3& corner : corners) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    // The texels between which a shader may filter; outside everything is lit.
+    constexpr auto edge = static_cast<float>(boundsEdge);
+    const glm::ivec2 first(glm::clamp(glm::floor(edge * glm::vec2(low) - 0.5F), 0.0F, edge));
+    const glm::ivec2 last(glm::clamp(glm::floor(edge * glm::vec2(high) + 0.5F), -1.0F, edge - 1.0F));
+    const float depth = std::min(high.z, 1.0F) - 0.0004F;  // shadow.glsl grants a little more
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x)
+            if (bounds[static_cast<std::size_t>(y * boundsEdge + x)].x < depth) return false;
+    return true;
+}
+
 ShadowMap::ShadowMap(int texels) : edge_(texels) {
     TAUT_EXPECTS(texels >= boundsEdge && texels % boundsEdge == 0);
     depths_.assign(static_cast<std::size_t>(edge_) * static_cast<std::size_t>(edge_), untouched);

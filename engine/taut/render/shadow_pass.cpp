@@ -80,18 +80,24 @@ void ShadowPass::draw(std::span<const DrawItem> items, const Shadower& light, bo
                            GL_UNSIGNED_SHORT, map_.depths().data() + static_cast<std::ptrdiff_t>(low) * map_.edge());
     }
     gl_->BindTexture(GL_TEXTURE_2D, bounds_.id());
+    bounded_ = wide > 0 ? map_.boundsWithin(wide) : map_.bounds();
     if (wide > 0)
-        putWideBounds(wide);
+        putWideBounds();
     else
         gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, boundsEdge, boundsEdge, 0, GL_RG, GL_FLOAT, map_.bounds().data());
 }
 
-void ShadowPass::putWideBounds(int blocks) {
+void ShadowPass::putWideBounds() {
     const std::vector<glm::vec2>& narrow = map_.bounds();
-    const std::vector<glm::vec2> wide = map_.boundsWithin(blocks);
     std::vector<glm::vec4> both;
-    for (std::size_t i = 0; i < wide.size(); ++i) both.emplace_back(narrow[i], wide[i]);
+    for (std::size_t i = 0; i < narrow.size(); ++i) both.emplace_back(narrow[i], bounded_[i]);
     gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, boundsEdge, boundsEdge, 0, GL_RGBA, GL_FLOAT, both.data());
+}
+
+bool ShadowPass::isLit(std::span<const glm::vec3, 4> corners) const {
+    std::array<glm::vec3, 4> onMap{};
+    for (std::size_t i = 0; i < 4; ++i) onMap[i] = glm::vec3(drawnBox_ * glm::vec4(corners[i], 1.0F));
+    return render::isLit(bounded_, onMap);
 }
 
 void ShadowPass::bindMaps(const ShadowUnits& units) const {

@@ -15,14 +15,19 @@ constexpr std::size_t mostMaterials = 16384;  // GL takes textures of that many 
 
 }  // namespace
 
-void setRays(Program& program, const view::Camera& camera, glm::ivec2 size, glm::vec2 shift) {
+Rays raysOf(const view::Camera& camera, glm::ivec2 size, glm::vec2 shift) {
     const view::CameraAxes axes = axesOf(camera);
     const float pixel =
         2.0F * std::tan(0.5F * verticalField(camera, size)) / static_cast<float>(size.y);  // [m] 1 m ahead
     const glm::vec2 half = 0.5F * glm::vec2(size) + shift;
-    program.set("firstWay", axes.forward - pixel * (half.x * axes.right + half.y * axes.up));
-    program.set("rightWay", pixel * axes.right);
-    program.set("upWay", pixel * axes.up);
+    return {axes.forward - pixel * (half.x * axes.right + half.y * axes.up), pixel * axes.right, pixel * axes.up};
+}
+
+void setRays(Program& program, const view::Camera& camera, glm::ivec2 size, glm::vec2 shift) {
+    const Rays rays = raysOf(camera, size, shift);
+    program.set("firstWay", rays.first);
+    program.set("rightWay", rays.right);
+    program.set("upWay", rays.up);
 }
 
 SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget)

@@ -309,6 +309,10 @@ SceneSection cameraSection() {
             .number("orbit_period_s", &CameraSpec::orbitPeriod, "s", Range{-1e6, 1e6},
                     "Time of one turn about the vertical through the target.")
             .only({"an orbiting camera"})
+            .text("follow", &CameraSpec::follow, Role::anyBodies,
+                  "Bodies, e.g. \"cloth.flag\": the camera moves as the middle of their points does.")
+            .number("follow_lag_s", &CameraSpec::followLag, "s", Range{0.0, 1e6},
+                    "Time by which the camera comes after what it follows.")
             .tables("keys", &CameraSpec::keys, key, "Keyframes, in the order of time.")
             .only({"a camera with keys"})
             .take();

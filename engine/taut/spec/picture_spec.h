@@ -28,6 +28,8 @@ struct CameraSpec {
     double fieldOfView = 0.66;                        // [rad] vertical
     std::vector<CameraKey> keys;
     std::optional<double> orbitPeriod;  // [s] one turn about the vertical through the target
+    std::string follow;                 // bodies with whose middle it moves, e.g. "cloth.flag"; empty: none
+    double followLag = 0.5;             // [s] by which it comes after
 };
 
 struct LightSpec {

@@ -48,6 +48,12 @@ struct ColliderPart {
 
 struct CameraPart {
     CameraSpec spec;
+    // How it follows bodies.
+    std::optional<dvec3> followedFrom{};  // [m] middle of their points when first seen
+    dvec3 moved{0.0}, movingAt{0.0};      // [m] that the camera has gone since, and how fast it goes on [m/s]
 };
+
+// At a time [s], `ahead` [s] of the tick.
+view::Camera cameraOf(const CameraPart& part, double time, double ahead = 0.0);
 
 }  // namespace taut::world

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "taut/drawing/drawing.h"
-#include "taut/spec/private/motion.h"
 #include "taut/world/private/bodies.h"
+#include "taut/world/private/cameras.h"
 #include "taut/world/private/colliders.h"
 #include "taut/world/private/drawn_contact.h"
 #include "taut/world/private/impl.h"
@@ -150,7 +150,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
     view.background = {linearColour(w.spec.background.top), linearColour(w.spec.background.horizon),
                        static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd),
                        w.spec.background.fadesWithCamera};
-    view.camera = cameraOfPictures(w, time);
+    view.camera = cameraOfPictures(w, time, ahead);
     // Colliders; the first visible level plane is the ground.
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
         const collision::Pose pose = poseAhead(placement, ahead * w.ticksPerSecond);
@@ -202,12 +202,12 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, bool debug, std::vecto
 
 }  // namespace
 
-view::Camera cameraOfPictures(const WorldImpl& w, double time) {
+view::Camera cameraOfPictures(const WorldImpl& w, double time, double ahead) {
     view::Camera camera;
     bool chosen = false;
     w.registry.each<CameraPart>([&](ecs::Entity, const CameraPart& part) {
         if (chosen || (!w.spec.picture.camera.empty() && part.spec.name != w.spec.picture.camera)) return;
-        camera = cameraAt(part.spec, time);
+        camera = cameraOf(part, time, ahead);
         chosen = true;
     });
     return camera;

@@ -5,6 +5,7 @@
 #include "taut/spec/kinds.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/private/bodies.h"
+#include "taut/world/private/cameras.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/tick.h"
 #include "taut/world/result_bits.h"
@@ -85,6 +86,9 @@ constexpr std::uint64_t ownKindsMark = 0xfff8'7461'7574'0001ULL;  // a NaN
 
 // Marks the report of touching bodies. Without it the number of islands comes here, which has no such value.
 constexpr std::uint64_t touchMark = 0xfff8'7461'7574'0004ULL;
+
+// Marks cameras that follow bodies.
+constexpr std::uint64_t followMark = 0xfff8'7461'7574'0005ULL;
 
 // The kinds of actions that are not of the engine and begin before the tick: "action shake".
 std::vector<std::string> ownActions(const SceneSpec& scene, std::int64_t tick) {
@@ -172,6 +176,13 @@ void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied)
         bytes(placement.moved);
         bytes.optional(part.move, [&](PoseMove& move) { visitPart(bytes, move); });
     });
+    if (bytes.mark(followMark, followsAny(w)))
+        w.registry.each<CameraPart>([&](ecs::Entity, CameraPart& part) {
+            if (part.spec.follow.empty()) return;
+            bytes.optional(part.followedFrom, [&](dvec3& from) { bytes(from); });
+            bytes(part.moved);
+            bytes(part.movingAt);
+        });
     // Contact between bodies.
     if (bytes.mark(touchMark, w.contactReport.isWorthSaving())) {
         const std::vector<Body*> all = bodiesOf(w);

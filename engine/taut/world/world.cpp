@@ -6,6 +6,7 @@
 #include "taut/joints/sewn_panels.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/private/bodies.h"
+#include "taut/world/private/cameras.h"
 #include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/joints.h"
@@ -46,6 +47,7 @@ WorldImpl::WorldImpl(const SceneSpec& scene, const Options& options)
         for (BodySpec& body : spec.bodies) body.finish.smooth = *spec.picture.smooth;
     addBodies(*this);
     rebuildColliders(*this);
+    followBodies(*this);
     updateHash(*this);
 }
 
@@ -107,6 +109,7 @@ std::optional<Divergence> World::advance() {
     if (std::any_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->hasTorn(); }))
         redrawDamage(w);
     changePicture(w);
+    followBodies(w);
     letSleep(w);
     updateHash(w);
     return std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -27,5 +28,8 @@ struct GroundMesh {
 GroundMesh groundMesh(glm::vec3 middle, float height, float radius, std::span<const Shadower> lights,
                       std::span<const Bounds> casters, const std::optional<OcclusionArea>& occlusion,
                       std::span<const Bounds> moving = {});
+
+// Leaves of the shaded cells those of their pieces that are not lit, of which the corners are given.
+void leaveShaded(GroundMesh& mesh, const std::function<bool(std::span<const glm::vec3, 4> corners)>& isLit);
 
 }  // namespace taut::render

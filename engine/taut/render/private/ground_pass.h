@@ -11,31 +11,36 @@
 
 #include "taut/render/private/frame_block.h"
 #include "taut/render/private/ground.h"
+#include "taut/render/private/light_maps.h"
 #include "taut/render/private/program.h"
 #include "taut/render/private/targets.h"
 #include "taut/render/private/texture_cache.h"
+#include "taut/render/renderer.h"
 
 namespace taut::render {
 
 class GroundPass {
   public:
-    // `transparent`: without sky, and of the ground the part of its colour under shadows, 0 … 1.
-    GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, bool keepsStill, bool transparent);
+    // Of the options it takes `alpha`, `keepsStill` and `plainByGl`.
+    GroundPass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget, const RendererOptions& options);
 
     // Call before anything else of a picture is drawn, with the frame block and the maps in place. `block` has the
     // common inputs of all shaders.
     void begin(const view::FrameView& view, const FrameBlock& block, const LightSet& lights,
-               std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion, Targets& targets);
+               std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion, const LightMaps& maps,
+               Targets& targets);
 
     // Draws behind the content of the bound target, with the frame block and the maps in place. Leaves out the pixels
     // of fill().
     void draw(const glm::mat4& projection);
 
-    // Puts the kept pixels where nothing has been drawn, and in front of things behind them. `depths` are those of the
-    // part in which there are things, `colours` those of the picture; rows from below.
+    // Puts the kept pixels, or those of plain ground and sky, where nothing has been drawn, and in front of things
+    // behind them. `depths` are those of the part in which there are things, `colours` those of the picture; rows from
+    // below.
     void fill(const PixelBox& part, std::span<float> depths, std::span<std::uint32_t> colours, int width) const;
 
-    bool fills() const { return isKept_; }
+    bool fills() const { return isKept_ || isPlain_; }
+    bool isPlain() const { return isPlain_; }  // then fillGround() colours what draw() leaves out
 
     void forget();  // the kept pixels
 
@@ -69,7 +74,7 @@ class GroundPass {
     void drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles);
 
     const Gl* gl_;
-    bool keepsStill_, isTransparent_;
+    bool keepsStill_, isTransparent_, plainByGl_;
     const ShaderFolder* shaders_;
     TextureCache textures_;
     std::map<std::pair<LightKind, view::Pattern>, Grounds> grounds_;
@@ -80,6 +85,7 @@ class GroundPass {
     std::optional<StillShade> shadeNow_;  // of this one
     std::optional<StillShade> keptShade_;
     int shadeStays_ = 0;                      // pictures for which it has been the same
+    bool isPlain_ = false;                    // without pattern, and with nothing but a sky around
     bool isKept_ = false;                     // the following belongs to the same camera
     std::vector<Look> looks_;                 // (positions) of the cells whose triangles begin there
     std::vector<std::uint32_t> keptColours_;  // (pixels) rows from below

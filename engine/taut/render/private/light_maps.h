@@ -17,6 +17,9 @@ class LightMaps {
     // Parts that have not changed in the same box are not drawn again, unless `anew` is set.
     void draw(std::span<const DrawItem> items, const LightSet& lights, bool anew);
 
+    // Whether the shaders find nothing in any light of a parallelogram, whose corners in the world are given.
+    bool isLit(std::span<const glm::vec3, 4> corners) const;
+
     void bind() const;  // to the texture units of the sun and of each lamp
 
   private:

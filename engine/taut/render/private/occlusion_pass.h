@@ -37,6 +37,7 @@ class OcclusionPass {
     // Areas without motion near the ground are not drawn again, unless `anew` is set.
     void draw(std::span<const DrawItem> items, const OcclusionArea& area, float groundHeight, bool anew);
     void bindMap() const;
+    std::span<const float> hidden() const { return smooth_; }  // (occlusionEdge²) part of the sky, 0 … 1
 
   private:
     float highest() const { return glm::max(area_.high.x - area_.low.x, area_.high.y - area_.low.y); }  // [m]

@@ -13,6 +13,10 @@
 
 namespace taut::render {
 
+// Whether filtered bounds (boundsEdge²) say that nothing is in the light of a parallelogram, whose corners are given as
+// on the map.
+bool isLit(std::span<const glm::vec2> bounds, std::span<const glm::vec3, 4> corners);
+
 inline constexpr int boundsEdge = 128;  // [texels] edge of the map of bounds: as many blocks as it divides the map into
 
 class ShadowMap {

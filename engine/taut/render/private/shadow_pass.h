@@ -22,13 +22,17 @@ class ShadowPass {
 
     void bindMaps(const ShadowUnits& units) const;
 
+    // Whether the shaders find nothing in the light of a parallelogram, whose corners in the world are given.
+    bool isLit(std::span<const glm::vec3, 4> corners) const;
+
   private:
-    void putWideBounds(int blocks);
+    void putWideBounds();
 
     const Gl* gl_;
     ShadowMap map_;
     GlObject depth_;                   // texture of the map
     GlObject bounds_;                  // texture of its bounds; b, a: the wide ones, if `wide_` is above 0
+    std::vector<glm::vec2> bounded_;   // (boundsEdge²) those that say where everything is lit
     int wide_ = 0;                     // [blocks] that they reach
     std::vector<ShadowShape> shapes_;  // in the map
     glm::mat4 drawnBox_{0.0F};         // its toMap

@@ -17,8 +17,14 @@
 
 namespace taut::render {
 
-// How shaders find a pixel's ray: from the eye `firstWay`, 1 m ahead, `rightWay` and `upWay` from pixel to pixel, in a
-// picture that shows everything `shift` [pixels] to the right and up. Expects that the program is in use.
+// A pixel's ray: from the eye `first`, 1 m ahead, `right` and `up` from pixel to pixel, in a picture that shows
+// everything `shift` [pixels] to the right and up.
+struct Rays {
+    glm::vec3 first, right, up;
+};
+Rays raysOf(const view::Camera& camera, glm::ivec2 size, glm::vec2 shift);
+
+// As `firstWay`, `rightWay` and `upWay`. Expects that the program is in use.
 void setRays(Program& program, const view::Camera& camera, glm::ivec2 size, glm::vec2 shift);
 
 class SurfacePass {

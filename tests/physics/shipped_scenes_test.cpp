@@ -36,10 +36,10 @@ TEST(ShippedScenes, DrapeComesToRestOnBallAndBox) {
     EXPECT_LT(world.metrics().kinetic, 6e-4);
     EXPECT_GT(world.metrics().contacts, 100);
     while (world.time() < 5.5) ASSERT_FALSE(world.advance());
-    double farthest = 0.0;
+    dvec3 way(0.0);  // corners swing on; the cloth as a whole does not slide
     const std::vector<dvec3> late = positionsOf(world, "cloth.tablecloth");
-    for (std::size_t i = 0; i < late.size(); ++i) farthest = std::max(farthest, glm::length(late[i] - early[i]));
-    EXPECT_LT(farthest, 0.025);  // half a second at 5 cm/s: nothing slides off
+    for (std::size_t i = 0; i < late.size(); ++i) way += (late[i] - early[i]) / static_cast<double>(late.size());
+    EXPECT_LT(glm::length(way), 0.0025);  // half a second at 5 mm/s
 }
 
 // The ball is put half a metre aside within one tick, through the cloth that lies on it.

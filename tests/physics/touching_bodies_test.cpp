@@ -318,7 +318,7 @@ TEST(TouchingCut, FacesBaredInABlockAreMet) {
     const double cutAbove = 0.95 * (0.12 - 0.104) - block.thickness;
     EXPECT_NEAR(positionsOf(world, "net.ball")[0].y - under, cutAbove + keep, 0.1 * keep);
     EXPECT_GT(under, 0.09);
-    EXPECT_NEAR(gap.gap(), keep, 0.1 * keep);
+    EXPECT_NEAR(gap.gap(), 0.8 * keep, 0.01 * keep);  // bared in each other, and taken apart until they may stay
     World resumed(spec);
     resumed.restore(world.save());
     EXPECT_FALSE(advance(world, 5));

@@ -308,7 +308,8 @@ TEST(ContactImpact, LeavesWhatItCatchesOnTheWayItsSliding) {
 }
 
 // Of what overlaps at the start: a fifth of it is taken back an instant, and no speed is given.
-TEST(ContactImpact, TakesOverlapBackByAFifthAnInstantWithoutSpeed) {
+// Of 5 mm, the 1.6 mm that the pair may overlap stay: a fifth of its thickness.
+TEST(ContactImpact, TakesOverlapBackByAFifthABlockWithoutSpeed) {
     const auto gapsAre = [](double recovery) {
         Flight flight;
         flight.options.solver.recovery = recovery;
@@ -321,12 +322,13 @@ TEST(ContactImpact, TakesOverlapBackByAFifthAnInstantWithoutSpeed) {
             return sum / mass;
         };
         const dvec3 before = centre();
-        double gap = 0.003 - 0.008, most = 0;
+        constexpr double allowed = 0.2 * 0.008;
+        double gap = 0.003 - 0.008 + allowed, most = 0;
         for (int i = 0; i < 10; ++i) {
             flight.fly(1e-2);
             gap *= 0.8;
             const double under = (flight.x[1].y + flight.x[2].y + 2 * flight.x[3].y) / 4;
-            most = std::max(most, std::abs(flight.x[0].y - under - 0.008 - gap));
+            most = std::max(most, std::abs(flight.x[0].y - under - 0.008 + allowed - gap));
             for (const dvec3& v : flight.v) EXPECT_EQ(v, dvec3(0.0));
         }
         EXPECT_LT(glm::length(centre() - before), 1e-15);
@@ -359,7 +361,8 @@ ContactConstraint restingPair(int point, std::array<int, 3> corners) {
     return pair;
 }
 
-// Of two points, 5 mm too near each other, the lower is on the ground: the upper alone goes, by all of the 1 mm.
+// Of two points, 3 mm nearer each other than they may be, the lower is on the ground: the upper alone goes, by all of
+// the 0.6 mm.
 TEST(ContactImpact, TakesOverlapBackNotIntoWhatHoldsIt) {
     ContactConstraint pair = restingPair(0, {1, 2, 3});
     pair.weights = {1.0, -1.0, 0.0, 0.0};
@@ -372,7 +375,7 @@ TEST(ContactImpact, TakesOverlapBackNotIntoWhatHoldsIt) {
     options.settled = 1e-6;
     ContactSolver pressing;
     solveOnce(pressing, {std::span(&pair, 1), std::span(&held, 1), inverseMass, {}, 1.0, 1, options}, u, v, shift);
-    EXPECT_NEAR(shift[0].y, 1e-3, 2e-8);  // where sweeps end
+    EXPECT_NEAR(shift[0].y, 0.6e-3, 2e-8);  // where sweeps end
     EXPECT_NEAR(shift[1].y, 0.0, 2e-8);
     EXPECT_EQ(u[0], dvec3(0.0));
 }

@@ -33,7 +33,7 @@ std::vector<std::vector<Spot::Share>> leadersOf(const IslandPlan& plan, double t
     return leaders;
 }
 
-// Whether a rigid body stays: the places where it is pressed or pinned are not on one line, or what presses it resists
+// Whether a rigid body stays: the places where it is pressed or pinned are not on one line, or a contact resists
 // rolling, which keeps it from tipping; and two pins that are apart, or all its friction, keep it from sliding.
 // Distances are held against the size of the body, x (its points) [m].
 bool staysPut(std::span<const Island::Foothold> footholds, std::span<const dvec3> pins, std::span<const dvec3> x) {
@@ -144,8 +144,8 @@ bool Island::isCalm() {
            std::none_of(plan_.carriers.begin(), plan_.carriers.end(), moves) && dynamics_->isSteady(forces_);
 }
 
-// Points that constraints hold in one place move as one. What they hold otherwise has no stiffness, so it stays awake,
-// but for solids that stay where they are.
+// Points that constraints hold in one place move as one. Points that they hold otherwise have no stiffness, so they
+// stay awake, but for solids that stay where they are.
 bool Island::rests(double t, double seconds, std::vector<Support> supports, std::span<const Foothold> footholds) {
     const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
     const std::size_t n = plan_.points.size();

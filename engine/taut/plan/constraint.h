@@ -66,7 +66,7 @@ class Constraint {
     // A spring between two places, a force that holds nothing.
     struct Pull {
         Spot a, b;                                      // numbers as in Moment
-        double stiffness = 0, damping = 0, length = 0;  // [N/m], [kg/s], [m]; no stiffness: it has let go
+        double stiffness = 0, damping = 0, length = 0;  // [N/m], [kg/s], [m]; no stiffness: it is broken
     };
     virtual std::vector<Pull> pulls() const { return {}; }  // (ties), or none
     // The motion of its points, if they are one body that moves. The arrays as in Moment.

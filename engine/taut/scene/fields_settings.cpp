@@ -312,7 +312,7 @@ SceneSection cameraSection() {
             .text("follow", &CameraSpec::follow, Role::anyBodies,
                   "Bodies, e.g. \"cloth.flag\": the camera moves as the middle of their points does.")
             .number("follow_lag_s", &CameraSpec::followLag, "s", Range{0.0, 1e6},
-                    "Time by which the camera comes after what it follows.")
+                    "Time by which the camera comes after the followed body.")
             .tables("keys", &CameraSpec::keys, key, "Keyframes, in the order of time.")
             .only({"a camera with keys"})
             .take();

@@ -10,7 +10,7 @@ namespace taut::render {
 struct GroundArgs {
     float eye[3], firstWay[3], rightWay[3], upWay[3];  // as setRays() of surface_pass.h
     float height;                                      // [m]; infinite: there is no ground
-    float lines, lineShade;                            // 1 / [m]; what they take of the colour
+    float lines, lineShade;                            // 1 / [m]; share of the colour that they take
     float fade[4];                                     // as of the frame block
     float albedo[3], direct[3], sky[3];                // direct: of all lights
     float horizon[3], top[3];

@@ -40,7 +40,7 @@ class GroundPass {
     void fill(const PixelBox& part, std::span<float> depths, std::span<std::uint32_t> colours, int width) const;
 
     bool fills() const { return isKept_ || isPlain_; }
-    bool isPlain() const { return isPlain_; }  // then fillGround() colours what draw() leaves out
+    bool isPlain() const { return isPlain_; }  // then fillGround() colours the rest
 
     void forget();  // the kept pixels
 

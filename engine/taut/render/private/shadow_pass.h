@@ -32,7 +32,7 @@ class ShadowPass {
     ShadowMap map_;
     GlObject depth_;                   // texture of the map
     GlObject bounds_;                  // texture of its bounds; b, a: the wide ones, if `wide_` is above 0
-    std::vector<glm::vec2> bounded_;   // (boundsEdge²) those that say where everything is lit
+    std::vector<glm::vec2> bounded_;   // (boundsEdge²) bounds of the places where everything is lit
     int wide_ = 0;                     // [blocks] that they reach
     std::vector<ShadowShape> shapes_;  // in the map
     glm::mat4 drawnBox_{0.0F};         // its toMap

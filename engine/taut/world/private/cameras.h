@@ -7,7 +7,7 @@ namespace taut::world {
 
 struct WorldImpl;
 
-// Moves cameras by a tick towards the places of what they follow; bodies that are not there yet are waited for.
+// Moves cameras by a tick towards the bodies that they follow. A camera waits for a body that is not there yet.
 void followBodies(WorldImpl& w);
 
 bool followsAny(const WorldImpl& w);

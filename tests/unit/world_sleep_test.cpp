@@ -288,6 +288,18 @@ TEST(Sleep, AHandAPushARampAndAColliderWakeWithinTheTick) {
     EXPECT_TRUE(wakes({[](World& w) { w.spawn(support::ball("other", {5, 5, 5}, 0.1)); }}));
 }
 
+// Without sleep: contacts that began each tick without their forces sank by 2e-6 m a tick.
+TEST(Sleep, APileComesToRestByItself) {
+    SceneSpec scene = pile();
+    scene.solver.sleepError = 0;
+    World world(scene);
+    test::advance(world, static_cast<int>(4.5 / world.tickSeconds()));
+    const std::vector<dvec3> before = positionsOf(world, "cloth.upper");
+    test::advance(world, 10);
+    const std::vector<dvec3> after = positionsOf(world, "cloth.upper");
+    for (std::size_t i = 0; i < after.size(); ++i) EXPECT_LT(glm::distance(before[i], after[i]), 1e-9) << i;
+}
+
 // In the tick in which the ball is slowed down, the sheets are awake, and all is where it is without sleep. Until then
 // they sleep.
 TEST(Sleep, AFallingBallWakesThePileWithinTheTick) {

@@ -229,7 +229,7 @@ void ContactGroup::solveActive(const Step& step) {
 }
 
 // Driven surfaces that close upon a body from two sides leave it nowhere to go, and impulses against that would throw
-// it out. Of squeezed points only the driven surface of the lowest rank kept on, if there are several; the others
+// it out. Of squeezed points only the driven surface of the lowest rank presses on, if there are several; the others
 // may go through. A point is squeezed where impulses press it from opposite sides and a driven surface closes faster
 // than its softness explains. Returns whether any is, beyond those known.
 bool ContactGroup::findSqueezed() {

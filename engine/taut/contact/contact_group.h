@@ -147,7 +147,7 @@ class ContactGroup {
             if (solver_.impulses()[p] > 0) each(p - active_.size(), solver_.impulses()[p], solver_.frictions()[p]);
     }
     // Points that parts of driven surfaces closed upon in the last block, ascending; with them the rank that still
-    // kept.
+    // presses.
     const std::map<int, int>& squeezed() const { return squeezed_; }
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
     std::size_t activeCount() const { return active_.size(); }  // pairs that went to the solver
@@ -215,7 +215,7 @@ class ContactGroup {
         int lowest = 1 << 30, highest = -1;  // rank
     };
     std::vector<Pressed> pressed_;  // (points) scratch, as new between uses
-    std::map<int, int> squeezed_;   // points; the rank of the driven surface that still kept, -1: none
+    std::map<int, int> squeezed_;   // points; the rank of the driven surface that still presses, -1: none
     Block block_;
     // (points) [m/s] mean velocity in the step before and after the solver; [m/s] velocity at its start; [m/s] stored
     // velocity after it; [m] position correction. Set where active pairs or crossings have points.

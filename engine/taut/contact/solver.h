@@ -142,7 +142,7 @@ class ContactSolver {
         beginsTick_ = true;
     }
     std::span<const KeptForce> keptForces() const { return last_; }
-    // Nothing kept.
+    // Nothing presses.
     void clear() {
         impulses_.clear();
         frictions_.clear();

@@ -152,7 +152,7 @@ void Rods::factor(std::span<const dvec3> x, std::span<const double> inverseMass)
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const dvec3 d = between(rods_[static_cast<std::size_t>(order_[i])], x);
         const double length = norm(d);
-        direction_[i] = pulls(order_[i]) && length > 0 ? d / length : dvec3(0.0);
+        direction_[i] = mayPull(order_[i]) && length > 0 ? d / length : dvec3(0.0);
     }
     matrix_.clear();
     diagonal_.assign(order_.size(), 0.0);
@@ -211,7 +211,8 @@ bool Rods::projectPositions(const Moment& moment) {
         for (std::size_t i = 0; i < order_.size(); ++i) {
             const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
             const dvec3 d = between(rod, moment.x);
-            const double g = !pulls(order_[i]) ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
+            const double g =
+                !mayPull(order_[i]) ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
             const double size = norm(rod.a.of(moment.x)) + norm(rod.b.of(moment.x));
             isMet = isMet && std::abs(g) <= relativeTolerance * rod.length + roundingShare * size;
             impulse_[i] = g;

@@ -101,7 +101,8 @@ void findOpen(const GroundArgs& args, GroundRow& row) {
     const Ints isInside = row.isGround & (x > -1.0F) & (z > -1.0F) & (x < size) & (z < size);
     if (!isAny(isInside)) return;
     const auto texel = [&](int column, int line) {
-        return (column < 0) | (line < 0) | (column >= edge) | (line >= edge) ? 0.0F : args.hidden[line * edge + column];
+        const bool isOutside = column < 0 || line < 0 || column >= edge || line >= edge;
+        return isOutside ? 0.0F : args.hidden[line * edge + column];
     };
     for (int i = 0; i < lanesOfGround; ++i) {
         if (isInside[i] == 0) continue;

@@ -53,7 +53,7 @@ class Rods final : public ConstraintOf<Rods> {
     void layOut();
     bool slacken();
     void findTaut(const Moment& moment, bool ofPlaces);
-    bool pulls(int rod) const { return holds(rod) && isTaut_[static_cast<std::size_t>(rod)]; }
+    bool mayPull(int rod) const { return holds(rod) && isTaut_[static_cast<std::size_t>(rod)]; }
     void factor(std::span<const dvec3> x, std::span<const double> inverseMass);
     void pull(std::span<dvec3> to, const Moment& moment) const;
 

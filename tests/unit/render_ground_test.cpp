@@ -42,8 +42,8 @@ view::FrameView plainView() {
     return view;
 }
 
-// Rounding takes few bytes to the next. What is off by more lies at borders between things, and where lines are finer
-// than pixels, the size of which GL finds from pixel to pixel.
+// Rounding changes few bytes, by one. Larger differences are at borders between surfaces, and where lines are finer than
+// pixels: GL finds the size of a pixel on the ground from its neighbours.
 void expectAlike(const view::FrameView& view, double far = 0.0002) {
     const Difference difference = differenceOf(view);
     EXPECT_LT(difference.mean, 0.02);

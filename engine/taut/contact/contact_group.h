@@ -17,10 +17,10 @@
 // by the rest of their gap in one step, and no root of a cubic is sought (compare Bridson, Fedkiw and Anderson 2002,
 // which finds the time of impact).
 //
-// Memory. The solver starts from the forces of the last block, and a tick's first block from those that begin() is
-// given: they are part of the state. The broad phase keeps lists from block to block, but a list only selects pairs to
-// measure, and never leaves out a pair in reach (broad_phase.h). So the result of a tick depends on its start alone. A
-// restored world that has no lists yet goes on with the same bits.
+// Memory. Each block starts from the contact forces of the previous one. begin() takes the forces for the first block
+// of a tick, which are part of the state. The broad phase keeps lists from block to block, but a list only selects
+// pairs to measure, and never leaves out a pair in reach (broad_phase.h). So the result of a tick depends on its start
+// alone. A restored world that has no lists yet goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
 // in the block (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as
@@ -110,9 +110,8 @@ class ContactGroup {
     // this tick, not solved. Where the last tick began without any and was certified, there are none while the points
     // are where it left them.
     void begin(std::span<const dvec3> x, std::span<const KeptForce> kept = {});
-    std::span<const KeptForce> keptForces() const {
-        return solver_.keptForces();
-    }  // at the end of the last block, for begin()
+    // At the end of the last block, for begin().
+    std::span<const KeptForce> keptForces() const { return solver_.keptForces(); }
     // A block, see above. A block without rows needs no step().
     // Returns the number of steps of the block, from one to the requested number.
     int open(const Block& block);

@@ -39,10 +39,10 @@
 // Driven surfaces may close upon a body from two sides, and nothing keeps both away. Their pairs are a little soft:
 // they yield by a hundredth of the velocity that they take, which the position correction makes up for.
 //
-// The forces of the last block are where the next one starts, as most contacts last longer than a block. Those of
-// deformable bodies outlive a tick: from 0, every tick would begin with a small fall, and what lies would sink by 2 um a
-// tick. With them two sheets on the ground come to rest to the last bit. Solids are swept until they settle, and begin a
-// tick from 0.
+// A block starts from the contact forces of the previous one, as most contacts last longer than a block. Forces between
+// deformable bodies are kept across ticks. Without them, each tick would begin with a small fall, and bodies at rest
+// would sink by 2 um per tick. With them, two sheets on the ground come to rest to the last bit. Solids are swept until
+// they settle, and start each tick without forces.
 #pragma once
 
 #include <algorithm>
@@ -104,7 +104,7 @@ struct KinematicContact {
     }
 };
 
-// With which a contact pressed in the last step of a block.
+// The force of a contact in the last step of a block.
 struct KeptForce {
     std::uint64_t key = 0;   // of the contact
     Four force{}, torque{};  // [N], [N m] as Row::impulse and Roll::impulse
@@ -136,7 +136,7 @@ class ContactSolver {
     void setSolids(std::span<const Solid> solids, std::size_t pointCount);
     // Which go with others. u, v and shift of these stay: their movers' change. Keeps a reference.
     void setCarried(const CarriedPoints& carried) { carried_ = &carried; }
-    // Where the next block starts, and where the last one ended.
+    // Forces that the next block starts from, and those at the end of the last block. Starting begins a tick.
     void startFrom(std::span<const KeptForce> kept) {
         last_.assign(kept.begin(), kept.end());
         beginsTick_ = true;

@@ -308,6 +308,19 @@ TEST(ContactImpact, LeavesWhatItCatchesOnTheWayItsSliding) {
 }
 
 // Of what overlaps at the start: a fifth of it is taken back an instant, and no speed is given.
+// A ball presses a triangle, and then flies away.
+TEST(ContactImpact, KeepsNoForceOfAContactThatIsOver) {
+    Flight flight;
+    flight.addBall({0.0, 0.0085, 0.0}, {0.0, -1.0, 0.0}, 0.1, 0.004);
+    flight.addTriangle({dvec3(-0.1, 0, -0.1), dvec3(0.1, 0, -0.1), dvec3(0, 0, 0.2)}, dvec3(0.0), 0.0, 0.004);
+    flight.fly(1e-3);
+    EXPECT_EQ(flight.group->keptForces().size(), 1U);
+    flight.v[0] = {0.0, 10.0, 0.0};
+    flight.fly(1e-2);
+    flight.fly(1e-2);
+    EXPECT_TRUE(flight.group->keptForces().empty());
+}
+
 // Of 5 mm, the 1.6 mm that the pair may overlap stay: a fifth of its thickness.
 TEST(ContactImpact, TakesOverlapBackByAFifthABlockWithoutSpeed) {
     const auto gapsAre = [](double recovery) {

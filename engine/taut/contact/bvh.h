@@ -34,7 +34,7 @@
 
 namespace taut::contact {
 
-inline constexpr std::size_t leafSize = 18;  // triangles, or edges, at most
+inline constexpr std::size_t leafSize = 36;  // triangles, or edges, at most
 
 using Axes = std::array<dvec3, 3>;
 

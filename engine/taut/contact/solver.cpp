@@ -18,6 +18,8 @@ constexpr double slopShare = 0.2;         // of the thickness: by which pairs of
 constexpr std::size_t parallelRows = 64;  // fewer rows are solved on one thread, which is faster
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
 constexpr int sweepsOfSolids = 60;       // of a step
+// Of the inverse effective mass, in a position correction: corrections that contradict each other end.
+constexpr double softnessOfShift = 1.0;
 constexpr int sweepsOfShift = 20;        // of a position correction
 constexpr double settledNearRest = 0.1;  // times the change that ends sweeps
 constexpr double nearRest = 4.0;         // times the speed below which nothing bounces
@@ -407,6 +409,10 @@ void ContactSolver::correctPositions(const Cluster& cluster) {
         own.friction = 0;
         own.roll = -1;
         own.closing = -target;
+        if (cluster.packs == nullptr) continue;
+        const double softness = softnessOfShift / own.mass;
+        own.softness += softness;
+        own.mass = 1.0 / (1.0 / own.mass + softness);
     }
     if (overlaps)
         projectedGaussSeidel(rows, cluster.packs ? sweepsOfShift : sweepsOfSolids, cluster.tolerance * block_.h, v_,

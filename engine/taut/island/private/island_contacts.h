@@ -77,7 +77,10 @@ class IslandContacts {
     // and v. h [s] and gravity are those of the last step.
     void place(const collision::Colliders* colliders, Method& method, double h, const dvec3& gravity,
                std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v) {
-        if (colliders != nullptr) findColliding(std::sqrt(glm::dot(gravity, gravity)));
+        if (colliders != nullptr) {
+            findColliding(std::sqrt(glm::dot(gravity, gravity)));
+            if (!method.yields()) takeBackImpulses(points, v);
+        }
         const auto count = static_cast<int>(points.size());
         if (placed_.size() < 3 * points.size()) placed_ = placedFrom_ = placedSpeeds_ = Planes(6 * points.size());
         const Planar<Real> few{static_cast<int>(placed_.size() / 3)};
@@ -188,6 +191,20 @@ class IslandContacts {
             points.friction = body->spec->friction;
             points.restitution = body->spec->restitution;
             points.gravity = gravity;
+        }
+    }
+
+    // The step led points into colliders, which stopped them. A point that contact lifts again did not need as much of
+    // that impulse. Otherwise its velocity v would be above that of its way, and it would hop.
+    void takeBackImpulses(std::span<const int> points, std::span<dvec3> v) {
+        for (collision::Contact& contact : records_) {
+            const auto found = std::lower_bound(points.begin(), points.end(), contact.point);
+            if (found == points.end() || *found != contact.point) continue;
+            dvec3& own = v[static_cast<std::size_t>(found - points.begin())];
+            const double lift = glm::dot(contact.normal, own - planar_.at(state_.v, contact.point));
+            const double back = std::max(0.0, std::min(lift, contact.impulse));
+            own -= back * contact.normal;
+            contact.impulse -= back;
         }
     }
 

@@ -254,9 +254,22 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
         closeBlock();
         xStart_ = x1_;
         if (findFaults(time.at(last, steps_), faults)) return;
-        const int calm = mostGrowth * usual;
-        longest = !spec_.detections && !mayRoll() && group_->wayOfStep() * calm < calmWay ? calm : usual;
+        longest = nextLength(usual);
     }
+}
+
+// How many steps the next block may have, after this one. A block that is cut short has looked too far ahead, for far
+// too many pairs.
+int ContactStage::nextLength(int usual) const {
+    const double way = group_->wayOfStep();
+    const int calm = mostGrowth * usual;
+    if (!spec_.detections && !mayRoll() && way * calm < calmWay) return calm;
+    return way * usual > mostWayOfPair() ? std::max(1, static_cast<int>(mostWayOfPair() / way)) : usual;
+}
+
+// Of two sides from one another in a block, over their thickness.
+double ContactStage::mostWayOfPair() const {
+    return spec_.restitution > 0 ? calmWay : mostWay;
 }
 
 // Whether a body in contact may roll.
@@ -325,7 +338,7 @@ int ContactStage::openBlock(int step, int steps, int usual) {
     block.rigid = rigidPairs_;
     block.restSpeed = 2.0 * weight_ * steps * h;  // as with colliders
     block.place = [this](std::span<const int> points) { place(points); };
-    block.mostWay = spec_.restitution > 0 ? calmWay : mostWay;
+    block.mostWay = mostWayOfPair();
     const int taken = group_->open(block);
     total_.testedPairs += static_cast<std::int64_t>(group_->testedCount());
     total_.seconds += secondsSince(start);

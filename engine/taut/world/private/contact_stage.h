@@ -179,6 +179,8 @@ class ContactStage {
     bool advance(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last,
                  std::vector<std::optional<Fault>>& faults);
     int openBlock(int step, int steps, int usual);
+    int nextLength(int usual) const;
+    double mostWayOfPair() const;
     bool mayRoll() const;
     void closeBlock();
     void place(std::span<const int> points);

@@ -180,6 +180,10 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         pressing_.clear();
         footholds_.clear();
         reached_.clear();
+        pressed_.clear();
+        for (const Part& part : parts_)
+            for (const ContactAcceleration& one : part.island->pressed())
+                pressed_.push_back({part.first + one.point, one.acceleration});
         takeBlocks(time, moving, faults);
         std::vector<TickVerdict> verdicts(islands_.size(), TickVerdict::stands);
 
@@ -254,17 +258,18 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
         closeBlock();
         xStart_ = x1_;
         if (findFaults(time.at(last, steps_), faults)) return;
-        longest = nextLength(usual);
+        longest = nextLength(last - first, usual);
     }
 }
 
-// How many steps the next block may have, after this one. A block that is cut short has looked too far ahead, for far
-// too many pairs.
-int ContactStage::nextLength(int usual) const {
+// How many steps the next block may have, after one of so many. A block that is cut short has looked too far ahead, for
+// far too many pairs.
+int ContactStage::nextLength(int steps, int usual) const {
     const double way = group_->wayOfStep();
     const int calm = mostGrowth * usual;
     if (!spec_.detections && !mayRoll() && way * calm < calmWay) return calm;
-    return way * usual > mostWayOfPair() ? std::max(1, static_cast<int>(mostWayOfPair() / way)) : usual;
+    const int most = std::min(usual, 2 * steps);
+    return way * most > mostWayOfPair() ? std::max(1, static_cast<int>(mostWayOfPair() / way)) : most;
 }
 
 // Of two sides from one another in a block, over their thickness.
@@ -296,14 +301,27 @@ bool ContactStage::advance(const TickTime& time, std::span<const ColliderMotion>
     return true;
 }
 
+// The ways of a step of h [s] -> ways_. The islands have taken it without contact, which presses as in the last step; but
+// an impact does not last, so it turns back no more than forces have changed.
+void ContactStage::findWays(double h) {
+    ways_.resize(x1_.size());
+    for (std::size_t i = 0; i < ways_.size(); ++i) ways_[i] = x1_[i] - x0_[i];
+    for (const ContactAcceleration& one : pressed_) {
+        const auto k = static_cast<std::size_t>(one.point);
+        const double forced = length(ways_[k] - h * vStart_[k]), push = h * h * length(one.acceleration);
+        if (push > 0) ways_[k] += std::min(1.0, forced / push) * h * h * one.acceleration;
+    }
+}
+
 // Begins a block of so many steps, after the first of them, which tells where all of them lead. Returns how many it
 // has: fewer where something is fast.
 int ContactStage::openBlock(int step, int steps, int usual) {
     const auto start = Clock::now();
     const double h = tickSeconds_ / steps_;
+    findWays(h);
     const auto lookAhead = [&](double ahead) {
         ahead_.resize(x1_.size());
-        for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = x0_[i] + ahead * (x1_[i] - x0_[i]);
+        for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = x0_[i] + ahead * ways_[i];
     };
     lookAhead(steps);
     kinematic_.clear();

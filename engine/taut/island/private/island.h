@@ -108,6 +108,7 @@ class Island {
     bool settle() { return !isStill() && dynamics_->settle(); }
     // After the last part: takes over the accelerations by contact with other bodies in the last step.
     void bear(std::span<const ContactAcceleration> pressed) { now_.pressed.assign(pressed.begin(), pressed.end()); }
+    std::span<const ContactAcceleration> pressed() const { return now_.pressed; }
 
     // Whether any spring tore in the last tick.
     bool hasTorn() const { return yielding_.hasTorn(); }

@@ -178,8 +178,9 @@ class ContactStage {
                     std::vector<std::optional<Fault>>& faults);
     bool advance(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last,
                  std::vector<std::optional<Fault>>& faults);
+    void findWays(double h);
     int openBlock(int step, int steps, int usual);
-    int nextLength(int usual) const;
+    int nextLength(int steps, int usual) const;
     double mostWayOfPair() const;
     bool mayRoll() const;
     void closeBlock();
@@ -223,6 +224,7 @@ class ContactStage {
     std::vector<contact::Crossing> crossings_;
     std::vector<dvec3> x0_, x1_, v_;            // (points)
     std::vector<dvec3> xStart_, ahead_;         // (points) [m] at the start of the block; where it may lead
+    std::vector<dvec3> ways_;                   // (points) [m] of a step of the block, as it begins
     std::vector<dvec3> vStart_, vBefore_;       // (points) as the last step began; before contact in it
     std::vector<ContactAcceleration> pressed_;  // (moved points of the group) in the last step
     std::vector<double> inverseMass_;           // (points)

@@ -20,14 +20,15 @@ TEST(ContactStudy, ABallBouncesWithFewDetectionsToo) {
     for (const ContactRun& run : study.runs) EXPECT_LT(std::abs(run.error), 0.004) << run.detections;
 }
 
-// One detection a tick is enough for a ball that rolls and a box that slides, and for the guarantee of sheets.
+// One detection a tick is enough for a ball that rolls and a box that slides, and for the guarantee of sheets: of the
+// fifth by which they may overlap they use a tenth.
 TEST(ContactStudy, FewDetectionsCostLittleAccuracy) {
     const ContactStudy study =
         studyContact({.problems = {"ball-rolls", "box-slides", "sheet-falls"}, .steps = {1}, .detections = {1, 4}});
     ASSERT_EQ(study.runs.size(), 6U);
     for (const ContactRun& run : study.runs) {
         EXPECT_TRUE(run.isWhole) << run.problem;
-        EXPECT_LT(std::abs(run.error), run.problem == "sheet-falls" ? 0.01 : 1e-6) << run.problem;
+        EXPECT_LT(std::abs(run.error), run.problem == "sheet-falls" ? 0.02 : 1e-6) << run.problem;
         EXPECT_EQ(run.crossings, 0) << run.problem;
     }
 }

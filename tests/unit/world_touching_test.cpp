@@ -94,8 +94,8 @@ TEST(TouchingWorld, LeavesNothingInAColliderThatItPushesThere) {
 }
 
 // A belt, or a lift, with a light square on it and a heavy ball on that, all of one speed: they keep it. On the lift
-// that goes down the square follows a step late, and the ball sinks by the fifth of their distance that they may
-// overlap, and by a twentieth more.
+// that goes down the square follows a step late: each block loses 0.5 mm, and the ball sinks until the position
+// correction takes as much back, which it does at half of their distance.
 TEST(TouchingWorld, LiesOnAColliderThatMovesAsOnOneThatRests) {
     for (const dvec3& speed : {dvec3(2, 0, 0), dvec3(0, 2, 0), dvec3(0, -2, 0)}) {
         ClothSpec cloth = square(thickness, {});
@@ -109,7 +109,7 @@ TEST(TouchingWorld, LiesOnAColliderThatMovesAsOnOneThatRests) {
         World world(scene);
         EXPECT_FALSE(test::advance(world, 30));
         const dvec3 ought = dvec3(0.6, thickness + keep, 0.3) + world.time() * speed;
-        EXPECT_LT(glm::distance(positionsOf(world, "net.ball")[0], ought), (speed.y < 0 ? 0.26 : 0.05) * keep)
+        EXPECT_LT(glm::distance(positionsOf(world, "net.ball")[0], ought), (speed.y < 0 ? 0.51 : 0.05) * keep)
             << speed.x << ", " << speed.y;
     }
 }

@@ -17,9 +17,10 @@ constexpr double fastestOut = 1.0;        // [m/s] limit of the position correct
 constexpr double slopShare = 0.2;         // of the thickness: by which pairs of deformable bodies may overlap
 constexpr std::size_t parallelRows = 64;  // fewer rows are solved on one thread, which is faster
 // Solids have no springs that take up what the sweeps leave: a stack leans by it.
-constexpr int sweepsOfSolids = 60;       // of a step
-// Of the inverse effective mass, in a position correction: corrections that contradict each other end.
-constexpr double softnessOfShift = 1.0;
+constexpr int sweepsOfSolids = 60;  // of a step
+// Of the inverse mass of a row's heavier side, in a position correction: corrections that contradict each other end.
+// One alone is not less by it.
+constexpr double softnessOfShift = 2.0;
 constexpr int sweepsOfShift = 20;        // of a position correction
 constexpr double settledNearRest = 0.1;  // times the change that ends sweeps
 constexpr double nearRest = 4.0;         // times the speed below which nothing bounces
@@ -43,6 +44,13 @@ AlongAndAcross effectiveOf(const dmat3& inverse, const dvec3& normal) {
     const double tt = glm::dot(t, inverse * t), bb = glm::dot(b, inverse * b), tb = glm::dot(t, inverse * b);
     const double along = glm::dot(normal, inverse * normal), difference = 0.5 * (tt - bb);
     return {1.0 / along, 1.0 / (0.5 * (tt + bb) + std::sqrt(difference * difference + tb * tb))};
+}
+
+// [1/kg] Of the heavier side of a row that moves at all.
+double inverseOfHeavierSide(const Row& row) {
+    double first = 0, second = 0;
+    for (std::size_t k = 0; k < 4; ++k) (row.weights[k] > 0 ? first : second) += row.weights[k] * row.gains[k];
+    return first > 0 && second > 0 ? std::min(first, second) : std::max(first, second);
 }
 
 }  // namespace
@@ -409,10 +417,10 @@ void ContactSolver::correctPositions(const Cluster& cluster) {
         own.friction = 0;
         own.roll = -1;
         own.closing = -target;
-        if (cluster.packs == nullptr) continue;
-        const double softness = softnessOfShift / own.mass;
-        own.softness += softness;
-        own.mass = 1.0 / (1.0 / own.mass + softness);
+        if (cluster.packs == nullptr || !(target > 0)) continue;
+        own.softness = softnessOfShift * inverseOfHeavierSide(own);
+        own.closing *= 1.0 + own.softness * own.mass;
+        own.mass = 1.0 / (1.0 / own.mass + own.softness);
     }
     if (overlaps)
         projectedGaussSeidel(rows, cluster.packs ? sweepsOfShift : sweepsOfSolids, cluster.tolerance * block_.h, v_,

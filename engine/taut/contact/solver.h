@@ -67,7 +67,7 @@ namespace taut::contact {
 struct SolverOptions {
     int sweeps = 2;          // of a step, at most; without solids
     double settled = 1e-5;   // sweeps end when they change less than this share of the thickness per step [-]
-    double recovery = 0.2;   // share of an overlap that is corrected in a block [-]
+    double recovery = 0.1;   // share of an overlap that is corrected in a block [-]
     double restSpeed = 0.0;  // [m/s] slower rows do not bounce
 };
 

@@ -301,8 +301,8 @@ bool ContactStage::advance(const TickTime& time, std::span<const ColliderMotion>
     return true;
 }
 
-// The ways of a step of h [s] -> ways_. The islands have taken it without contact, which presses as in the last step; but
-// an impact does not last, so it turns back no more than forces have changed.
+// The ways of a step of h [s] -> ways_. The islands have taken it without contact, which presses as in the last step;
+// but an impact does not last, so it turns back no more than forces have changed.
 void ContactStage::findWays(double h) {
     ways_.resize(x1_.size());
     for (std::size_t i = 0; i < ways_.size(); ++i) ways_[i] = x1_[i] - x0_[i];

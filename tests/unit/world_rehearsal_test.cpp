@@ -6,6 +6,7 @@
 #include "support/timelines.h"
 #include "taut/advice/bending_cells.h"
 #include "taut/bodies/net.h"
+#include "taut/bodies/solid.h"
 
 namespace taut::world {
 namespace {
@@ -138,6 +139,20 @@ TEST(Rehearsal, WarnsOfEnergyThatComesFromNowhere) {
                       [](const std::string& text) { return text.starts_with("the energy of the bodies grows by "); }),
                   restitution > 0 ? 1 : 0);
     }
+}
+
+// A cube half in the ground rises by 0.25 m.
+TEST(Rehearsal, HasNothingToSayOfTheEnergyOfABodyThatIsPushedOutOfTheGround) {
+    SceneSpec scene;
+    scene.run.seconds = 1;
+    scene.colliders = {support::ground()};
+    SolidSpec cube;
+    cube.name = "cube";
+    cube.touch = Touch::others;
+    scene.bodies.add(cube);
+    const std::vector<std::string> all = printed(rehearse(scene).warnings);
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_TRUE(all[0].starts_with("solid.cube starts 0.25 m deep in collider.ground")) << all[0];
 }
 
 // It falls by 4.9 m, and the picture is 2 m high where it is.

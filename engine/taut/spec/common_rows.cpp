@@ -36,7 +36,9 @@ void checkJoint(const fields::CheckInput& input, const JointSpec& joint) {
         const Target target = parseTarget(text);
         return target.kind == "collider" || target.selector.empty() || target.selector == "all";
     };
-    const auto areWhole = [&](const JointSide& side) { return std::ranges::all_of(side.targets, isWhole); };
+    const auto areWhole = [&](const JointSide& side) {
+        return std::all_of(side.targets.begin(), side.targets.end(), isWhole);
+    };
     if (joint.place && !areWhole(joint.a) && !areWhole(joint.b))
         input.problems.addError(input.at("place"),
                                 "place is on a side that is a whole solid or a collider, and both sides name points",

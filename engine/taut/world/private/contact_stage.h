@@ -156,6 +156,7 @@ class ContactStage {
                      bool alsoOfStill = false);
     void findPresentTouches();
     void addTouches();
+    void addJoints(double t);
     template <class Each>
     void forEachNearCollider(double past, double ahead, const Each& each,
                              const std::function<bool(int surface)>& isWanted = nullptr) const;
@@ -178,7 +179,7 @@ class ContactStage {
                     std::vector<std::optional<Fault>>& faults);
     bool advance(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last,
                  std::vector<std::optional<Fault>>& faults);
-    int openBlock(int step, int steps, int usual);
+    int openBlock(const TickTime& time, int step, int steps, int usual);
     bool mayRoll() const;
     void closeBlock();
     void place(std::span<const int> points);

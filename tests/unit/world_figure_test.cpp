@@ -98,7 +98,7 @@ TEST(Figure, PointsSqueezedByTwoPartsAreLetThroughAndComeFree) {
         squeezed = std::max(squeezed, world.metrics().squeezed);
     }
     EXPECT_GT(squeezed, 10);
-    EXPECT_LT(fastest, 2.0);  // nothing is thrown out; the boxes move at 0.5 m/s
+    EXPECT_LT(fastest, 2.5);  // nothing is thrown out; the boxes move at 0.5 m/s, and a fall by 0.3 m gives 2.4 m/s
     run(world, 60);
     EXPECT_EQ(world.metrics().squeezed, 0);
     EXPECT_EQ(world.metrics().crossings, 0);

@@ -212,7 +212,8 @@ void ContactStage::addTouches() {
     }
 }
 
-// Rows of the joints of solids at t [s], where their block begins -> rigidPairs_. A pin has one along each axis.
+// Rows of the joints of solids at t [s], where their block begins -> rigidPairs_. A pin has one along each axis. Joints
+// of sides that touch have none: beside the axle of a lid, contact that overlaps by rounding would hold it open.
 void ContactStage::addJoints(double t) {
     using Kind = contact::ContactConstraint::Kind;
     const auto isOfSolid = [&](int point) {
@@ -224,8 +225,14 @@ void ContactStage::addJoints(double t) {
     for (const Part& part : parts_) {
         const IslandPlan& plan = part.island->plan();
         if (plan.solids.empty() || plan.ties.empty() || part.island->isStill()) continue;
-        for (const auto& constraint : plan.constraints)
+        std::set<std::pair<int, int>> touching;  // constraint and tie
+        for (const JointTie& tie : plan.ties)
+            for (const JointTie::Part& own : tie.parts)
+                if (tie.touch) touching.emplace(own.constraint, own.tie);
+        for (std::size_t c = 0; c < plan.constraints.size(); ++c) {
+            const auto& constraint = plan.constraints[c];
             for (const Constraint::Pair& tie : constraint->copy()->pairs(t)) {
+                if (touching.contains({static_cast<int>(c), tie.tie})) continue;
                 // An end has a place, and points of the group if anything may move it.
                 struct End {
                     dvec3 place{0.0};
@@ -269,6 +276,7 @@ void ContactStage::addJoints(double t) {
                     rigidPairs_.push_back(row);
                 }
             }
+        }
     }
 }
 

@@ -133,7 +133,7 @@ MUTANTS = {
         "row.gains[i] = (pair.weights[i] < 0 ? -inverseMass : inverseMass) / pair.firstSide();"),
     "pull": (
         "impulses may pull", GAUSS_SEIDEL,
-        "pressing = wanted > none ? wanted : none;", "pressing = wanted;"),
+        "pressing = wanted > least ? wanted : least;", "pressing = wanted;"),
     "rub-unbounded": (
         "friction knows no limit", GAUSS_SEIDEL,
         "isBeyond = square > limit * limit",

@@ -178,6 +178,36 @@ TEST(Hinge, ALidClosesOnItsChestIfTheyTouch) {
         }
 }
 
+// A bar that falls on two stands, bounces by half and comes to rest, alone and with a load of a hundred times its mass
+// that hangs from a ball joint below its middle. Contact and joint are met at once, so the load changes nothing.
+TEST(Hinge, ALoadOnAJointChangesNoBounceAndNoRest) {
+    const auto worldOf = [](const std::string& more) {
+        return World(
+            sceneOf(head("[0, -9.81, 0]") +
+                    "[collider]\nleft = { shape = \"box\", size = [0.2, 1, 0.4], position = [-0.25, 0.5, 0], "
+                    "restitution = 1 }\n"
+                    "right = { shape = \"box\", size = [0.2, 1, 0.4], position = [0.25, 0.5, 0], restitution = 1 }\n"
+                    "[solid.bar]\nshape = \"box\"\nsize = [0.6, 0.04, 0.1]\nposition = [0, 1.07, 0]\n"
+                    "mass_kg = 0.1\nrestitution = 0.5\ndrag_per_s = 0\n" +
+                    more));
+    };
+    World alone = worldOf(""),
+          loaded = worldOf(
+              "[solid.load]\nshape = \"box\"\nsize = [0.1, 0.4, 0.1]\nposition = [0, 0.85, 0]\nmass_kg = 10\n"
+              "drag_per_s = 0\n[[joint]]\na = \"solid.bar\"\nb = \"solid.load\"\nkind = \"ball\"\n"
+              "place = [0, -0.02, 0]\n");
+    double furthest = 0, bounced = 0;  // [m]
+    for (int i = 0; i < 150; ++i) {
+        run(alone, 1);
+        run(loaded, 1);
+        const double own = middle(alone, "solid.bar@bottom").y;
+        furthest = std::max(furthest, std::abs(middle(loaded, "solid.bar@bottom").y - own));
+        if (i > 12) bounced = std::max(bounced, own);
+    }
+    EXPECT_GT(bounced, 1.01);
+    EXPECT_LT(furthest, 1e-5);
+}
+
 // Wheels that a name with * stands for are hinged each at its own centre.
 TEST(Hinge, SeveralBodiesHaveOneEachAtThePlaceInTheirOwnAxes) {
     for (const std::string holder : {"solid.cart", "collider.cart"}) {

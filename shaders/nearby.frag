@@ -10,7 +10,7 @@ uniform vec2 ends;       // [1 / m] nearness at depth 0 and 1
 uniform float strength;  // 0: nothing takes light
 out vec2 left;
 
-const int taps = 8;
+const int taps = 12;
 const float reach = 0.3;  // [m]
 
 vec3 placeOf(ivec2 at, float depth) {
@@ -29,7 +29,8 @@ void main() {
     // The four pixels that light.frag takes the mean of look in four ways.
     float turn = float((here.x >> 1 & 1) + (here.y & 2)) * 0.25;
     for (int i = 0; i < wanted; ++i) {
-        float part = (float(i) + 0.25 + 0.5 * turn) / float(taps), angle = 6.2831853 * (1.618034 * float(i) + 0.25 * turn);
+        float part = (float(i) + 0.25 + 0.5 * turn) / float(taps);
+        float angle = 6.2831853 * (1.618034 * float(i) + 0.25 * turn);
         ivec2 at = clamp(here + ivec2(radius * part * vec2(cos(angle), sin(angle))), ivec2(0), last);
         vec3 way = placeOf(at, texelFetch(depths, at, 0).r) - place;
         float square = dot(way, way);

@@ -10,8 +10,8 @@
 // WIDE where a light is so large that its penumbra may be wider than those bounds reach: then there are second ones
 // that reach further.
 #ifdef WIDE
-const int mostSearches = 24;
-const int mostTaps = 64;
+const int mostSearches = 12;
+const int mostTaps = 32;
 #else
 const int mostSearches = 8;
 const int mostTaps = 20;

@@ -50,7 +50,7 @@ vec3 threadColour(vec2 uv, vec2 pixel, vec3 colour) {
     colour *= 1.0 + 0.3 * slub * mix(warp, weft, 1.0 / binding.x);
 #endif
 #ifdef FUZZ
-    colour *= 1.0 + 0.2 * fuzz * (unevenness(cell, fine, vec2(2.0)).x + unevenness(cell, fine, vec2(9.0)).x);
+    colour *= 1.0 + 0.12 * fuzz * (unevenness(cell, fine, vec2(2.0)).x + unevenness(cell, fine, vec2(9.0)).x);
 #endif
     return colour;
 }
@@ -84,7 +84,7 @@ float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     vec2 square = 4.0 * middle * middle;
     vec2 gap = mix(vec2(0.25), square * square, clamp(1.3 - 3.0 * fine, 0.0, 1.0));
 #ifdef FUZZ
-    tilt += fuzz * (unevenness(cell, fine, vec2(3.0)) + unevenness(cell, fine, vec2(11.0)));
+    tilt += 0.3 * fuzz * (unevenness(cell, fine, vec2(3.0)) + unevenness(cell, fine, vec2(9.0)));
 #endif
 
     // Directions of the material on the surface, from how place and uv change over the screen.

@@ -221,7 +221,7 @@ image::Image LiveWorld::draw(world::PictureSpec picture, bool debug) {
     if (!picture.camera.empty()) {
         std::optional<view::Camera> found;
         std::string names;
-        world_.registry().each<world::CameraPart>([&](ecs::Entity, const world::CameraPart& part) {
+        asked().registry().each<world::CameraPart>([&](ecs::Entity, const world::CameraPart& part) {
             names += (names.empty() ? "" : ", ") + part.spec.name;
             if (part.spec.name == picture.camera) found = world::cameraOf(part, view.time);
         });

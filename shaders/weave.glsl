@@ -39,7 +39,7 @@ vec2 unevenness(vec2 cell, vec2 fine, vec2 size) {
 // The colour as threads vary it.
 vec3 threadColour(vec2 uv, vec2 pixel, vec3 colour) {
     vec2 cell = uv / thread, fine = pixel / thread;
-#if WEAVE == 1 || WEAVE == 2
+#if WEAVE == 1
     float across = dot(cell, binding.yx) / binding.x, wide = max(dot(fine, binding.yx) / binding.x, 1e-3);
     colour = mix(colour, weftColour, band(across, wide, 0.0, 1.0 / binding.x));
 #endif

@@ -109,9 +109,8 @@ Section finishSection() {
                     "Period of the pattern; on a mesh in texture coordinates.")
             .number("weave", &FinishSpec::weave, "", fields::share,
                     "Depth of the weave: 0 smooth, 1 coarse linen. A mesh without texture coordinates has no weave.")
-            .choice(
-                "binding", &FinishSpec::binding, {"plain", "twill", "satin", "rib", "knit"},
-                "Crossing of the threads of a weave. Twill and satin show some of the weft, in the colour of the back.")
+            .choice("binding", &FinishSpec::binding, {"plain", "twill", "satin", "rib", "knit"},
+                    "Crossing of the threads of a weave. Twill shows a quarter of weft, in the colour of the back.")
             .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")
             .number("slub", &FinishSpec::slub, "", fields::share,
                     "Unevenness of the threads: 0 nylon, 0.5 denim, 1 raw linen.")

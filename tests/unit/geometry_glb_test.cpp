@@ -224,6 +224,8 @@ TEST(Glb, TextureCoordinatesAreOfWhatTheyChange) {
     EXPECT_FALSE(has([](view::Finish&) {}));
     EXPECT_TRUE(has([](view::Finish& finish) { finish.pattern = view::Pattern::tartan; }));
     EXPECT_TRUE(has([](view::Finish& finish) { finish.weave = 0.5F; }));
+    EXPECT_TRUE(has([](view::Finish& finish) { finish.slub = 0.5F; }));
+    EXPECT_TRUE(has([](view::Finish& finish) { finish.fuzz = 0.5F; }));
     EXPECT_TRUE(has([](view::Finish& finish) { finish.anisotropy = 0.5F; }));
 }
 

@@ -114,6 +114,26 @@ TEST(RenderPicture, ShadowLiesWhereTheLightSaysItDoes) {
     for (const float z : {-0.24F, 0.24F}) EXPECT_NEAR(floorAt(0.5F, z), dark, 12) << z;
 }
 
+// Within the reach of shaders/nearby.frag, 0.3 m, and in the picture.
+TEST(RenderPicture, WallTakesSkyFromASurfaceBesideIt) {
+    view::FrameView view = floorView();
+    view.light.colour = glm::vec3(0.0F);
+    static const view::Mesh slab = view::boxMesh({1.0F, 0.1F, 1.0F}, 0.0F),
+                            wall = view::boxMesh({1.0F, 0.3F, 0.05F}, 0.0F);
+    view.surfaces.push_back(surface(slab, {0.0F, 0.1F, 0.0F}, glm::vec3(0.8F)));
+    view.surfaces.push_back(surface(wall, {0.0F, 0.5F, -0.3F}, glm::vec3(0.8F)));
+    RendererOptions options = smallOptions();
+    const image::Image with = pictureOf(view, options);
+    options.occlusion = false;
+    const image::Image without = pictureOf(view, options);
+    const auto shareLeft = [&](glm::vec3 place) {
+        return lightOf(pixelOf(with, view.camera, place)[1]) / lightOf(pixelOf(without, view.camera, place)[1]);
+    };
+    EXPECT_LT(shareLeft({0.0F, 0.2F, -0.2F}), 0.9F);
+    EXPECT_GT(shareLeft({0.0F, 0.2F, -0.2F}), 0.4F);
+    EXPECT_NEAR(shareLeft({0.0F, 0.2F, 0.5F}), 1.0F, 0.02F);  // a byte
+}
+
 TEST(RenderPicture, SurfaceInShadowIsDarkerThanTheSameInLight) {
     view::FrameView view = floorView();
     view.surfaces.push_back(surface(view::quadMesh({0.0F, 1.0F, 0.0F}, 0.5F), {0.8F, 0.5F, 0.0F}, glm::vec3(0.5F)));

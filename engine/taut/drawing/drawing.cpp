@@ -337,7 +337,10 @@ std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
     finish->pattern = spec.pattern;
     finish->repeat = static_cast<float>(spec.repeat);
     finish->weave = static_cast<float>(spec.weave);
+    finish->binding = spec.binding;
     finish->thread = static_cast<float>(spec.thread);
+    finish->slub = static_cast<float>(spec.slub);
+    finish->fuzz = static_cast<float>(spec.fuzz);
     finish->roughness = static_cast<float>(spec.roughness);
     finish->sheen = static_cast<float>(spec.sheen);
     finish->translucency = static_cast<float>(spec.translucency);

@@ -118,7 +118,7 @@ TEST(Calibration, AProcessOfItsOwnDrawsAsAnOlderProcessorDoes) {
     EXPECT_TRUE(test::has(test::contentOf(folder / "out/run_0-0.json"), "128 bits"));
 }
 
-// What a mutant changes, and that it leaves a scene alone that has nothing of the kind.
+// The changes of a mutant, and that it leaves a scene alone that has nothing of the kind.
 TEST(Mutants, ChangeWhatTheySay) {
     const std::vector<Mutant> all = mutants();
     ASSERT_EQ(all.size(), 10U);

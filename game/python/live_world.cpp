@@ -84,8 +84,7 @@ void LiveWorld::requireStill(const char* what) const {
 
 world::Selection LiveWorld::select(const std::string& target) const {
     world::Selection selection = asked().select(target);
-    const bool isEmpty = std::all_of(selection.parts.begin(), selection.parts.end(),
-                                     [](const auto& part) { return part.points.empty(); });
+    const bool isEmpty = std::ranges::all_of(selection.parts, [](const auto& part) { return part.points.empty(); });
     if (!isEmpty) return selection;
     const std::string fault = scene::targetFault(spec(), target, true);
     refuse(!fault.empty() ? fault : fmt::format("{} is not there, or not yet", target));
@@ -221,8 +220,7 @@ image::Image LiveWorld::draw(world::PictureSpec picture, bool debug) {
     view::FrameView view = asked().view(debug);
     const std::vector<world::CameraSpec>& cameras = spec().cameras;
     if (!picture.camera.empty()) {
-        const auto camera = std::find_if(cameras.begin(), cameras.end(),
-                                         [&](const world::CameraSpec& each) { return each.name == picture.camera; });
+        const auto camera = std::ranges::find(cameras, picture.camera, &world::CameraSpec::name);
         if (camera == cameras.end()) {
             std::string names;
             for (const world::CameraSpec& each : cameras) names += (names.empty() ? "" : ", ") + each.name;

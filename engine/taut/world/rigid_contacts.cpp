@@ -44,7 +44,7 @@ void RigidContacts::takeShapes(std::span<const dvec3> x0, std::span<const dvec3>
             return own.marks.motionTo(now).of(own.piece.at);
         };
         const auto stays = [&](int i) { return x0[i] == x1[i]; };
-        const bool isStill = std::all_of(own.marks.points.begin(), own.marks.points.end(), stays);
+        const bool isStill = std::ranges::all_of(own.marks.points, stays);
         const Frame from = at(x0);
         shapes_.push_back(inMotion(
             {own.piece.shape.get(), own.surface, -1, from, isStill ? from : at(x1), own.thickness, 0, {}, isStill}));
@@ -75,13 +75,13 @@ void RigidContacts::findPairs(const MayTouch& mayTouch) {
     const dvec3 size = all.halfSize();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const auto box = [&](int k) -> const core::Aabb& { return shapes_[k].box; };
-    std::sort(order_.begin(), order_.end(), [&](int a, int b) {
+    std::ranges::sort(order_, [&](int a, int b) {
         return box(a).low[axis] < box(b).low[axis] || (box(a).low[axis] == box(b).low[axis] && a < b);
     });
     for (std::size_t i = 0; i < order_.size(); ++i)
         for (std::size_t k = i + 1; k < order_.size() && box(order_[k]).low[axis] <= box(order_[i]).high[axis]; ++k)
             if (box(order_[i]).overlaps(box(order_[k]), 0.0)) take(order_[i], order_[k]);
-    std::sort(pairs_.begin(), pairs_.end());
+    std::ranges::sort(pairs_);
 }
 
 void RigidContacts::touch(const ShapeInMotion& a, const ShapeInMotion& b, double seconds,
@@ -93,9 +93,8 @@ void RigidContacts::touch(const ShapeInMotion& a, const ShapeInMotion& b, double
     double moment = 0;
     Frame atA = a.from, atB = b.from;
     for (int k = 0; k < mostMoments && manifold.count > 0 && !b.convex->isHalfSpace(); ++k) {
-        const auto nearest =
-            std::min_element(manifold.places().begin(), manifold.places().end(),
-                             [](const Manifold::Place& p, const Manifold::Place& q) { return p.gap < q.gap; });
+        const auto nearest = std::ranges::min_element(
+            manifold.places(), [](const Manifold::Place& p, const Manifold::Place& q) { return p.gap < q.gap; });
         if (nearest->gap <= (k == 0 ? metShare : foundShare) * thickness) break;
         const auto wayOf = [&](const ShapeInMotion& own, const Frame& at, const dvec3& place) {
             return carriedBy(at, own.to, place) - carriedBy(at, own.from, place);

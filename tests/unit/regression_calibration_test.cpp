@@ -10,6 +10,7 @@
 #include "taut/bodies/cloth.h"
 #include "taut/core/private/child_process.h"
 #include "taut/image/png.h"
+#include "taut/pipeline/run_parts.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/mutants.h"
 #include "taut/regression/playing.h"
@@ -96,7 +97,7 @@ TEST(Calibration, RefusesThresholdsLessThanTwiceTheNoise) {
                 static_cast<std::uint8_t>(picture.rgb[i] < 128 ? picture.rgb[i] + 10 : picture.rgb[i] - 10);
         EXPECT_EQ(golden.frame, 4);
         image::writePng(png, picture);
-        return hexadecimal(played.pictures.front().stateHash);
+        return pipeline::hexadecimal(played.pictures.front().stateHash);
     };
     const auto rows = calibrate({scenario(folder)}, noisy, goOn);
     for (const char* process : {"1 thread", "4 threads", "SSE2", "SSE4.1", "AVX"}) {

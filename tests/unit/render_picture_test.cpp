@@ -1,4 +1,4 @@
-// What pictures show, drawn with the real GL library.
+// The content of pictures, drawn with the real GL library.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -79,7 +79,7 @@ TEST(RenderPicture, CameraMayLookStraightDown) {
     EXPECT_NEAR(pixel[1], srgb(filmic(0.4F * (0.8F + 0.1F))), ditherStep + 0.5);
 }
 
-// From 250 m away the ground 60 m from the target is as it is near, and what lies 300 m off is not cut away.
+// From 250 m away the ground 60 m from the target is as it is near, and a thing 300 m off is not cut away.
 TEST(RenderPicture, TheGroundOfALargeSceneFadesFurtherAway) {
     view::FrameView view = floorView();
     view.camera.eye = {0.0F, 150.0F, 200.0F};

@@ -26,7 +26,7 @@ TEST(ContactStudy, FewDetectionsCostLittleAccuracy) {
         studyContact({.problems = {"ball-rolls", "box-slides", "sheet-falls"}, .steps = {1}, .detections = {1, 4}});
     ASSERT_EQ(study.runs.size(), 6U);
     for (const ContactRun& run : study.runs) {
-        EXPECT_TRUE(run.isWhole) << run.problem;
+        EXPECT_TRUE(run.hasEnded) << run.problem;
         EXPECT_LT(std::abs(run.error), run.problem == "sheet-falls" ? 0.01 : 1e-6) << run.problem;
         EXPECT_EQ(run.crossings, 0) << run.problem;
     }

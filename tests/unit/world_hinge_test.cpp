@@ -60,7 +60,7 @@ double ellipticK(double k) {
 }
 
 // A box of w, h, w that swings about its upper end has I = m (w² + h²)/12 + m h²/4, and a period of
-// 4 sqrt(I / (m g h/2)) K(sin(θ0/2)). Let go at 60° it is back there after one period.
+// 4 sqrt(I / (m g h/2)) K(sin(θ0/2)). Released at 60° it is back there after one period.
 TEST(Hinge, APendulumHasThePeriodOfTheEllipticIntegral) {
     const double period =
         4 * std::sqrt((0.02 * 0.02 + 1) / 12 + 0.25) / std::sqrt(0.5 * g) * ellipticK(std::sin(pi / 6));
@@ -276,7 +276,7 @@ TEST(Hinge, FrictionDampingAndMotorAreTheirTorques) {
     EXPECT_NEAR(middle(world, "solid.bob@bottom").y, 2.0, 1e-3);
 }
 
-// Its pins, limit, friction and motor are all in a state; let go, both bodies move freely.
+// Its pins, limit, friction and motor are all in a state; released, both bodies move freely.
 TEST(Hinge, GoesOnWithTheSameBitsAndIsLetGo) {
     const std::string more =
         "place = [0, 0.5, 0]\naxis = [0, 0, 1]\nlimits_deg = [-100, 50]\nfriction_N_m = 0.1\n"
@@ -299,7 +299,7 @@ TEST(Hinge, GoesOnWithTheSameBitsAndIsLetGo) {
     EXPECT_LT(middle(world, "solid.bob@top").y, 1.7);
 }
 
-// A link of 0.2 kg that is let go at 90° has ω² = 3 g/L at the lowest place, and pulls with 5/2 m g = 4.9 N there.
+// A link of 0.2 kg that is released at 90° has ω² = 3 g/L at the lowest place, and pulls with 5/2 m g = 4.9 N there.
 TEST(Hinge, BreaksAtItsForce) {
     for (const auto& [most, left] : {std::pair{"5.4", 1}, {"4.4", 0}}) {
         World world(sceneOf(head("[0, -9.81, 0]") + post + link("bob", 90) +
@@ -394,7 +394,7 @@ TEST(Hinge, JointedSolidsThatStayFallAsleepTogether) {
                           300),
               0);
 
-    // Asleep, it goes on with the same bits after a restart. Let go, both wake.
+    // Asleep, it goes on with the same bits after a restart. Released, both wake.
     const SceneSpec scene =
         sceneOf(head("[0, -9.81, 0]", solver) + ground + chest + lid + onChest +
                 "[[at]]\nt = 3.05\ndo = \"push\"\ntarget = \"solid.lid@front\"\nimpulse_Ns = [0, 2, 0]\n");
@@ -433,7 +433,7 @@ TEST(Places, ASpringBearsAPlankThere) {
 }
 
 // Two boxes in free flight that a spring draws at places between their points: it adds neither momentum nor angular
-// momentum beyond what solids by themselves drift by, 1e-9, and keeps the energy to 5e-6, as between points.
+// momentum beyond the drift of solids by themselves, 1e-9, and keeps the energy to 5e-6, as between points.
 TEST(Places, ASpringBetweenSolidsKeepsMomentaAndEnergy) {
     World world(sceneOf(head("[0, 0, 0]") +
                         "[solid.a]\nshape = \"box\"\nsize = [0.2, 0.4, 0.6]\ntouch = \"nothing\"\n"

@@ -1,4 +1,4 @@
-// What is said before the first tick of a timeline that its run will refuse, and of steps that will diverge.
+// Warnings before the first tick of a timeline that its run will refuse, and of steps that will diverge.
 #include "taut/advice/rehearsal.h"
 
 #include <gtest/gtest.h>
@@ -196,7 +196,7 @@ TEST(Rehearsal, RefusesAStepThatIsBoundToDiverge) {
     bool diverges = false;
     for (int i = 0; i < 60 && !diverges; ++i) diverges = world.advance().has_value();
     EXPECT_TRUE(diverges);
-    // Where what diverges is kept as it was the run goes on.
+    // Where a diverging island is frozen the run goes on.
     scene.solver.onDivergence = OnDivergence::freeze;
     const Rehearsal kept = rehearse(scene);
     EXPECT_TRUE(kept.faults.empty());

@@ -79,8 +79,7 @@ std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
             for (const int i : body->pointOf) solid.x.push_back(island->plan().positions[i]);
             for (const dvec3& x : solid.touching()) solid.box.add(x);
         }
-    std::sort(solids.begin(), solids.end(),
-              [](const PlacedSolid& a, const PlacedSolid& b) { return sortsBefore(*a.body, *b.body); });
+    std::ranges::sort(solids, [](const PlacedSolid& a, const PlacedSolid& b) { return sortsBefore(*a.body, *b.body); });
     return solids;
 }
 
@@ -88,7 +87,7 @@ std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
 void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<core::Finding>& doubts) {
     const auto isConvex = [](const PlacedSolid& solid) {
         const auto& pieces = solid.body->pieces;
-        return std::all_of(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.shape != nullptr; });
+        return std::ranges::all_of(pieces, [](const auto& piece) { return piece.shape != nullptr; });
     };
     std::size_t count = 0;
     for (const PlacedSolid& inner : solids)
@@ -97,13 +96,22 @@ void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<core::Fi
             if (isConvex(inner) && isConvex(outer)) continue;
             const Inside inside(outer.x, outer.body->model.triangles, {8, 8});
             const auto touching = inner.touching();
-            if (!std::all_of(touching.begin(), touching.end(), [&](const dvec3& x) { return inside.has(x); })) continue;
+            if (!std::ranges::all_of(touching, [&](const dvec3& x) { return inside.has(x); })) continue;
             if (++count <= mostDoubts)
                 doubts.push_back(warningAt(inner.body->spec->source) +
                                  fmt::format("{} starts wholly inside {}, and nothing brings it out: move it, or give "
                                              "one of them touch = \"nothing\"",
                                              inner.body->fullName(), outer.body->fullName()));
         }
+}
+
+// The first doubts of one sort, and the number of further ones.
+template <class Pairs, class TextOf>
+void addFirst(std::vector<core::Finding>& doubts, const Pairs& pairs, const char* further, const TextOf& textOf) {
+    for (std::size_t count = 0; const auto& pair : pairs)
+        if (++count <= mostDoubts) doubts.push_back(warningAt({}) + textOf(pair));
+    if (pairs.size() > mostDoubts)
+        doubts.push_back(warningAt({}) + fmt::format("{} more pairs of {}", pairs.size() - mostDoubts, further));
 }
 
 // Convex solids.
@@ -114,16 +122,10 @@ void doubtOverlaps(ContactStage& stage, std::vector<core::Finding>& doubts) {
         double& depth = pairs[std::minmax(first, second)];
         depth = std::max(depth, -touch.gap);
     }
-    std::size_t count = 0;
-    for (const auto& [names, depth] : pairs)
-        if (++count <= mostDoubts)
-            doubts.push_back(warningAt({}) +
-                             fmt::format("{} and {} start in each other: they will be pushed apart, start them {} "
-                                         "further off",
-                                         names.first, names.second, inLength(depth)));
-    if (pairs.size() > mostDoubts)
-        doubts.push_back(warningAt({}) +
-                         fmt::format("{} more pairs of solids start in each other", pairs.size() - mostDoubts));
+    addFirst(doubts, pairs, "solids start in each other", [](const auto& pair) {
+        return fmt::format("{} and {} start in each other: they will be pushed apart, start them {} further off",
+                           pair.first.first, pair.first.second, inLength(pair.second));
+    });
 }
 
 // Of solids, whose points no island brings out.
@@ -144,7 +146,7 @@ void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, s
             solid.body->spec->collide && deepest.depth > share * glm::length(solid.box.high - solid.box.low);
         if (!isCounted) continue;
         const std::string& collider = names[deepest.collider];
-        const bool isMounted = std::any_of(world.spec.joints.begin(), world.spec.joints.end(), [&](const auto& joint) {
+        const bool isMounted = std::ranges::any_of(world.spec.joints, [&](const auto& joint) {
             return isTie(joint) && !joint.touch && colliderOf(joint) == collider &&
                    world::names(pointsOf(joint), *solid.body);
         });
@@ -176,23 +178,18 @@ void doubtCrossings(WorldImpl& world, std::vector<core::Finding>& doubts) {
         }
     }
     doubtOverlaps(stage, doubts);
-    std::size_t count = 0;
-    for (const auto& [names, pair] : pairs) {
-        if (++count > mostDoubts) break;
+    addFirst(doubts, pairs, "bodies go through each other", [](const auto& found) {
+        const auto& [names, pair] = found;
         const bool isOne = names.first == names.second;
         const dvec3 x = pair.place;
-        doubts.push_back(
-            warningAt({}) +
-            fmt::format("{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
-                        "start {} further off",
-                        isOne ? names.first + " goes through itself"
-                              : names.first + " and " + names.second + " go through each other",
-                        isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
-                        inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
-    }
-    if (pairs.size() > mostDoubts)
-        doubts.push_back(warningAt({}) +
-                         fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));
+        return fmt::format(
+            "{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
+            "start {} further off",
+            isOne ? names.first + " goes through itself"
+                  : names.first + " and " + names.second + " go through each other",
+            isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
+            inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them");
+    });
 }
 
 void doubtPlaces(const ContactStage& stage, std::vector<core::Finding>& doubts) {
@@ -202,18 +199,14 @@ void doubtPlaces(const ContactStage& stage, std::vector<core::Finding>& doubts) 
         const auto [a, b] = entry.first;
         return stage.bodyOf(a).spec->isRigid() && stage.bodyOf(b).spec->isRigid();
     });
-    std::size_t count = 0;
-    for (const auto& [surfaces, points] : found) {
-        if (++count > mostDoubts) break;
+    addFirst(doubts, found, "bodies start in the same place", [&](const auto& pair) {
+        const auto& [surfaces, points] = pair;
         const Body &a = stage.bodyOf(surfaces.first), &b = stage.bodyOf(surfaces.second);
-        doubts.push_back(warningAt({}) + fmt::format("{} and {} start in the same place, by {} points: their sides are "
-                                                     "undetermined, and separation takes long; start them {} apart",
-                                                     a.fullName(), b.fullName(), points.size(),
-                                                     inLength(a.spec->thickness + b.spec->thickness)));
-    }
-    if (found.size() > mostDoubts)
-        doubts.push_back(warningAt({}) +
-                         fmt::format("{} more pairs of bodies start in the same place", found.size() - mostDoubts));
+        return fmt::format(
+            "{} and {} start in the same place, by {} points: their sides are "
+            "undetermined, and separation takes long; start them {} apart",
+            a.fullName(), b.fullName(), points.size(), inLength(a.spec->thickness + b.spec->thickness));
+    });
 }
 
 }  // namespace
@@ -229,7 +222,7 @@ std::map<std::string, double> colliderWidths(const WorldImpl& world) {
                 box.add(part.at.toWorld(part.shape->bounds()->corner(i)));
         if (!(box.low.x <= box.high.x)) continue;
         std::array sizes{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
-        std::sort(sizes.begin(), sizes.end());
+        std::ranges::sort(sizes);
         widths[collider.name] = sizes[1];
     }
     return widths;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/hash.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
@@ -40,12 +41,12 @@ void holdPoints(Body& body) {
         body.clamped.resize(body.model.positions.size(), false);
         for (int i : hold("clamp", selector)) body.clamped[i] = true;
     }
-    std::sort(body.carried.begin(), body.carried.end());
+    std::ranges::sort(body.carried);
     body.carried.erase(std::unique(body.carried.begin(), body.carried.end()), body.carried.end());
 }
 
 bool starts(const Body& body, int point) {
-    return !body.model.held[point] && !std::binary_search(body.carried.begin(), body.carried.end(), point);
+    return !body.model.held[point] && !std::ranges::binary_search(body.carried, point);
 }
 
 void setInMotion(Body& body) {
@@ -111,7 +112,7 @@ void addAir(std::vector<Body>& bodies, const SceneSpec& spec) {
             for (Body* body : matchBodies(all, target)) surrounded.push_back(body);
     for (Body& body : bodies) {
         mechanics::Model& model = body.model;
-        if (std::find(surrounded.begin(), surrounded.end(), &body) == surrounded.end()) model.airMasses.clear();
+        if (!core::contains(surrounded, &body)) model.airMasses.clear();
         for (std::size_t i = 0; i < model.airMasses.size(); ++i) model.masses[i] += model.airMasses[i];
     }
 }
@@ -188,7 +189,7 @@ std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string&
 std::vector<Body> buildBodies(const SceneSpec& spec) {
     std::vector<Body> bodies;
     for (const BodySpec& body : spec.bodies) addCopies(bodies, body, spec);
-    std::sort(bodies.begin(), bodies.end(), sortsBefore);
+    std::ranges::sort(bodies, sortsBefore);
     addMasses(bodies, spec);
     addAir(bodies, spec);
     for (Body& body : bodies) startBody(body);

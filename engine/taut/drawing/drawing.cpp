@@ -65,7 +65,7 @@ std::vector<int> orderInFile(const BodySpec& spec) {
     const std::vector<int>& numbers = source->meshData->numbers;
     std::vector<int> order(numbers.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](int a, int b) {
+    std::ranges::sort(order, [&](int a, int b) {
         return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)];
     });
     return order;
@@ -119,7 +119,7 @@ class SkinDrawing final : public BodyDrawing {
         addInner(skin, body.spec->finish);
         if (const int levels = body.spec->finish.smooth; twoSided_ && levels > 0)
             refinement_ = refinement(model, skin, vertexOf, topology->triangles, levels);
-        // What is cut or torn shows its own surface.
+        // A cut or torn body shows its own surface.
         if (!body.damage.isEmpty()) return;
         if (frame != nullptr) {
             bound_ = std::make_unique<BoundMesh>(body, place_, *frame);
@@ -156,7 +156,7 @@ class SkinDrawing final : public BodyDrawing {
   private:
     static constexpr int sidesOfBlock = 6;
     // Contact keeps triangles a thickness clear of colliders and two of each other, but for sides of a tight fold,
-    // which come nearer: so less than that is room for what is drawn.
+    // which come nearer: so less than that is room for drawing.
     static constexpr float shareOfThickness = 0.4F;
     using VertexNumbers = std::map<std::pair<int, int>, std::uint32_t>;  // by vertex of the skin, and side of the block
 
@@ -176,7 +176,7 @@ class SkinDrawing final : public BodyDrawing {
         innerFinish_ = std::move(plain);
     }
 
-    // What a fine mesh is made of. It is made for the first picture: a run may have none.
+    // The input of a fine mesh. It is made for the first picture: a run may have none.
     struct Refinement {
         std::vector<view::Face> faces;
         std::vector<glm::dvec3> rest;  // (vertices) [m]
@@ -207,7 +207,7 @@ class SkinDrawing final : public BodyDrawing {
         if (refinement_.levels == 0) return;
         std::vector<std::uint32_t> kept;
         for (std::size_t v = 0; v < points_.size(); ++v)
-            if (std::binary_search(body_.seamCorners.begin(), body_.seamCorners.end(), points_[v]))
+            if (std::ranges::binary_search(body_.seamCorners, points_[v]))
                 kept.push_back(static_cast<std::uint32_t>(v));
         fine_ =
             view::subdivided(refinement_.faces, refinement_.rest, refinement_.keepsCorners, refinement_.levels, kept);
@@ -240,9 +240,7 @@ class SkinDrawing final : public BodyDrawing {
         static constexpr const char* sides[] = {"left", "right", "bottom", "top", "back", "front"};
         for (int side = 0; side < sidesOfBlock; ++side) {
             const std::vector<int>& group = model.groups.at(sides[side]);
-            if (std::all_of(triangle.begin(), triangle.end(),
-                            [&](int p) { return std::binary_search(group.begin(), group.end(), p); }))
-                return side;
+            if (std::ranges::all_of(triangle, [&](int p) { return std::ranges::binary_search(group, p); })) return side;
         }
         return 0;
     }
@@ -266,7 +264,7 @@ class SkinDrawing final : public BodyDrawing {
     mutable std::once_flag isRefined_;
     mutable std::optional<view::FineMesh> fine_;
     mutable std::shared_ptr<const view::Topology> topology_;
-    mutable std::unique_ptr<BoundMesh> bound_;  // what is drawn in its place; null: nothing
+    mutable std::unique_ptr<BoundMesh> bound_;  // drawn in its place; null: nothing
     bool isBoundFine_ = false;                  // once the sheet is refined
 };
 

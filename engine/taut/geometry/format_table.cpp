@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "taut/core/private/contains.h"
+
 // A line a format, in the order in which helps name them: the function that returns its row.
 #define TAUT_FORMATS(FORMAT) \
     FORMAT(usdaFormat)       \
@@ -37,7 +39,7 @@ const Format* formatOf(const Formats& formats, Holds what, const std::filesystem
 }
 
 bool isIn(const Format& format, const std::filesystem::path& path) {
-    return std::find(format.endings.begin(), format.endings.end(), path.extension().string()) != format.endings.end();
+    return core::contains(format.endings, path.extension().string());
 }
 
 }  // namespace taut::geometry

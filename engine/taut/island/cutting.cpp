@@ -4,6 +4,8 @@
 #include <optional>
 #include <set>
 
+#include "taut/core/private/contains.h"
+
 namespace taut::world {
 namespace {
 
@@ -80,7 +82,7 @@ CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Bod
     std::vector<double> side(plan.points.size(), 0.0);
     std::vector<bool> isCut(plan.points.size(), false);
     for (Body* body : plan.bodies) {
-        if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) continue;
+        if (!core::contains(bodies, body)) continue;
         if (!isPlane && !isAll && (body->model.grid[0] == 0 || !action.from || !action.upTo)) continue;
         const Knife knife = isPlane ? planeThrough(action, island, *body) : isAll ? Knife{} : segmentOn(action, *body);
         const bool isRigid = body->spec->isRigid();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "taut/core/private/contains.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/sections.h"
 
@@ -12,7 +13,7 @@ namespace taut::scene {
 namespace {
 
 bool isAmong(std::string_view key, std::span<const std::string_view> keys) {
-    return std::find(keys.begin(), keys.end(), key) != keys.end();
+    return core::contains(keys, key);
 }
 
 // A struct of a scene by its section and name, "cloth.flag" or "solver".

@@ -69,7 +69,7 @@ void checkCollider(const CheckInput& input, ColliderSpec& collider) {
 std::vector<std::string> variantsOf(const Kind<JointSpec>& kind) {
     const std::string title(kind.make()->title());
     const std::vector<Field>& rows = kind.section.fields;
-    if (std::all_of(rows.begin(), rows.end(), [](const Field& row) { return row.only.empty(); })) return {title};
+    if (std::ranges::all_of(rows, [](const Field& row) { return row.only.empty(); })) return {title};
     return {title, title + " to a collider"};
 }
 
@@ -104,9 +104,9 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
         const std::vector<std::string> variants = variantsOf(row != nullptr ? *row : kinds.all().front());
         const auto isOn = [&](const char* key) {
             const Member* side = table.find(key);
-            return side != nullptr && (isCollider(side->value.text) ||
-                                       std::any_of(side->value.items.begin(), side->value.items.end(),
-                                                   [](const Node& item) { return isCollider(item.text); }));
+            return side != nullptr &&
+                   (isCollider(side->value.text) ||
+                    std::ranges::any_of(side->value.items, [](const Node& item) { return isCollider(item.text); }));
         };
         return isOn("a") || isOn("b") ? variants.back() : variants.front();
     };
@@ -155,31 +155,20 @@ SceneSection seamSection() {
 }
 
 SceneSection massSection() {
-    SceneSection section;
-    section.name = "mass";
-    section.layout = Layout::list;
-    section.help = "Mass added to points.";
-    section.enter = enterNamed(&SceneSpec::masses);
-    section.fields =
+    return sectionOf(
+        "mass", "Mass added to points.", &SceneSpec::masses,
         FieldList<MassSpec>()
             .text("target", &MassSpec::target, Role::points, "Points: KIND.NAME@SELECTOR.")
             .required()
             .number("mass_kg", &MassSpec::mass, "kg", positive, "Added mass, shared evenly among the points.")
             .required()
-            .take();
-    return section;
+            .take(),
+        Layout::list);
 }
 
 SceneSection colliderSection(const collision::ShapeKinds& shapes) {
-    SceneSection section;
-    section.name = "collider";
-    section.layout = Layout::named;
-    section.help = "A rigid obstacle, at rest or moved by keys.";
-    section.enter = enterNamed(&SceneSpec::colliders);
-    section.existing = findNamed(&SceneSpec::colliders);
-    section.variant = shapeNameIn;
-    section.variantKey = "shape";
-    section.fields =
+    SceneSection section = sectionOf(
+        "collider", "A rigid obstacle, at rest or moved by keys.", &SceneSpec::colliders,
         shapeRows<ColliderSpec>(shapes, colliderMesh)
             .direction("normal", &ColliderSpec::normal, "Direction away from the solid; any length.")
             .only(namesOf(shapes, "normal"))
@@ -211,7 +200,9 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
                     "Radius of a drawn box's edges, except at its foot on the ground.")
             .only(namesOf(shapes, "edge"))
             .table("finish", &ColliderSpec::finish, finishSection(), "Appearance.")
-            .take();
+            .take());
+    section.variant = shapeNameIn;
+    section.variantKey = "shape";
     section.check = [](const CheckInput& input, void* target) {
         checkCollider(input, *static_cast<ColliderSpec*>(target));
     };

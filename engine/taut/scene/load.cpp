@@ -75,8 +75,7 @@ void checkSize(const ReadScene& scene, double limit, Problems& problems) {
 
 template <class Element>
 void sortByName(std::vector<Element>& elements) {
-    std::sort(
-        elements.begin(), elements.end(), [](const Element& a, const Element& b) { return a.name < b.name; });
+    std::ranges::sort(elements, {}, &Element::name);
 }
 
 // By kind in the order of the table, then by name.

@@ -42,7 +42,7 @@ class ObjReader {
         if (!hasUv_) mesh_.cornerUv.clear();
         nameLines();
         for (auto& [name, vertices] : mesh_.groups) {
-            std::sort(vertices.begin(), vertices.end());
+            std::ranges::sort(vertices);
             vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
         }
         return std::move(mesh_);

@@ -26,8 +26,7 @@ std::uint64_t contentOf(const std::string& path) {
 class Files {
   public:
     void add(const std::string& path) {
-        const bool isKnown =
-            std::any_of(files_.begin(), files_.end(), [&](const UsedFile& file) { return file.path == path; });
+        const bool isKnown = std::ranges::any_of(files_, [&](const UsedFile& file) { return file.path == path; });
         if (!path.empty() && !isKnown) files_.push_back({path, contentOf(path)});
     }
     std::vector<UsedFile> take() { return std::move(files_); }
@@ -88,25 +87,6 @@ std::vector<std::string> changedSince(std::span<const UsedFile> files) {
         else if (contentOf(file.path) != file.content)
             changes.push_back(file.path + " has changed");
     return changes;
-}
-
-void addUsedFiles(core::ByteWriter& writer, std::span<const UsedFile> files) {
-    writer.add(static_cast<std::uint64_t>(files.size()));
-    for (const UsedFile& file : files) {
-        writer.add(file.path);
-        writer.add(file.content);
-    }
-}
-
-std::vector<UsedFile> nextUsedFiles(core::ByteReader& reader) {
-    std::vector<UsedFile> files;
-    // Does not reserve: with a wrong count the bytes end first.
-    for (auto left = reader.number<std::uint64_t>(); left > 0; --left) {
-        UsedFile file{reader.text()};
-        file.content = reader.number<std::uint64_t>();
-        files.push_back(std::move(file));
-    }
-    return files;
 }
 
 }  // namespace taut::scene

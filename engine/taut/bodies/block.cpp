@@ -7,7 +7,6 @@
 
 #include "taut/bodies/private/carried_surface.h"
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/drawing/drawing.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
@@ -158,7 +157,8 @@ BodyOutline BlockSpec::outline(const SceneSpec&) const {
     outline.springs = 9.0 * outline.volumes;  // three edges and six face diagonals per cell
     if (!meshData) return outline;
     for (const auto& group : meshData->groups)
-        if (!core::contains(outline.groups, group.first)) outline.groups.push_back(group.first);
+        if (std::find(outline.groups.begin(), outline.groups.end(), group.first) == outline.groups.end())
+            outline.groups.push_back(group.first);
     return outline;
 }
 

@@ -57,7 +57,7 @@ Mesh joined(const Mesh& mesh, const KeyOf& keyOf) {
         for (std::size_t k = 0; k < 3; ++k) own[k] = numbers[t[k]];
         if (own[0] == own[1] || own[1] == own[2] || own[2] == own[0]) continue;
         Triangle sorted = own;
-        std::ranges::sort(sorted);
+        std::sort(sorted.begin(), sorted.end());
         if (seen.insert(sorted).second) joined.triangles.push_back(own);
     }
     return joined;

@@ -5,7 +5,6 @@
 
 #include "taut/bodies/private/cloth_panel.h"
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/drawing/drawing.h"
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
@@ -219,7 +218,8 @@ BodyOutline ClothSpec::outline(const SceneSpec&) const {
     outline.groups = outline.isGrid ? mechanics::clothGroups(isRound) : mechanics::meshClothGroups();
     if (!meshData) return outline;
     for (const auto& group : meshData->groups)
-        if (!core::contains(outline.groups, group.first)) outline.groups.push_back(group.first);
+        if (std::find(outline.groups.begin(), outline.groups.end(), group.first) == outline.groups.end())
+            outline.groups.push_back(group.first);
     return outline;
 }
 

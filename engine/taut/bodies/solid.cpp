@@ -152,7 +152,7 @@ void checkParts(const fields::CheckInput& input, const ShapeKinds& shapes, Solid
         checkThickness(input, shapeKindOf(part, shapes), part, fmt::format("{} of part {}", part.shape, k));
     }
     const auto isRound = [&](const SolidSpec& part) { return shapeKindOf(part, shapes).isRound; };
-    if (input.table.find("thickness") != nullptr && std::ranges::all_of(compound.parts, isRound))
+    if (input.table.find("thickness") != nullptr && std::all_of(compound.parts.begin(), compound.parts.end(), isRound))
         input.problems.addWarning(input.at("thickness"), "that of spheres and capsules is their radius",
                                   "leave it out");
     compound.thickness = 0;
@@ -289,7 +289,7 @@ void SolidSpec::addShape(const ShapeKind& kind, mechanics::RigidShape& made) con
 mechanics::Model SolidSpec::build(const SceneSpec& scene) const {
     const ShapeKinds& kinds = scene.knownShapes();
     const auto isCompound = [&](const SolidSpec& own) { return own.kindIn(kinds).extent == Extent::parts; };
-    if (isCompound(*this) == parts.empty() || std::ranges::any_of(parts, isCompound))
+    if (isCompound(*this) == parts.empty() || std::any_of(parts.begin(), parts.end(), isCompound))
         throw core::Error(core::ErrorKind::badContent,
                           at(source) + "a compound, and nothing else, has parts; none of them is a compound");
     mechanics::RigidShape whole = made(kinds);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/core/private/hash.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
@@ -41,12 +40,12 @@ void holdPoints(Body& body) {
         body.clamped.resize(body.model.positions.size(), false);
         for (int i : hold("clamp", selector)) body.clamped[i] = true;
     }
-    std::ranges::sort(body.carried);
+    std::sort(body.carried.begin(), body.carried.end());
     body.carried.erase(std::unique(body.carried.begin(), body.carried.end()), body.carried.end());
 }
 
 bool starts(const Body& body, int point) {
-    return !body.model.held[point] && !std::ranges::binary_search(body.carried, point);
+    return !body.model.held[point] && !std::binary_search(body.carried.begin(), body.carried.end(), point);
 }
 
 void setInMotion(Body& body) {
@@ -112,7 +111,7 @@ void addAir(std::vector<Body>& bodies, const SceneSpec& spec) {
             for (Body* body : matchBodies(all, target)) surrounded.push_back(body);
     for (Body& body : bodies) {
         mechanics::Model& model = body.model;
-        if (!core::contains(surrounded, &body)) model.airMasses.clear();
+        if (std::find(surrounded.begin(), surrounded.end(), &body) == surrounded.end()) model.airMasses.clear();
         for (std::size_t i = 0; i < model.airMasses.size(); ++i) model.masses[i] += model.airMasses[i];
     }
 }
@@ -189,7 +188,7 @@ std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string&
 std::vector<Body> buildBodies(const SceneSpec& spec) {
     std::vector<Body> bodies;
     for (const BodySpec& body : spec.bodies) addCopies(bodies, body, spec);
-    std::ranges::sort(bodies, sortsBefore);
+    std::sort(bodies.begin(), bodies.end(), sortsBefore);
     addMasses(bodies, spec);
     addAir(bodies, spec);
     for (Body& body : bodies) startBody(body);

@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 
 #include "taut/core/aabb.h"
-#include "taut/core/private/contains.h"
 #include "taut/mechanics/rigid.h"
 #include "taut/spec/targets.h"
 
@@ -56,7 +55,7 @@ dvec3 centreOf(const Body& body) {
 
 std::optional<dvec3> placeNamed(const Body& body, std::string_view selector) {
     const std::vector<std::string> names = placeNames(body.model);
-    if (!core::contains(names, selector)) return std::nullopt;
+    if (std::find(names.begin(), names.end(), selector) == names.end()) return std::nullopt;
     if (selector == "centre") return centreOf(body);
     const core::Aabb box = boxOf(body);
     return body.axes.toWorld(box.centre() + directionOf(selector) * box.halfSize());

@@ -44,7 +44,7 @@ world::BodySurfaces* Now::surfaces(const std::string& target) const {
     const auto& parts = selection(target).parts;
     const bool isWhole = world::parseTarget(target).selector.empty();
     const auto endsElsewhere = [](const auto& part) { return part.body->spec->meetsCollidersAsWhole(); };
-    if (!isWhole || std::ranges::none_of(parts, endsElsewhere)) return nullptr;
+    if (!isWhole || std::none_of(parts.begin(), parts.end(), endsElsewhere)) return nullptr;
     return &surfacesOf(target, target);
 }
 
@@ -70,7 +70,7 @@ world::BodySurfaces& Now::gap(const std::string& first, const std::string& secon
 bool Expression::isMeasured() const {
     if (part == Part::target || (part == Part::call && function->takes.empty())) return true;
     if (part == Part::call && function->mayBeBare && inside.empty()) return true;
-    return std::ranges::any_of(inside, &Expression::isMeasured);
+    return std::any_of(inside.begin(), inside.end(), [](const Expression& e) { return e.isMeasured(); });
 }
 
 Quantity valueOf(const Expression& expression, const Now& now) {

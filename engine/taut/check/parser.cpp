@@ -59,7 +59,7 @@ class Parser {
             claim.terms.push_back(scalar(sum()));
         }
         if (claim.relations.empty()) fail(at_, "a claim compares two things", "add e.g. < 0.1");
-        if (std::ranges::none_of(claim.terms, &Expression::isMeasured))
+        if (std::none_of(claim.terms.begin(), claim.terms.end(), [](const Expression& e) { return e.isMeasured(); }))
             fail(claim.terms.front().begin, "this claim does not depend on the scene");
         return claim;
     }
@@ -83,7 +83,7 @@ class Parser {
     // A message that shows one would break off there.
     void refuseUnseen() const {
         const auto isUnseen = [](char c) { return (c >= '\0' && c < ' ' && c != '\t') || c == '\x7F'; };
-        const auto found = std::ranges::find_if(text_, isUnseen);
+        const auto found = std::find_if(text_.begin(), text_.end(), isUnseen);
         if (found == text_.end()) return;
         fail(static_cast<std::size_t>(found - text_.begin()), "there is a control character here",
              "write it on one line");
@@ -151,7 +151,7 @@ class Parser {
         Expression left = operand();
         while (true) {
             const std::size_t at = at_;
-            const auto sign = std::ranges::find_if(signs, [&](const auto& s) { return take(s.first); });
+            const auto sign = std::find_if(signs.begin(), signs.end(), [&](const auto& s) { return take(s.first); });
             if (sign == signs.end()) return left;
             left = joined(sign->second, std::move(left), operand(), at);
         }
@@ -243,7 +243,7 @@ class Parser {
         const std::string name(text_.substr(begin, at_ - begin));
         skipBlanks();
         const auto& table = functionTable();
-        const auto found = std::ranges::find(table, name, &Function::name);
+        const auto found = std::find_if(table.begin(), table.end(), [&](const Function& f) { return f.name == name; });
         if (found == table.end()) {
             const std::string likely = likelyFunction(name);
             fail(begin, fmt::format("there is no function \"{}\"", name),

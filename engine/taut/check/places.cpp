@@ -19,7 +19,7 @@ std::vector<std::string> bodiesOf(const Now& now, const std::string& target) {
     std::vector<std::string> names;
     for (const world::BodyHash& body : now.world().bodyHashes())
         if (world::matches(pattern, body.name)) names.push_back(body.name);
-    std::ranges::sort(names);
+    std::sort(names.begin(), names.end());
     return names;
 }
 

@@ -38,12 +38,13 @@ double coveredLength(const std::vector<std::pair<double, double>>& cuts) {
 double coveredArea(std::vector<FlatTriangle> triangles) {
     const auto lowest = [](const FlatTriangle& t) { return std::min({t[0].y, t[1].y, t[2].y}); };
     const auto highest = [](const FlatTriangle& t) { return std::max({t[0].y, t[1].y, t[2].y}); };
-    std::ranges::stable_sort(triangles, [&](const auto& a, const auto& b) { return lowest(a) < lowest(b); });
+    std::stable_sort(triangles.begin(), triangles.end(),
+                     [&](const auto& a, const auto& b) { return lowest(a) < lowest(b); });
     // Strips end at corners, at every so manieth if they are many; so small bodies far apart get theirs.
     std::vector<double> ends;
     for (const FlatTriangle& triangle : triangles)
         for (const glm::dvec2 corner : triangle) ends.push_back(corner.y);
-    std::ranges::sort(ends);
+    std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     if (ends.size() < 2) return 0;
     const std::size_t every = 1 + ends.size() / (2 * fewestStrips), parts = 1 + fewestStrips / ends.size();
@@ -60,7 +61,7 @@ double coveredArea(std::vector<FlatTriangle> triangles) {
             std::erase_if(here, [&](const FlatTriangle* triangle) { return highest(*triangle) < y; });
             cuts.clear();
             for (const FlatTriangle* triangle : here) cuts.push_back(cutAt(y, *triangle));
-            std::ranges::sort(cuts);
+            std::sort(cuts.begin(), cuts.end());
             area += step * coveredLength(cuts);
         }
     }

@@ -66,14 +66,14 @@ class MeshCutter {
         };
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             const Triangle& corners = mesh_.triangles[t];
-            if (!isBeside_[t] || (groupsOf(t).size() == 1 && std::ranges::all_of(corners, isCarried)))
+            if (!isBeside_[t] || (groupsOf(t).size() == 1 && std::all_of(corners.begin(), corners.end(), isCarried)))
                 addTriangle({vertexAt(corners[0]), vertexAt(corners[1]), vertexAt(corners[2])}, static_cast<int>(t));
         }
         // A point in one place with another of the mesh would have no direction in which to press that.
         Skin faces = bluntSkinOf(model_, damage_, back);
         std::erase_if(faces.triangles, [&](const SkinTriangle& t) {
-            return t.source >= 0 ||
-                   std::ranges::any_of(t.vertices, [&](int v) { return !isDeeper(faces.vertices[v].rest, back); });
+            return t.source >= 0 || std::any_of(t.vertices.begin(), t.vertices.end(),
+                                                [&](int v) { return !isDeeper(faces.vertices[v].rest, back); });
         });
         addFaces(faces, [](const std::array<SkinVertex, 3>&) {});
         addLoosePoints();
@@ -275,7 +275,7 @@ class MeshCutter {
             if (remains_.isAnyWholeAt(i)) continue;
             SkinVertex vertex{{{i, 1.0F}}, remains_.rest(i), dvec2(0.0)};
             const Corners& beside = remains_.besideOf(i);
-            const auto inner = std::ranges::find_if(beside, [&](int b) { return has(remains_.rest(b)); });
+            const auto inner = std::find_if(beside.begin(), beside.end(), [&](int b) { return has(remains_.rest(b)); });
             if (inner != beside.end() && !has(vertex.rest)) {
                 const SkinVertex other{{{*inner, 1.0F}}, remains_.rest(*inner), dvec2(0.0)};
                 double out = 0.0, in = 1.0;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "taut/core/private/contains.h"
-
 namespace taut::world {
 namespace {
 
@@ -20,7 +18,7 @@ bool isConnected(const std::array<int, N>& corners, Holds&& holds) {
         for (std::size_t i = 0; i < N; ++i)
             for (std::size_t j = 0; j < N; ++j)
                 if (reached[i] && !reached[j] && holds(corners[i], corners[j])) reached[j] = true;
-    return std::ranges::all_of(reached, [](bool r) { return r; });
+    return std::all_of(reached.begin(), reached.end(), [](bool r) { return r; });
 }
 
 }  // namespace
@@ -61,12 +59,14 @@ struct Damage::Index {
     const std::vector<Way>& from(int point) const { return springs[point]; }
     // Whether a spring other than a bending spring joins them.
     bool areJoined(int a, int b) const {
-        return std::ranges::any_of(
-            from(a), [&](const Way& way) { return way.to == b && way.kind != mechanics::SpringKind::bend; });
+        return std::any_of(
+            from(a).begin(), from(a).end(),
+            [&](const Way& way) { return way.to == b && way.kind != mechanics::SpringKind::bend; });
     }
     bool areNeighbours(int a, int b) const {
-        return std::ranges::any_of(
-            from(a), [&](const Way& way) { return way.to == b && way.kind == mechanics::SpringKind::structural; });
+        return std::any_of(
+            from(a).begin(), from(a).end(),
+            [&](const Way& way) { return way.to == b && way.kind == mechanics::SpringKind::structural; });
     }
 };
 
@@ -98,7 +98,7 @@ void Damage::assess(const mechanics::Model& model) {
                     sever(a, way.to, 0.5);
     const auto holds = [&](int a, int b) { return index.areJoined(a, b) && !isSevered(a, b); };
     const auto look = [&](const auto& corners, std::vector<bool>& gone, std::size_t number, int b) {
-        if (gone[number] || !core::contains(corners, b)) return;
+        if (gone[number] || std::find(corners.begin(), corners.end(), b) == corners.end()) return;
         gone[number] = !isConnected(corners, holds);
     };
     for (const auto& [a, b] : fresh_) {
@@ -107,8 +107,8 @@ void Damage::assess(const mechanics::Model& model) {
             for (std::size_t n = 0; n < cellTetrahedra; ++n)
                 look(tetrahedronOf(model.cells[c], n), tetrahedra_, cellTetrahedra * c + n, b);
     }
-    goneTetrahedra_ = static_cast<std::size_t>(std::ranges::count(tetrahedra_, true));
-    goneTriangles_ = static_cast<std::size_t>(std::ranges::count(triangles_, true));
+    goneTetrahedra_ = static_cast<std::size_t>(std::count(tetrahedra_.begin(), tetrahedra_.end(), true));
+    goneTriangles_ = static_cast<std::size_t>(std::count(triangles_.begin(), triangles_.end(), true));
     fresh_.clear();
 }
 

@@ -33,7 +33,7 @@ Remains::Remains(const mechanics::Model& model, const Damage& damage)
     const auto findCarriers = [&](const auto& canCarry) {
         for (int i = 0; i < model_.pointCount(); ++i) {
             if (carrierOf(i) >= 0) continue;
-            const auto other = std::ranges::find_if(besideOf(i), canCarry);
+            const auto other = std::find_if(besideOf(i).begin(), besideOf(i).end(), canCarry);
             if (other != besideOf(i).end()) carriers_[i] = *other;
         }
     };

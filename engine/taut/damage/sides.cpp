@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "taut/core/private/contains.h"
-
 namespace taut::world {
 
 Sides::Sides(const Damage& damage, const BlockFrame& frame, const Remains& remains)
@@ -65,7 +63,7 @@ Sides::Tetrahedron Sides::tetrahedronAt(const dvec3& place) const {
         return gone;
     }
     std::array<int, 3> axes{0, 1, 2};
-    std::ranges::stable_sort(axes, [&](int a, int b) { return share[a] > share[b]; });
+    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return share[a] > share[b]; });
     Tetrahedron own{
         {cell.points[0]},
         {1.0 - share[axes[0]], share[axes[0]] - share[axes[1]], share[axes[1]] - share[axes[2]], share[axes[2]]}};
@@ -92,7 +90,7 @@ int Sides::carrierAt(const dvec3& place) const {
 Sides::Plane Sides::planeOf(const Corners& group, const Tetrahedron& tetrahedron) const {
     Plane plane{dvec3(0.0), dvec3(0.0)};
     double most = -1.0;
-    const auto isOwn = [&](int corner) { return core::contains(group, corner); };
+    const auto isOwn = [&](int corner) { return std::find(group.begin(), group.end(), corner) != group.end(); };
     for (std::size_t k = 0; k < 4; ++k) {
         if (!isOwn(tetrahedron.corners[k])) continue;
         const int own = remains_.carrierOf(tetrahedron.corners[k]);
@@ -122,8 +120,9 @@ bool Sides::areJoined(int a, int b) const {
     const auto [known, isNew] = areJoined_.try_emplace({std::min(a, b), std::max(a, b)}, false);
     if (!isNew) return known->second;
     const Corners& beside = remains_.besideOf(b);
-    known->second = std::ranges::any_of(remains_.besideOf(a), [&](int via) {
-        return std::ranges::any_of(beside, [&](int other) { return other == via || remains_.hold(other, via); });
+    known->second = std::any_of(remains_.besideOf(a).begin(), remains_.besideOf(a).end(), [&](int via) {
+        return std::any_of(beside.begin(), beside.end(),
+                           [&](int other) { return other == via || remains_.hold(other, via); });
     });
     return known->second;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/private/contains.h"
 #include "taut/damage/private/remains.h"
 
 namespace taut::world {
@@ -24,7 +23,7 @@ class Cutter {
         const auto isCarried = [this](int corner) { return remains_.carrierOf(corner) >= 0; };
         remains_.eachTetrahedron(true, [&](const std::array<int, 4>& corners) {
             for (const Corners& group : remains_.groupsOf(corners))
-                if (ofCrumbsToo || std::ranges::all_of(group, isCarried)) addCutFace(corners, group);
+                if (ofCrumbsToo || std::all_of(group.begin(), group.end(), isCarried)) addCutFace(corners, group);
         });
         for (const auto& [ends, number] : known_) {
             SkinVertex& vertex = skin_.vertices[number];
@@ -83,7 +82,7 @@ class Cutter {
         const auto isBeside = [&](const CutEdge& edge) {
             return std::abs(glm::dot(edge.cut - mean, normal)) > flatness * glm::length(edge.along);
         };
-        if (!areInLine && std::ranges::any_of(edges, isBeside)) return dvec3(0.0);
+        if (!areInLine && std::any_of(edges.begin(), edges.end(), isBeside)) return dvec3(0.0);
         return (share * glm::dot(mean, normal) - back) * normal;
     }
 
@@ -92,7 +91,7 @@ class Cutter {
     std::vector<std::array<int, 3>> bareFaces() const {
         using Face = std::array<int, 3>;
         const auto key = [](Face face) {
-            std::ranges::sort(face);
+            std::sort(face.begin(), face.end());
             return face;
         };
         std::map<Face, int> users;
@@ -152,7 +151,7 @@ class Cutter {
     void addCutFace(const std::array<int, 4>& corners, const Corners& group) {
         Corners others;
         for (int corner : corners)
-            if (!core::contains(group, corner)) others.push_back(corner);
+            if (std::find(group.begin(), group.end(), corner) == group.end()) others.push_back(corner);
         std::vector<int> face;
         if (group.size() == 2)
             face = {vertexBeyond(group[0], others[0]), vertexBeyond(group[0], others[1]),

@@ -13,8 +13,8 @@ TAUT_VALUE_MEMBERS(Section);
 
 bool isName(const std::string& name) {
     return !name.empty() && name.size() <= 100 &&
-           std::ranges::all_of(
-               name,
+           std::all_of(
+               name.begin(), name.end(),
                [](char c) {
                    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
                           c == '_';
@@ -27,7 +27,7 @@ Place CheckInput::at(const std::string& key) const {
 }
 
 const Field* Section::find(const std::string& key) const {
-    const auto found = std::ranges::find(fields, key, &Field::key);
+    const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.key == key; });
     return found == fields.end() ? nullptr : &*found;
 }
 

@@ -144,7 +144,7 @@ void bindFlagOr(Field& row, std::size_t flag, std::size_t other) {
 
 void bindChoice(Field& row, std::size_t offset) {
     row.write = [=, choices = row.choices](void* spec, const Value& value) {
-        const auto chosen = std::ranges::find(choices, std::get<std::string>(value));
+        const auto chosen = std::find(choices.begin(), choices.end(), std::get<std::string>(value));
         const auto number = static_cast<int>(chosen - choices.begin());
         std::memcpy(static_cast<std::byte*>(spec) + offset, &number, sizeof number);
     };

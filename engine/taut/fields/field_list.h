@@ -235,7 +235,7 @@ class FieldList {
     }
     // The only values of a whole number; they also give its range.
     FieldList& oneOf(std::vector<int> values) {
-        const auto [low, high] = std::ranges::minmax_element(values);
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
         last().range = {static_cast<double>(*low), static_cast<double>(*high)};
         last().values = std::move(values);
         return *this;

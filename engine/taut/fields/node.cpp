@@ -9,7 +9,7 @@
 namespace taut::fields {
 
 const Member* Node::find(std::string_view key) const {
-    const auto found = std::ranges::find(members, key, &Member::key);
+    const auto found = std::find_if(members.begin(), members.end(), [&](const Member& m) { return m.key == key; });
     return found == members.end() ? nullptr : &*found;
 }
 

@@ -156,7 +156,7 @@ std::vector<Problems::Problem> Problems::sorted(const std::vector<Problem>& prob
                           problem.place.column);
     };
     std::vector<Problem> all = problems;
-    std::ranges::stable_sort(all, [&](const Problem& a, const Problem& b) { return rank(a) < rank(b); });
+    std::stable_sort(all.begin(), all.end(), [&](const Problem& a, const Problem& b) { return rank(a) < rank(b); });
     std::vector<Problem> once;
     std::size_t first = 0;  // of those at the same place
     for (Problem& problem : all) {

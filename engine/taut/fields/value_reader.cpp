@@ -6,8 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "taut/core/private/contains.h"
-
 namespace taut::fields {
 
 namespace {
@@ -84,7 +82,8 @@ class ValueReader {
 
     std::optional<Value> whole(const Node& node) const {
         const std::vector<int>& values = field_.values;
-        if (node.kind == NodeKind::whole && !values.empty() && !core::contains(values, node.whole))
+        if (node.kind == NodeKind::whole && !values.empty() &&
+            std::find(values.begin(), values.end(), node.whole) == values.end())
             return failKind(node);
         if (!number(node, field_.key)) return std::nullopt;
         if (node.whole % field_.multipleOf != 0) return failKind(node);
@@ -100,14 +99,15 @@ class ValueReader {
         if (node.kind != NodeKind::text) return fail(node, name, "a text", description(node));
         // A path or a name with a zero byte or a line break in it can only be a trap.
         const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
-        if (std::ranges::any_of(node.text, isControl))
+        if (std::any_of(node.text.begin(), node.text.end(), isControl))
             return fail(node, name, "a text of one line", "one with control characters");
         return node.text;
     }
 
     std::optional<Value> choice(const Node& node) const {
         if (node.kind != NodeKind::text) return failKind(node);
-        if (core::contains(field_.choices, node.text)) return Value(node.text);
+        if (std::find(field_.choices.begin(), field_.choices.end(), node.text) != field_.choices.end())
+            return Value(node.text);
         return fail(node, field_.key, description(field_), description(node), suggestion(node.text, field_.choices));
     }
 
@@ -138,7 +138,7 @@ class ValueReader {
         const auto values = numbers(node, field_.key);
         if (!values) return std::nullopt;
         const auto isTiny = [](double x) { return std::abs(x) < smallest; };
-        if (std::ranges::all_of(*values, isTiny)) {
+        if (std::all_of(values->begin(), values->end(), isTiny)) {
             problems_.addError(node.place, fmt::format("{} must not be [0, 0, 0]", field_.key));
             return std::nullopt;
         }
@@ -148,8 +148,8 @@ class ValueReader {
     // Three numbers as a painting program has them, from 0 to 255.
     static bool isInBytes(const Node& list) {
         const auto isByte = [](const Node& n) { return n.kind == NodeKind::whole && n.whole >= 0 && n.whole <= 255; };
-        return list.items.size() == 3 && std::ranges::all_of(list.items, isByte) &&
-               std::ranges::any_of(list.items, [](const Node& n) { return n.whole > 1; });
+        return list.items.size() == 3 && std::all_of(list.items.begin(), list.items.end(), isByte) &&
+               std::any_of(list.items.begin(), list.items.end(), [](const Node& n) { return n.whole > 1; });
     }
     std::nullopt_t failInBytes(const Node& list) const {
         const std::int64_t r = list.items[0].whole, g = list.items[1].whole, b = list.items[2].whole;

@@ -51,7 +51,7 @@ void sample(const Channel& channel, std::size_t width, double seconds, std::span
         return std::span(channel.values).subspan(at * width, width);
     };
     const auto stay = [&](std::size_t k) { std::copy_n(key(k, 1).begin(), width, values.begin()); };
-    const auto after = std::ranges::upper_bound(channel.times, seconds);
+    const auto after = std::upper_bound(channel.times.begin(), channel.times.end(), seconds);
     if (after == channel.times.begin()) {
         stay(0);
     } else if (after == channel.times.end() || channel.interpolation == Interpolation::step) {

@@ -41,12 +41,13 @@ int Figure::vertexCount() const {
 }
 
 const Animation* Figure::find(std::string_view animation) const {
-    const auto found = std::ranges::find(animations, animation, &Animation::name);
+    const auto found = std::find_if(animations.begin(), animations.end(),
+                                    [&](const Animation& other) { return other.name == animation; });
     return found != animations.end() ? &*found : nullptr;
 }
 
 int Figure::nodeNamed(std::string_view name) const {
-    const auto found = std::ranges::find(nodes, name, &Node::name);
+    const auto found = std::find_if(nodes.begin(), nodes.end(), [&](const Node& node) { return node.name == name; });
     return found != nodes.end() ? static_cast<int>(found - nodes.begin()) : -1;
 }
 

@@ -106,7 +106,7 @@ std::shared_ptr<const Force> AnchorSpec::make(const SceneSpec&) const {
 }
 
 void AnchorSpec::checkBodies(std::span<Body* const> bodies) const {
-    if (std::ranges::all_of(bodies, [&](const Body* body) { return pointsIn(target, *body).empty(); }))
+    if (std::all_of(bodies.begin(), bodies.end(), [&](const Body* body) { return pointsIn(target, *body).empty(); }))
         throw core::Error(core::ErrorKind::badContent,
                           world::at(source) + "target = \"" + target + "\" names no point");
 }

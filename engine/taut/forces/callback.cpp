@@ -49,7 +49,7 @@ class Callback final : public mechanics::ForceGenerator<Real> {
           mass_(seen_.size()) {}
 
     void addForces(const Motion& motion, int, int, Real* f) const override {
-        std::ranges::fill(f_, dvec3(0.0));
+        std::fill(f_.begin(), f_.end(), dvec3(0.0));
         spec_->force(read(motion), f_);
         for (std::size_t i = 0; i < seen_.size(); ++i) {
             if (!std::isfinite(f_[i].x) || !std::isfinite(f_[i].y) || !std::isfinite(f_[i].z))

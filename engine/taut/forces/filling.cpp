@@ -27,8 +27,8 @@ namespace {
 
 bool isIn(const FillingSpec& filling, const Body& body) {
     return !body.model.triangles.empty() &&
-           std::ranges::any_of(
-               filling.in, [&](const std::string& target) { return names(target, body); });
+           std::any_of(
+               filling.in.begin(), filling.in.end(), [&](const std::string& target) { return names(target, body); });
 }
 
 // (points) One of the points that welds keep in one place, or seams, also before they are closed.
@@ -39,7 +39,7 @@ std::vector<int> sewnPoints(const IslandPlan& plan) {
         return dynamic_cast<const Pins*>(plan.constraints[part.constraint].get()) != nullptr;
     };
     for (const JointTie& tie : plan.ties) {
-        if (tie.b < 0 || !holds(plan, tie) || std::ranges::none_of(tie.parts, isPin)) continue;
+        if (tie.b < 0 || !holds(plan, tie) || std::none_of(tie.parts.begin(), tie.parts.end(), isPin)) continue;
         const int kept = one[tie.a], other = one[tie.b];
         std::replace(one.begin(), one.end(), other, kept);
     }
@@ -47,10 +47,10 @@ std::vector<int> sewnPoints(const IslandPlan& plan) {
 }
 
 bool isDamaged(const IslandPlan& plan) {
-    return std::ranges::any_of(
-               plan.bodies, [](const Body* b) { return !b->damage.isEmpty(); }) ||
-           std::ranges::any_of(
-               plan.ties, [&](const JointTie& tie) { return !holds(plan, tie); });
+    return std::any_of(
+               plan.bodies.begin(), plan.bodies.end(), [](const Body* b) { return !b->damage.isEmpty(); }) ||
+           std::any_of(
+               plan.ties.begin(), plan.ties.end(), [&](const JointTie& tie) { return !holds(plan, tie); });
 }
 
 class FillingForce final : public ForceOf<FillingForce> {
@@ -165,8 +165,8 @@ void FillingSpec::checkBodies(std::span<Body* const> bodies) const {
         throw core::Error(core::ErrorKind::badContent,
                           world::at(source) + "in is empty; name the bodies that hold it, e.g. in = [\"cloth.ball\"]");
     for (const std::string& target : in)
-        if (std::ranges::none_of(
-                bodies, [&](const Body* body) { return names(target, *body) && !body->model.triangles.empty(); }))
+        if (std::none_of(bodies.begin(), bodies.end(),
+                         [&](const Body* body) { return names(target, *body) && !body->model.triangles.empty(); }))
             throw core::Error(core::ErrorKind::badContent,
                               world::at(source) + "in = \"" + target + "\" names no body with a surface");
 }

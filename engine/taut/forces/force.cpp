@@ -6,7 +6,7 @@ namespace taut::world {
 namespace {
 
 const Force* named(const ForceList& forces, const std::string& name) {
-    const auto found = std::ranges::find_if(forces, [&](const auto& f) { return f->name() == name; });
+    const auto found = std::find_if(forces.begin(), forces.end(), [&](const auto& f) { return f->name() == name; });
     return found == forces.end() ? nullptr : found->get();
 }
 

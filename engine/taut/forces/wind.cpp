@@ -99,8 +99,8 @@ class WindForce final : public ForceOf<WindForce> {
 
   private:
     bool actsOn(const Body& body) const {
-        return std::ranges::any_of(
-            targets_, [&](const std::string& t) { return names(t, body); });
+        return std::any_of(
+            targets_.begin(), targets_.end(), [&](const std::string& t) { return names(t, body); });
     }
 
     mechanics::LinearPath velocity_;  // [m/s]

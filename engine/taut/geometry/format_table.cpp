@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "taut/core/private/contains.h"
-
 // A line a format, in the order in which helps name them: the function that returns its row.
 #define TAUT_FORMATS(FORMAT) \
     FORMAT(usdaFormat)       \
@@ -39,7 +37,7 @@ const Format* formatOf(const Formats& formats, Holds what, const std::filesystem
 }
 
 bool isIn(const Format& format, const std::filesystem::path& path) {
-    return core::contains(format.endings, path.extension().string());
+    return std::find(format.endings.begin(), format.endings.end(), path.extension().string()) != format.endings.end();
 }
 
 }  // namespace taut::geometry

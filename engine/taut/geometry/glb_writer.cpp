@@ -28,8 +28,8 @@ namespace {
 
 template <class T>
 bool isConstant(const std::vector<T>& values) {
-    return std::ranges::all_of(
-        values, [&](const T& value) { return value == values.front(); });
+    return std::all_of(
+        values.begin(), values.end(), [&](const T& value) { return value == values.front(); });
 }
 
 std::string endingOf(const std::string& name) {

@@ -71,7 +71,7 @@ std::size_t GltfData::addIndices(std::span<const std::uint32_t> indices) {
 }
 
 std::size_t GltfData::addScalars(std::span<const float> values, bool hasBounds) {
-    const auto [least, most] = std::ranges::minmax_element(values);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
     return addAccessor(addView(bytesOf(values), ""), 0, componentFloat, values.size(), "SCALAR",
                        hasBounds ? fmt::format(R"(,"min":[{}],"max":[{}])", *least, *most) : "");
 }

@@ -109,7 +109,8 @@ UsdaWriter::Impl::Prim& UsdaWriter::Impl::primFor(const Part& part) {
     Prim& prim = prims.emplace_back();
     prim.part.identifier = part.identifier;
     prim.part.isTwoSided = part.isTwoSided;
-    auto known = std::ranges::find_if(materials, [&](const auto& material) { return material.first == part.finish; });
+    auto known = std::find_if(materials.begin(), materials.end(),
+                              [&](const auto& material) { return material.first == part.finish; });
     if (known == materials.end()) known = materials.insert(known, {part.finish, part.identifier});
     prim.material = known->second;
     if (last > first) prim.visibility.set(first, "\"invisible\"", scratch);
@@ -187,9 +188,9 @@ void UsdaWriter::write(const view::FrameView& view) {
         w.add(part);
         seen.push_back(part.identifier);
     }
-    std::ranges::sort(seen);
+    std::sort(seen.begin(), seen.end());
     for (Impl::Prim& prim : w.prims) {
-        if (!prim.isThere || std::ranges::binary_search(seen, prim.part.identifier)) continue;
+        if (!prim.isThere || std::binary_search(seen.begin(), seen.end(), prim.part.identifier)) continue;
         prim.isThere = false;
         if (prim.visibility.isEmpty()) prim.visibility.set(w.first, "\"inherited\"", w.scratch);
         prim.visibility.set(w.last, "\"invisible\"", w.scratch);

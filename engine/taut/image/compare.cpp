@@ -72,7 +72,8 @@ Comparison compare(const Image& a, const Image& b, const Tolerance& tolerance) {
     result.share = static_cast<double>(all.different) / pixels;
     result.mean = static_cast<double>(all.total) / (3.0 * pixels);
     result.largest = all.largest;
-    const long shift = *std::ranges::max_element(all.shift, [](long p, long q) { return std::abs(p) < std::abs(q); });
+    const long shift =
+        *std::max_element(all.shift.begin(), all.shift.end(), [](long p, long q) { return std::abs(p) < std::abs(q); });
     result.offset = static_cast<double>(shift) / pixels;
     result.within = result.share <= tolerance.share && result.worstTileShare <= tolerance.tileShare &&
                     std::abs(result.offset) <= tolerance.offset;

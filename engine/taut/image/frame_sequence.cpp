@@ -82,7 +82,7 @@ std::vector<std::int64_t> FramePattern::framesThere() const {
         if (error == std::errc() && end == last && frame >= 0 && pathOf(frame).filename() == name)
             frames.push_back(frame);
     }
-    std::ranges::sort(frames);
+    std::sort(frames.begin(), frames.end());
     return frames;
 }
 

@@ -4,8 +4,6 @@
 #include <optional>
 #include <set>
 
-#include "taut/core/private/contains.h"
-
 namespace taut::world {
 namespace {
 
@@ -82,7 +80,7 @@ CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Bod
     std::vector<double> side(plan.points.size(), 0.0);
     std::vector<bool> isCut(plan.points.size(), false);
     for (Body* body : plan.bodies) {
-        if (!core::contains(bodies, body)) continue;
+        if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) continue;
         if (!isPlane && !isAll && (body->model.grid[0] == 0 || !action.from || !action.upTo)) continue;
         const Knife knife = isPlane ? planeThrough(action, island, *body) : isAll ? Knife{} : segmentOn(action, *body);
         const bool isRigid = body->spec->isRigid();

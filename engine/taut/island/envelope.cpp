@@ -43,7 +43,7 @@ std::vector<int> pointsOf(const IslandPlan& plan, const std::string& target) {
     std::vector<int> points;
     for (const Body* body : matchBodies(plan.bodies, target))
         for (int i : selectPoints(body->model, parseTarget(target).selector)) points.push_back(body->pointOf[i]);
-    std::ranges::sort(points);
+    std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     return points;
 }
@@ -144,7 +144,8 @@ ForceList strongest(const ForceList& forces, const SceneSpec& strong) {
         for (const auto& other : scene)
             if (other->name() == force->name()) force = other;
     for (const auto& other : scene)
-        if (std::ranges::none_of(all, [&](const auto& f) { return f->name() == other->name(); })) all.push_back(other);
+        if (std::none_of(all.begin(), all.end(), [&](const auto& f) { return f->name() == other->name(); }))
+            all.push_back(other);
     return all;
 }
 

@@ -61,13 +61,14 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
     yielding_.watch(plan_, *dynamics_);
     mayFreeze_ = plan_.solver.onDivergence == OnDivergence::freeze;
     isChanged_ = !plan_.grips.empty();  // grips follow paths that the scene alone does not tell
-    hasCells_ = std::ranges::any_of(plan_.bodies, [](const Body* body) { return !body->model.cells.empty(); });
+    hasCells_ = std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
+                            [](const Body* body) { return !body->model.cells.empty(); });
 }
 
 void Island::setColliders(collision::Colliders colliders, std::span<const std::string> names) {
     colliders_ = std::move(colliders);
-    mayCollide_ =
-        colliders_.size() > 0 && std::ranges::any_of(plan_.bodies, [](const Body* b) { return b->spec->collide; });
+    mayCollide_ = colliders_.size() > 0 &&
+                  std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* b) { return b->spec->collide; });
     if (!mayCollide_) now_.contacts.clear();
     // Without restitution an impact takes ½ m v² from its point, and its shift adds ½ k (v h)². That is less while ω h
     // < 1. At the limits it is little enough for the sum to stay below 2 % (measured on stiff nets).
@@ -233,7 +234,7 @@ void Island::takeParts(const TickTime& time, int parts) {
 void Island::read(std::span<dvec3> x, std::span<dvec3> v) const {
     dynamics_->positions(x);
     if (frozen_)
-        std::ranges::fill(v, dvec3(0.0));
+        std::fill(v.begin(), v.end(), dvec3(0.0));
     else
         dynamics_->velocities(v);
 }

@@ -114,7 +114,7 @@ void addMetrics(Island& island, const TickTime& time, const std::function<bool(c
     for (const collision::Contact& contact : island.contacts()) metrics.contacts += counts[contact.point] ? 1 : 0;
     metrics.penetration = std::max(metrics.penetration, penetrationOf(island, counts));
     metrics.work += island.work();
-    if (island.isAsleep()) metrics.asleep += static_cast<int>(std::ranges::count(counts, true));
+    if (island.isAsleep()) metrics.asleep += static_cast<int>(std::count(counts.begin(), counts.end(), true));
     metrics.sleptEnergy += island.slept().energy;
     metrics.sleptMomentum += island.slept().momentum;
 }
@@ -141,7 +141,7 @@ IslandInfo infoOf(const Island& island, const TickTime& time) {
     }
     for (const auto& point : plan.points) info.mass += point.weighedMass();
     const std::vector<bool> isHeld = heldPointsOf(plan);
-    info.heldPoints = static_cast<int>(std::ranges::count(isHeld, true));
+    info.heldPoints = static_cast<int>(std::count(isHeld.begin(), isHeld.end(), true));
     info.points = static_cast<int>(plan.points.size());
     info.springs = static_cast<int>(plan.springs.size());
     for (const auto& constraint : plan.constraints)

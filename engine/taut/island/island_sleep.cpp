@@ -77,7 +77,7 @@ bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Footho
                 points[s].push_back(x[point]);
                 if (isHeld[point]) heldAt[s].push_back(points[s].back());
             }
-    if (std::ranges::count(solidOf, -1) > 0) return false;
+    if (std::count(solidOf.begin(), solidOf.end(), -1) > 0) return false;
     // Pairs that are one, or as far apart as they may be: the solid at either end, none for a collider.
     struct Pin {
         std::array<int, 2> solids;
@@ -108,7 +108,8 @@ bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Footho
             if (stays[s]) continue;
             std::vector<Island::Foothold> pressed;
             for (const Island::Foothold& foothold : footholds)
-                if (std::ranges::count(plan.solids[s], foothold.body) > 0) pressed.push_back(foothold);
+                if (std::count(plan.solids[s].begin(), plan.solids[s].end(), foothold.body) > 0)
+                    pressed.push_back(foothold);
             std::vector<dvec3> held = heldAt[s];
             for (const auto& [ends, place] : pins)
                 for (const std::size_t own : {std::size_t{0}, std::size_t{1}})
@@ -119,7 +120,7 @@ bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Footho
             isAny = isAny || stays[s];
         }
     }
-    return std::ranges::count(stays, false) == 0;
+    return std::count(stays.begin(), stays.end(), false) == 0;
 }
 
 }  // namespace
@@ -138,8 +139,9 @@ void Island::watchRest(bool isMiddle) {
 // Islands moved by a hand or a collider stay awake.
 bool Island::isCalm() {
     const auto moves = [](const auto& holder) { return holder.path.moves(); };
-    return rest_.isCalm() && now_.inside.empty() && !isOpen_ && std::ranges::none_of(plan_.grips, moves) &&
-           std::ranges::none_of(plan_.carriers, moves) && dynamics_->isSteady(forces_);
+    return rest_.isCalm() && now_.inside.empty() && !isOpen_ &&
+           std::none_of(plan_.grips.begin(), plan_.grips.end(), moves) &&
+           std::none_of(plan_.carriers.begin(), plan_.carriers.end(), moves) && dynamics_->isSteady(forces_);
 }
 
 // Points that constraints hold in one place move as one. Points that they hold otherwise have no stiffness, so they
@@ -192,7 +194,7 @@ bool Island::rests(double t, double seconds, std::vector<Support> supports, std:
             ways[i] = dvec3(0.0);
             for (const auto& [leader, weight] : leaders[i]) ways[i] += weight * in[leader];
         }
-        std::ranges::fill(forces, dvec3(0.0));
+        std::fill(forces.begin(), forces.end(), dvec3(0.0));
         stiffness(ways, forces);
         for (std::size_t i = 0; i < n; ++i)
             for (const auto& [leader, weight] : leaders[i]) sum[leader] += weight * forces[i];

@@ -64,10 +64,11 @@ void JoinedBodies::findGiven(std::span<const dvec3> at, std::span<const double> 
 
 bool JoinedBodies::isEmpty() const {
     const auto isOfBody = [&](const Spot& end) {
-        return std::ranges::any_of(
-            end.shares(), [&](const Spot::Share& own) { return bodyOf_[own.point] >= 0; });
+        return std::any_of(
+            end.shares().begin(), end.shares().end(), [&](const Spot::Share& own) { return bodyOf_[own.point] >= 0; });
     };
-    return std::ranges::none_of(pairs_, [&](const Pair& pair) { return isOfBody(pair.a) || isOfBody(pair.b); });
+    return std::none_of(pairs_.begin(), pairs_.end(),
+                        [&](const Pair& pair) { return isOfBody(pair.a) || isOfBody(pair.b); });
 }
 
 // moved_ = A way_

@@ -129,8 +129,8 @@ bool isCounted(Counts counts, const BodySpec& body) {
 
 bool isCounted(Counts counts, const SceneSpec& scene) {
     return counts == Counts::everyBody ||
-           std::ranges::any_of(
-               scene.bodies, [&](const BodySpec& body) { return isCounted(counts, body); });
+           std::any_of(
+               scene.bodies.begin(), scene.bodies.end(), [&](const BodySpec& body) { return isCounted(counts, body); });
 }
 
 }  // namespace taut::world

@@ -37,7 +37,7 @@ bool solve(std::span<const double> inverseMasses, std::span<const dvec3> normals
     u.assign(n, dvec3(0.0));
     const auto multiplyAcross = [&](const double* from, double* to) {
         std::copy_n(from, 3 * n, &in.front().x);
-        std::ranges::fill(sum, dvec3(0.0));
+        std::fill(sum.begin(), sum.end(), dvec3(0.0));
         multiply(in, sum);
         for (std::size_t i = 0; i < n; ++i) sum[i] = along(sum[i], normals[i]);
         std::copy_n(&sum.front().x, 3 * n, to);

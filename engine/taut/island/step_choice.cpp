@@ -162,8 +162,9 @@ void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
 void adviseOnDamping(const IslandPlan& plan, StepChoice& choice, const std::function<int(double)>& substepsWith) {
     constexpr double worthIt = 2.0, nearly = 0.5;
     const double tau = largestTau(plan);
-    const bool isOne = std::ranges::all_of(
-        plan.springs, [&](const mechanics::Spring& s) { return s.dampingTime == tau || s.dampingTime == 0; });
+    const bool isOne = std::all_of(plan.springs.begin(), plan.springs.end(), [&](const mechanics::Spring& s) {
+        return s.dampingTime == tau || s.dampingTime == 0;
+    });
     if (!(tau > 0) || !isOne) return;
     const double most = choice.substeps / worthIt;
     const int without = substepsWith(0.0);

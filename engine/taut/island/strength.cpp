@@ -47,7 +47,7 @@ Strength::Strength(const IslandPlan& plan) : plan_(plan), first_(plan.points.siz
 template <class Each>
 bool Strength::anyNear(int point, Each&& each) const {
     if (each(point)) return true;
-    return std::ranges::any_of(from(point), [&](const Way& way) {
+    return std::any_of(from(point).begin(), from(point).end(), [&](const Way& way) {
         const auto s = static_cast<std::size_t>(way.spring);
         return plan_.springs[s].kind == mechanics::SpringKind::structural && !plan_.broken[s] && each(way.to);
     });
@@ -62,7 +62,7 @@ bool Strength::isAtTip(int spring) const {
     };
     return anyNear(s.a, [&](int a) {
         // Looks for a broken spring that starts near one end and ends near the other.
-        return std::ranges::any_of(from(a), [&](const Way& way) {
+        return std::any_of(from(a).begin(), from(a).end(), [&](const Way& way) {
             return counts(way.spring) && anyNear(s.b, [&](int b) { return b == way.to; });
         });
     });
@@ -115,7 +115,7 @@ double Strength::yieldedLength(int spring, double l) const {
 }
 
 std::vector<int> Strength::firstToBreak(std::vector<Break> over) const {
-    std::ranges::sort(over, [](const Break& a, const Break& b) {
+    std::sort(over.begin(), over.end(), [](const Break& a, const Break& b) {
         return a.overload != b.overload ? a.overload > b.overload : a.spring < b.spring;
     });
     std::vector<bool> isRelieved(plan_.points.size(), false);

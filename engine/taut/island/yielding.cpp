@@ -61,7 +61,7 @@ void Yielding::remember(const IslandPlan& plan, int spring) {
 }
 
 void Yielding::remember(Body& body) {
-    if (std::ranges::none_of(damaged_, [&](const auto& kept) { return kept.first == &body; }))
+    if (std::none_of(damaged_.begin(), damaged_.end(), [&](const auto& kept) { return kept.first == &body; }))
         damaged_.emplace_back(&body, body.damage);
 }
 
@@ -87,8 +87,8 @@ void Yielding::undo(IslandPlan& plan, Dynamics& dynamics, const ForceList& force
 }
 
 void Yielding::watch(const IslandPlan& plan, Dynamics& dynamics) {
-    isOn_ = std::ranges::any_of(
-        plan.bodies, [](const Body* body) { return body->plasticity.yieldStrain || body->plasticity.breakStrain; });
+    isOn_ = std::any_of(plan.bodies.begin(), plan.bodies.end(),
+                        [](const Body* body) { return body->plasticity.yieldStrain || body->plasticity.breakStrain; });
     if (!isOn_) return;
     if (!strength_) strength_ = std::make_unique<const Strength>(plan);
     dynamics.watchLengths(strength_->limits());

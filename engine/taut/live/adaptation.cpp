@@ -29,7 +29,7 @@ double median(std::vector<double>& values) {
 Adaptation::Adaptation(std::vector<double> costs, int level, double goal)
     : costs_(std::move(costs)), level_(level), goal_(goal), unsettled_(starting), patience_(firstPatience) {
     TAUT_EXPECTS(!costs_.empty() && level >= 0 && level < static_cast<int>(costs_.size()) && goal > 0.0);
-    TAUT_EXPECTS(costs_.front() > 0.0 && std::ranges::is_sorted(costs_));
+    TAUT_EXPECTS(costs_.front() > 0.0 && std::is_sorted(costs_.begin(), costs_.end()));
 }
 
 bool Adaptation::add(double drawing, double turn) {

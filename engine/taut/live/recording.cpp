@@ -78,8 +78,9 @@ std::vector<Entry> entriesOf(const Recording& recording) {
         for (const world::ActionSpec& action : *actions)
             entries.push_back(
                 {static_cast<std::int64_t>(std::floor(action.t * recording.ticksPerSecond + 0.5)), &action});
-    std::erase_if(entries, [&](const Entry& entry) { return entry.tick >= recording.endTick; });
-    std::ranges::stable_sort(entries, {}, &Entry::tick);
+    std::erase_if(
+        entries, [&](const Entry& entry) { return entry.tick >= recording.endTick; });
+    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.tick < b.tick; });
     return entries;
 }
 

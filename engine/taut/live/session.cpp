@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/ecs/registry.h"
 #include "taut/live/private/worker.h"
 #include "taut/spec/ticks.h"
@@ -193,9 +192,10 @@ double Session::handForce(const std::string& body) const {
     constexpr double earth = 9.81;  // [m/s²]
     const std::vector<world::IslandInfo> islands = impl_->world.islands();
     const auto has = [](const world::IslandInfo& island, const std::string& name) {
-        return core::contains(island.bodies, name);
+        return std::find(island.bodies.begin(), island.bodies.end(), name) != island.bodies.end();
     };
-    const auto own = std::ranges::find_if(islands, [&](const auto& island) { return has(island, body); });
+    const auto own =
+        std::find_if(islands.begin(), islands.end(), [&](const auto& island) { return has(island, body); });
     double mass = 0.0;
     impl_->world.registry().each<world::BodyPart>([&](ecs::Entity, const world::BodyPart& part) {
         if (own == islands.end() || !has(*own, part.body->fullName())) return;
@@ -207,7 +207,8 @@ double Session::handForce(const std::string& body) const {
 
 void Session::grab(const PickedPoint& point) {
     const std::vector<BodyPoints> all = bodies();
-    const auto body = std::ranges::find(all, point.body, &BodyPoints::name);
+    const auto body =
+        std::find_if(all.begin(), all.end(), [&](const BodyPoints& other) { return other.name == point.body; });
     TAUT_EXPECTS(body != all.end());
     hand().grab(nameOf(point), gripShare * diagonalOf(*body), spec_.hand.strength, spec_.hand.dampingRatio,
                 point.position, handForce(point.body));
@@ -223,14 +224,14 @@ double Session::nextTime() const {
 
 Recording Session::record() {
     Impl& w = *impl_;
-    const auto isAtFrame = [&] {
+    const auto isWhole = [&] {
         const bool isFollowed =
             w.deeds.empty() || world::Ticks(spec_.run).at(w.deeds[w.deeds.size() - 1].t) < w.world.tick();
         return isFollowed && w.world.tick() % w.world.ticksPerFrame() == 0;
     };
     if (w.hand.isHolding()) w.hand.release();
     w.tickOnce();
-    while (!isAtFrame() && !w.divergence) w.tickOnce();
+    while (!isWhole() && !w.divergence) w.tickOnce();
     w.before = w.now = w.look();
     w.measure();
 

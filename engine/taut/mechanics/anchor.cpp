@@ -26,7 +26,7 @@ Anchor<Real>::Anchor(std::vector<int> points, const glm::dvec3& place, std::vect
     offsets.resize(points.size(), glm::dvec3(0.0));
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
     for (std::size_t i : order) {
         TAUT_EXPECTS(points_.empty() || points_.back() != points[i]);
         TAUT_EXPECTS(stiffness[i] >= 0.0 && damping[i] >= 0.0);
@@ -96,7 +96,7 @@ double Anchor<Real>::energy(std::size_t p, double distance) const {
 template <class Real>
 void Anchor<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
     const PosePath::Frame frame = path_.at(motion.t);
-    const auto begin = std::ranges::lower_bound(points_, first);
+    const auto begin = std::lower_bound(points_.begin(), points_.end(), first);
     const auto end = std::lower_bound(begin, points_.end(), last);
     for (auto point = begin; point != end; ++point) {
         const auto p = static_cast<std::size_t>(point - points_.begin());

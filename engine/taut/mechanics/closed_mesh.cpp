@@ -24,7 +24,7 @@ void expectMatchingSides(std::span<const std::array<int, 3>> triangles) {
             sides.push_back({low, high, triangles[t][k] == low ? 1 : -1, static_cast<int>(t)});
         }
     const auto rank = [](const Side& s) { return std::array{s.low, s.high, s.triangle}; };
-    std::ranges::sort(sides, [&](const Side& a, const Side& b) { return rank(a) < rank(b); });
+    std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return rank(a) < rank(b); });
     struct Edges {
         int count = 0, first = -1;  // the triangle of the first
 

@@ -68,7 +68,8 @@ void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real*
     // The chains with a stiff run: g of a whole step for each dashpot. between() damps them, so the sweeps do not.
     chainG_.clear();
     for (Chain& chain : chains_) {
-        chain.isBetween = chain.isAlone && std::ranges::any_of(chain.runs, [&](std::size_t r) { return isStiff_[r]; });
+        chain.isBetween = chain.isAlone &&
+                          std::any_of(chain.runs.begin(), chain.runs.end(), [&](std::size_t r) { return isStiff_[r]; });
         if (!chain.isBetween) continue;
         hasBetween_ = true;
         chain.firstG = chainG_.size();
@@ -145,7 +146,7 @@ void DashpotSweep<Real>::findChains(const SpringNetwork<Real>& network) {
         chain.count = last - first;
         chain.runs = {r};
     }
-    std::ranges::stable_sort(found, {}, &Chain::a);
+    std::stable_sort(found.begin(), found.end(), [](const Chain& x, const Chain& y) { return x.a < y.a; });
     for (Chain& next : found) {
         Chain* last = chains_.empty() ? nullptr : &chains_.back();
         if (last != nullptr && next.a <= last->a + last->count) {

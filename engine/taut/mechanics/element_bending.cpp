@@ -59,7 +59,7 @@ ElementBending<Real>::ElementBending(std::vector<BendingElement> elements, doubl
     kernels_ = TAUT_IN_USE(elementKernels<Real>)();
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
     for (std::size_t slot = 0; slot < order.size(); ++slot) {
         points_[slot] = points[order[slot]];
         slots_[order[slot]] = slot;
@@ -108,7 +108,8 @@ void ElementBending<Real>::set(std::vector<BendingElement> elements, double damp
                 const std::size_t other = slotOf(element.points[j]);
                 if (other <= slot) continue;
                 auto& list = couplings[slot];
-                const auto found = std::ranges::find(list, static_cast<int>(other), &Coupling::to);
+                const auto found = std::find_if(list.begin(), list.end(),
+                                                [&](const Coupling& c) { return c.to == static_cast<int>(other); });
                 const double weight = -glm::dot(row, element.weights[j]);
                 if (found != list.end())
                     found->weight += weight;
@@ -141,7 +142,8 @@ void ElementBending<Real>::set(std::vector<BendingElement> elements, double damp
     }
     std::vector<std::vector<Entry>> rows(points_.size());
     for (std::size_t i = 0; i < couplings.size(); ++i) {
-        std::ranges::sort(couplings[i], {}, &Coupling::to);
+        std::sort(couplings[i].begin(), couplings[i].end(),
+                  [](const Coupling& a, const Coupling& b) { return a.to < b.to; });
         for (const auto& [to, weight] : couplings[i]) {
             rows[i].push_back({to, static_cast<Real>(weight)});
             rows[to].push_back({static_cast<int>(i), static_cast<Real>(weight)});
@@ -301,7 +303,8 @@ template <class Real>
 double ElementBending<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
     double energy = 0;
     for (const BendingElement& element : elements_) {
-        if (!only.empty() && !std::ranges::all_of(element.points, [&](int i) { return only[i]; })) continue;
+        if (!only.empty() && !std::all_of(element.points.begin(), element.points.end(), [&](int i) { return only[i]; }))
+            continue;
         glm::dmat3 off = curvatureOf(element, motion);
         if (element.isCurved()) {
             dvec3 n = off[0];

@@ -52,7 +52,7 @@ std::vector<Triangle> thatEnclose(std::span<const Triangle> triangles, std::span
     std::map<Triangle, int> times;
     const auto sorted = [&](const Triangle& triangle) {
         Triangle t = known(triangle, one);
-        std::ranges::sort(t);
+        std::sort(t.begin(), t.end());
         return t;
     };
     for (const Triangle& t : triangles) ++times[sorted(t)];
@@ -79,7 +79,7 @@ Edges edgesOf(std::span<const Triangle> triangles, std::span<const int> one) {
 // Of an edge that several parts of a surface share, whether as many sides run along it as against it. Then it is open
 // nowhere: their shares of the volume, and of the force of a pressure, cancel.
 bool isShared(const std::vector<EdgeSide>& sides) {
-    const auto forward = std::ranges::count_if(sides, &EdgeSide::isForward);
+    const auto forward = std::count_if(sides.begin(), sides.end(), [](const EdgeSide& s) { return s.isForward; });
     return sides.size() > 2 && 2 * static_cast<std::size_t>(forward) == sides.size();
 }
 
@@ -245,9 +245,9 @@ double Filling<Real>::potentialEnergy(const Motion<Real>& motion, const std::vec
     const double pressure = pressure_.at(motion.t);
     for (const Chamber& chamber : chambers_) {
         const auto isLeftOut = [&](const Triangle& t) {
-            return !std::ranges::all_of(t, [&](int i) { return only[i]; });
+            return !std::all_of(t.begin(), t.end(), [&](int i) { return only[i]; });
         };
-        if (!only.empty() && std::ranges::any_of(chamber.triangles, isLeftOut)) continue;
+        if (!only.empty() && std::any_of(chamber.triangles.begin(), chamber.triangles.end(), isLeftOut)) continue;
         const double v = volumeOf(chamber, motion), v0 = chamber.firstVolume;
         switch (law_.keeps) {
             case FillingKeeps::pressure: {

@@ -73,7 +73,7 @@ typename GridBending<Real>::Coefficients GridBending<Real>::scaled(double factor
         return scaled;
     };
     const auto isNone = [](double value) { return value == 0; };
-    const bool hasBoth = !std::ranges::all_of(bending_.both, isNone);
+    const bool hasBoth = !std::all_of(bending_.both.begin(), bending_.both.end(), isNone);
     const std::optional<double> even = evenTwist(bending_);
     return {list(bending_.along), list(bending_.across), hasBoth ? list(bending_.both) : Array(),
             even ? Array() : list(bending_.twist), static_cast<Real>(factor * even.value_or(0))};
@@ -115,7 +115,7 @@ void GridBending<Real>::apply(const Coefficients& coefficients, Planes x, int st
     batch.both = coefficients.both.empty() ? nullptr : coefficients.both.data();
     batch.twist = coefficients.twist.empty() ? nullptr : coefficients.twist.data();
     batch.evenTwist = coefficients.evenTwist;
-    if (!isInOrder_) std::ranges::fill(sums_, Real(0));
+    if (!isInOrder_) std::fill(sums_.begin(), sums_.end(), Real(0));
     for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
         batch.x[axis] = x.x + axis * x.stride;
         batch.f[axis] = isInOrder_ ? f + axis * stride + points_.front() : sums_.data() + axis * size();

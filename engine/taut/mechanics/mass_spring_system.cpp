@@ -97,7 +97,8 @@ void MassSpringSystem<Real>::add(std::unique_ptr<ForceGenerator<Real>> generator
 template <class Real>
 void MassSpringSystem<Real>::removeGenerators(std::size_t from) {
     generators_.resize(from);
-    if (std::ranges::all_of(generators_, [](const auto& g) { return g->isUniform(); })) external_ = {};
+    if (std::all_of(generators_.begin(), generators_.end(), [](const auto& g) { return g->isUniform(); }))
+        external_ = {};
 }
 
 template <class Real>
@@ -136,7 +137,7 @@ void MassSpringSystem<Real>::accelerate(double t, const Real* x, const Real* v, 
         if (generator->isUniform()) {
             uniform += generator->uniformAcceleration(t);
         } else if (!generator->isLocal()) {
-            if (!isExternalFilled_) std::ranges::fill(external_, Real(0));
+            if (!isExternalFilled_) std::fill(external_.begin(), external_.end(), Real(0));
             isExternalFilled_ = true;
             generator->addForces(now, 0, now.count, external_.data());
         }

@@ -54,7 +54,7 @@ void checkIndices(const MeshClothShape& shape) {
                 reject("there is no vertex " + std::to_string(i + 1) + " of " + std::to_string(count), t);
             isUsed[i] = true;
         }
-    const auto unused = std::ranges::find(isUsed, false);
+    const auto unused = std::find(isUsed.begin(), isUsed.end(), false);
     if (unused != isUsed.end())
         reject("vertex " + numberOf(shape, static_cast<int>(unused - isUsed.begin())) + " belongs to no face");
 }
@@ -112,7 +112,7 @@ void addGroups(Model& model, const std::map<Edge, EdgeUse>& edges, const dvec3& 
     std::vector<int> boundary;
     for (const auto& [edge, use] : edges)
         if (use.uses == 1) boundary.insert(boundary.end(), {edge.first, edge.second});
-    std::ranges::sort(boundary);
+    std::sort(boundary.begin(), boundary.end());
     boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
     model.groups["boundary"] = boundary;
     // Sides: points within a hundredth of the extent.

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/mechanics/bending_elements.h"
 #include "taut/mechanics/private/rope_elements.h"
 
@@ -131,7 +130,7 @@ class MeshElements {
         for (std::size_t t = 0; t < triangles_.size(); ++t)
             for (std::size_t k = 0; k < 3; ++k)
                 if (takesPart[t]) uses.push_back({std::minmax(triangles_[t][k], triangles_[t][next(k)]), t, k});
-        std::ranges::stable_sort(uses, {}, &Use::edge);
+        std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.edge < b.edge; });
         neighbours_.resize(triangles_.size());
         for (std::size_t i = 0; i + 1 < uses.size(); ++i) {
             const Use &a = uses[i], &b = uses[i + 1];
@@ -151,8 +150,8 @@ class MeshElements {
     }
 
     bool isWhollyHeld(std::size_t t) const {
-        return std::ranges::all_of(
-            triangles_[t], [&](int i) { return isHeld_[at(i)]; });
+        return std::all_of(
+            triangles_[t].begin(), triangles_[t].end(), [&](int i) { return isHeld_[at(i)]; });
     }
     bool isBeyondHeld(std::size_t t, std::size_t side) const {
         const int beyond = neighbours_[t][side].triangle;
@@ -218,11 +217,11 @@ class MeshElements {
                     const Neighbour& beyond = neighbours_[laid[first].triangle][k];
                     if (beyond.triangle < 0 || isSlopeHeld(laid[first].triangle, k)) continue;
                     const auto isIt = [&](const Laid& l) { return l.triangle == at(beyond.triangle); };
-                    if (std::ranges::any_of(laid, isIt)) continue;
+                    if (std::any_of(laid.begin(), laid.end(), isIt)) continue;
                     laid.push_back(laidBeside(laid[first], k));
                     const std::size_t tip = next(next(beyond.side));
                     const int point = triangles_[at(beyond.triangle)][tip];
-                    if (core::contains(points, point)) continue;
+                    if (std::find(points.begin(), points.end(), point) != points.end()) continue;
                     points.push_back(point);
                     places.push_back((laid.back().corners[tip] - middle) / size);
                 }
@@ -254,7 +253,7 @@ class MeshElements {
     }
 
     static void add(BendingElement& element, int point, const dvec3& weight) {
-        const auto found = std::ranges::find(element.points, point);
+        const auto found = std::find(element.points.begin(), element.points.end(), point);
         if (found != element.points.end()) {
             element.weights[at(static_cast<int>(found - element.points.begin()))] += weight;
             return;

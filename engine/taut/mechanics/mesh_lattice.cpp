@@ -67,7 +67,7 @@ template <class Visit>
 void cutIntoCells(Polygon polygon, int axis, const Visit& visit) {
     if (axis == 3) return visit(polygon);
     const auto below = [&](const dvec3& a, const dvec3& b) { return a[axis] < b[axis]; };
-    const auto [least, most] = std::ranges::minmax_element(polygon, below);
+    const auto [least, most] = std::minmax_element(polygon.begin(), polygon.end(), below);
     const double high = (*most)[axis];
     for (double plane = std::floor((*least)[axis]) + 1.0; plane < high; plane += 1.0) {
         Polygon under, over;
@@ -183,7 +183,7 @@ class Choice {
         std::vector<std::pair<double, std::size_t>> small;
         for (std::size_t i = 0; i < shares_.size(); ++i)
             if (const double share = sumOf(shares_[i]); stays_[i] && share < smallShare) small.emplace_back(share, i);
-        std::ranges::sort(small);
+        std::sort(small.begin(), small.end());
         for (const auto& [share, index] : small) {
             const std::optional<ivec3> way = wayToCarrier(placeOf(index));
             if (!way || !isSimple(placeOf(index))) continue;

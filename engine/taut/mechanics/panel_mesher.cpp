@@ -152,8 +152,8 @@ void addInside(const PanelShape& shape, const std::vector<Side>& sides, PanelMes
                 near.push_back(side);
         for (int column = -columns; column <= columns; ++column) {
             const dvec2 p(middle.x + (column + (row % 2 != 0 ? 0.5 : 0.0)) * shape.cell, v);
-            const bool isClear =
-                std::ranges::all_of(near, [&](const Side& side) { return squaredDistance(p, side) >= reach * reach; });
+            const bool isClear = std::all_of(
+                near.begin(), near.end(), [&](const Side& side) { return squaredDistance(p, side) >= reach * reach; });
             if (isClear && isInside(p, near, 0)) mesh.points.push_back(p.x * along + p.y * up);
         }
     }

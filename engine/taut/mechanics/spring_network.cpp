@@ -258,7 +258,8 @@ bool SpringNetwork<Real>::setSpring(int spring, const Spring& now) {
         singles.restLength[i] = restLength;
         return std::exchange(singles.k[i], k) != k;
     }
-    const auto r = static_cast<std::size_t>(std::ranges::upper_bound(firstPlaces, place) - firstPlaces.begin() - 1);
+    const auto r = static_cast<std::size_t>(std::upper_bound(firstPlaces.begin(), firstPlaces.end(), place) -
+                                            firstPlaces.begin() - 1);
     SpringRun<Real>& run = runs[r];
     const int i = place - firstPlaces[r];
     const bool isOther = stiffness[run.table + i] != k;
@@ -292,7 +293,7 @@ void SpringNetwork<Real>::takeUndamped(const SpringNetwork& damped) {
         run.tau = 0;
         if (run.mixed >= 0) std::fill_n(mixed.begin() + run.mixed + run.count, run.count, Real(0));
     }
-    std::ranges::fill(singles.tau, Real(0));
+    std::fill(singles.tau.begin(), singles.tau.end(), Real(0));
 }
 
 template struct SpringNetwork<float>;

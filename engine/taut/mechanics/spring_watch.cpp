@@ -30,7 +30,8 @@ void SpringWatch<Real>::set(const SpringNetwork<Real>& network, std::span<const 
     const std::size_t places = network.order.size();
     most_.assign(places, std::numeric_limits<Real>::infinity());
     least_.clear();
-    if (std::ranges::any_of(limits, [](const LengthLimits& l) { return l.least > 0; })) least_.assign(places, Real(0));
+    if (std::any_of(limits.begin(), limits.end(), [](const LengthLimits& l) { return l.least > 0; }))
+        least_.assign(places, Real(0));
     const auto isWatched = [&](std::size_t first, std::size_t last) {
         return std::any_of(network.order.begin() + static_cast<std::ptrdiff_t>(first),
                            network.order.begin() + static_cast<std::ptrdiff_t>(last),

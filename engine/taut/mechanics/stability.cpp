@@ -101,7 +101,7 @@ struct PressureCouplings {
     void add(int a, int b, const glm::dvec3& h) {
         auto& of = higher[std::min(a, b)];
         const int other = std::max(a, b);
-        auto found = std::ranges::find_if(of, [&](const auto& pair) { return pair.first == other; });
+        auto found = std::find_if(of.begin(), of.end(), [&](const auto& pair) { return pair.first == other; });
         if (found == of.end()) found = of.insert(found, {other, glm::dvec3(0.0)});
         found->second += h;
     }
@@ -140,7 +140,7 @@ double largestRow(const NetworkView& network, PressureCouplings& pressed) {
     std::vector<double> rows(network.inverseMasses.size(), 0.0);
     for (std::size_t a = 0; a < rows.size(); ++a) {
         auto& of = pressed.higher[a];
-        std::ranges::sort(of, [](const auto& p, const auto& q) { return p.first < q.first; });
+        std::sort(of.begin(), of.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
         for (const auto& [other, h] : of) {
             const auto b = static_cast<std::size_t>(other);
             const double entry = std::sqrt(network.inverseMasses[a] * network.inverseMasses[b] * glm::dot(h, h));
@@ -148,7 +148,7 @@ double largestRow(const NetworkView& network, PressureCouplings& pressed) {
             rows[b] += entry;
         }
     }
-    return rows.empty() ? 0.0 : *std::ranges::max_element(rows);
+    return rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
 }
 
 // Σ_e T_e K_e at the points, T_e the sum of `weights` (points; empty: 1) over the points of the element e. `loose`
@@ -312,7 +312,7 @@ Ritz largestRitz(std::span<const double> inverseMasses, const StiffnessProduct& 
     double scale = 0;
     for (int k = 0; k < products; ++k) {
         for (std::size_t i = 0; i < n; ++i) scaled[i] = q[i] * std::sqrt(inverseMasses[i]);
-        std::ranges::fill(r, glm::dvec3(0.0));
+        std::fill(r.begin(), r.end(), glm::dvec3(0.0));
         multiply(scaled, r);
         double a = 0;
         for (std::size_t i = 0; i < n; ++i) {

@@ -247,7 +247,7 @@ double StateBound<Real>::largestOfSprings(const SpringNetwork<Real>& network, co
 // The a_i of the first sweep of stability.h, at rest.
 template <class Real>
 void StateBound<Real>::findWeights(const SpringNetwork<Real>& network, const Real* inverseMass) {
-    std::ranges::fill(sum_, Real(0));
+    std::fill(sum_.begin(), sum_.end(), Real(0));
     sumSprings(network, rest_.data(), Of::stiffness, nullptr);
     lookAtCells(rest_.data());
     sumCells(nullptr);
@@ -267,8 +267,8 @@ double StateBound<Real>::largestShare() const {
 // The largest row sum of the share of the cells' pressures, see B2 in stability.h.
 template <class Real>
 double StateBound<Real>::largestRow(const Real* inverseMass) {
-    std::ranges::fill(pressed_, glm::dvec3(0.0));
-    std::ranges::fill(rows_, 0.0);
+    std::fill(pressed_.begin(), pressed_.end(), glm::dvec3(0.0));
+    std::fill(rows_.begin(), rows_.end(), 0.0);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         const VolumeCell& cell = cells_[c];
         const CellCorners& p = looks_[c].corners;
@@ -292,14 +292,14 @@ double StateBound<Real>::largestRow(const Real* inverseMass) {
             for (const auto& [i, j, h] : couplingsOf(fold, looks_[c].corners))
                 add(cells_[c].points[i], cells_[c].points[j], cells_[c].bulkModulus * h);
         });
-    return rows_.empty() ? 0.0 : *std::ranges::max_element(rows_);
+    return rows_.empty() ? 0.0 : *std::max_element(rows_.begin(), rows_.end());
 }
 
 // If all springs have the same damping time, C is at most that time times their K.
 template <class Real>
 FastestNow StateBound<Real>::operator()(const SpringNetwork<Real>& network, const Real* x, const Real* inverseMass) {
     FastestNow now;
-    const auto clear = [&] { std::ranges::fill(sum_, Real(0)); };
+    const auto clear = [&] { std::fill(sum_.begin(), sum_.end(), Real(0)); };
     if (network.largestTau > Real(0) && !network.isTauUniform) {
         clear();
         sumSprings(network, x, Of::dashpots, nullptr);

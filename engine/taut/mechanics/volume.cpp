@@ -111,7 +111,7 @@ double VolumePreservation<Real>::potentialEnergy(const Motion<Real>& motion, con
     double energy = 0.0;
     for (const VolumeCell& cell : cells_) {
         const auto isLeftOut = [&](int point) { return !only.empty() && !only[point]; };
-        if (std::ranges::any_of(cell.points, isLeftOut)) continue;
+        if (std::any_of(cell.points.begin(), cell.points.end(), isLeftOut)) continue;
         energy += volumeEnergy(cell, cornersOf(cell, motion.x, motion.stride));
     }
     return energy;
@@ -122,7 +122,7 @@ void VolumePreservation<Real>::addStiffnessProduct(const Motion<Real>& motion, c
     const std::ptrdiff_t stride = motion.stride;
     for (const VolumeCell& cell : cells_) {
         const Corners w = cornersOf(cell, u, stride);
-        if (std::ranges::all_of(w, [](const dvec3& own) { return own == dvec3(0.0); })) continue;
+        if (std::all_of(w.begin(), w.end(), [](const dvec3& own) { return own == dvec3(0.0); })) continue;
         const Corners p = cornersOf(cell, motion.x, stride);
         const Corners g = gradientsOf(p);
         const double change = volumeOf(p) / cell.restVolume - 1.0;

@@ -135,7 +135,7 @@ class ImplicitEuler final : public Method<Real> {
         const Real h = static_cast<Real>(now.h);
         const Real *mass = now.linear.masses(), *drag = now.system.dragRates();
         accelerate(now, state.x.data(), state.v.data());
-        std::ranges::fill(scratch_, Real(0));
+        std::fill(scratch_.begin(), scratch_.end(), Real(0));
         now.linear.linearise(now.end, state.x.data(), state.v.data(), now.h * now.h, 0.0);
         now.linear.addProduct(state.v.data(), scratch_.data());
         ++this->work_.iterations;
@@ -143,7 +143,7 @@ class ImplicitEuler final : public Method<Real> {
         std::copy(state.x.begin(), state.x.end(), place_.begin());
         std::copy(state.v.begin(), state.v.end(), trial_.begin());
         now.system.prescribe(now.end, place_.data(), trial_.data());
-        std::ranges::fill(b_, Real(0));
+        std::fill(b_.begin(), b_.end(), Real(0));
         forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
             if (isFree(now, i)) {
                 b_[at] = h * (mass[i] * acceleration_[at] - mass[i] * drag[i] * state.v[at]) - scratch_[at] +
@@ -172,7 +172,7 @@ class ImplicitEuler final : public Method<Real> {
         double norm = residual(now, u_.data());
         const double target = newtonTolerance_ * std::max(scale, norm);
         for (int n = 1; n < newtonSteps_ && norm > target; ++n) {
-            std::ranges::fill(change_, Real(0));
+            std::fill(change_.begin(), change_.end(), Real(0));
             solve(now, place_.data(), u_.data());
             double part = 1.0, next = norm;
             for (int halving = 0; halving < 12; ++halving, part *= 0.5) {
@@ -195,7 +195,7 @@ class ImplicitEuler final : public Method<Real> {
         for (std::size_t i = 0; i < u_.size(); ++i) place_[i] = state.x[i] + h * u[i];
         now.system.prescribe(now.end, place_.data(), nullptr);
         accelerate(now, place_.data(), u);
-        std::ranges::fill(b_, Real(0));
+        std::fill(b_.begin(), b_.end(), Real(0));
         forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
             if (!isFree(now, i)) return;
             b_[at] = mass[i] * (state.v[at] + supports_.rubbed(at) - u[at] + h * (acceleration_[at] - drag[i] * u[at]));

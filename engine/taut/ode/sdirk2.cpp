@@ -97,11 +97,11 @@ class Sdirk2 final : public Method<Real> {
         ImplicitSystem<Real>& implicit = *system.implicitPart();
         const Real *mass = implicit.masses(), *inverseMass = implicit.inverseMasses(), *drag = system.dragRates();
         for (std::size_t i = 0; i < u_.size(); ++i) change_[i] = u_[i] - seen_[i];
-        std::ranges::fill(b_, Real(0));
+        std::fill(b_.begin(), b_.end(), Real(0));
         implicit.linearise(t, place_.data(), seen_.data(), 0.0, s);
         implicit.addProduct(change_.data(), b_.data());
         ++this->work_.iterations;
-        std::ranges::fill(change_, Real(0));
+        std::fill(change_.begin(), change_.end(), Real(0));
         forEachNumber(layout, [&](std::size_t at, std::size_t i) {
             const Real pull = v[at] - u_[at] + step * (force_[at] - drag[i] * u_[at]);
             b_[at] = inverseMass[i] > Real(0) ? mass[i] * pull - b_[at] : Real(0);

@@ -38,19 +38,21 @@ namespace {
 // Whether the grip belongs to this tie alone or serves several, this one among them.
 bool isOf(const Grip& grip, const IslandPlan& plan, const JointTie& tie) {
     if (grip.tie >= 0) return &plan.ties[grip.tie] == &tie;
-    return grip.ofCollider && grip.holder == tie.collider && std::ranges::binary_search(grip.points, tie.a);
+    return grip.ofCollider && grip.holder == tie.collider &&
+           std::binary_search(grip.points.begin(), grip.points.end(), tie.a);
 }
 
 }  // namespace
 
 bool holds(const IslandPlan& plan, const JointTie& tie) {
-    return std::ranges::any_of(
-               tie.springs, [&](int s) { return !plan.broken[s]; }) ||
-           std::ranges::any_of(
-               tie.parts,
+    return std::any_of(
+               tie.springs.begin(), tie.springs.end(), [&](int s) { return !plan.broken[s]; }) ||
+           std::any_of(
+               tie.parts.begin(), tie.parts.end(),
                [&](const JointTie::Part& part) { return plan.constraints[part.constraint]->holds(part.tie); }) ||
-           (tie.isGrip && std::ranges::any_of(
-                              plan.grips, [&](const Grip& grip) { return isOf(grip, plan, tie); }));
+           (tie.isGrip &&
+            std::any_of(
+                plan.grips.begin(), plan.grips.end(), [&](const Grip& grip) { return isOf(grip, plan, tie); }));
 }
 
 bool letGo(IslandPlan& plan, std::size_t number) {
@@ -71,14 +73,14 @@ bool letGo(IslandPlan& plan, std::size_t number) {
 }
 
 void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::PosePath& path) {
-    const bool isThere =
-        std::ranges::any_of(plan.carriers, [&](const Carrier& carrier) { return carrier.collider == collider; });
+    const bool isThere = std::any_of(plan.carriers.begin(), plan.carriers.end(),
+                                     [&](const Carrier& carrier) { return carrier.collider == collider; });
     if (!isThere) plan.carriers.push_back({collider, path});
 }
 
 const mechanics::PosePath& pathOf(const IslandPlan& plan, const std::string& collider) {
     const auto isIt = [&](const Carrier& carrier) { return carrier.collider == collider; };
-    return std::ranges::find_if(plan.carriers, isIt)->path;
+    return std::find_if(plan.carriers.begin(), plan.carriers.end(), isIt)->path;
 }
 
 void takeSpringsFromModels(IslandPlan& plan) {
@@ -182,8 +184,9 @@ std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
 }
 
 bool isPinned(const IslandPlan& plan, int point) {
-    return std::ranges::any_of(
-        plan.constraints, [&](const auto& constraint) { return constraint->carries(point); });
+    return std::any_of(
+        plan.constraints.begin(), plan.constraints.end(),
+        [&](const auto& constraint) { return constraint->carries(point); });
 }
 
 std::vector<bool> heldPointsOf(const IslandPlan& plan) {
@@ -200,9 +203,11 @@ std::vector<bool> heldPointsOf(const IslandPlan& plan) {
 
 bool isFree(const IslandPlan& plan, int point) {
     return !plan.points[point].held && !isPinned(plan, point) &&
-           std::ranges::none_of(
-               plan.grips,
-               [&](const Grip& grip) { return grip.rigid && std::ranges::binary_search(grip.points, point); });
+           std::none_of(
+               plan.grips.begin(), plan.grips.end(),
+               [&](const Grip& grip) {
+                   return grip.rigid && std::binary_search(grip.points.begin(), grip.points.end(), point);
+               });
 }
 
 double lengthOf(const mechanics::Spring& spring, std::span<const dvec3> x) {

@@ -136,7 +136,7 @@ void addJoint(const JointSpec& joint, int ofScene, const ScenePoints& scene, Cou
     std::vector<JointEnd> as = endsOf(joint.a, joint, place, scene), bs = endsOf(joint.b, joint, place, scene);
     if (place && !joint.isWeld() && as.size() < bs.size()) std::swap(as, bs);  // all go to the place
     const auto isOther = [&](const JointEnd& end) { return end.body != as.front().body; };
-    const bool isOneBody = std::ranges::none_of(as, isOther) && std::ranges::none_of(bs, isOther);
+    const bool isOneBody = std::none_of(as.begin(), as.end(), isOther) && std::none_of(bs.begin(), bs.end(), isOther);
     const bool mayTieWithin = isOneBody || joint.tiesWithin();
     const bool merges = joint.isWeld() && !isOneBody && !joint.hasOwnTies();
     JointReport& report = coupled.reports.emplace_back();
@@ -191,7 +191,8 @@ void addJoint(const JointSpec& joint, int ofScene, const ScenePoints& scene, Cou
         report.pairs.push_back({&scene.body(numbers.first), &scene.body(numbers.second), points});
     for (const auto& [number, distance] : reached) {
         const Body* named = &scene.body(number);
-        if (std::ranges::none_of(report.pairs, [&](const auto& pair) { return pair.a == named || pair.b == named; }))
+        if (std::none_of(report.pairs.begin(), report.pairs.end(),
+                         [&](const auto& pair) { return pair.a == named || pair.b == named; }))
             report.loose.emplace_back(named, distance);
     }
 }

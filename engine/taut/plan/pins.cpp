@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/plan/island_plan.h"
 
 namespace taut::world {
@@ -160,9 +159,9 @@ std::vector<int> Pins::clusterOf(int point) const {
         std::vector<int> own;
         for (int n = cluster.first; n < cluster.last; ++n)
             if (const int number = nodes_[n].number; !ends_.isPlace(number)) own.push_back(ends_.points[number]);
-        if (core::contains(own, point)) all = own;
+        if (std::find(own.begin(), own.end(), point) != own.end()) all = own;
     }
-    std::ranges::sort(all);
+    std::sort(all.begin(), all.end());
     return all;
 }
 
@@ -192,8 +191,8 @@ std::optional<std::vector<Constraint::Pair>> Pins::joinedFrom(double t) const {
     std::vector<bool> follows(then.clusters_.size(), false), leads = follows;
     for (const Row& row : then.rows_) {
         // The end that is a point has its whole weight.
-        const auto own =
-            std::ranges::find_if(row.clusters, [](const Spot::Share& share) { return std::abs(share.weight) == 1.0; });
+        const auto own = std::find_if(row.clusters.begin(), row.clusters.end(),
+                                      [](const Spot::Share& share) { return std::abs(share.weight) == 1.0; });
         if (own == row.clusters.end() || follows[own->point]) return std::nullopt;
         follows[own->point] = true;
         std::vector<Spot::Share> shares;
@@ -240,8 +239,9 @@ void Pins::check() const {
 }
 
 bool Pins::isDue(double t) const {
-    return std::ranges::any_of(
-        pins_, [&](const Pin& pin) { return pin.closing.length == Closing::notBegun && t >= pin.closing.start; });
+    return std::any_of(
+        pins_.begin(), pins_.end(),
+        [&](const Pin& pin) { return pin.closing.length == Closing::notBegun && t >= pin.closing.start; });
 }
 
 void Pins::begin(double t, std::span<const dvec3> x) {
@@ -308,7 +308,7 @@ bool Pins::join(std::span<dvec3> values, const Moment& moment) {
         const auto nodes = std::span(nodes_).subspan(cluster.first, cluster.last - cluster.first);
         const auto value = [&](const Node& node) -> dvec3& { return values[node.number]; };
         const auto weight = [&](const Node& node) { return moment.inverseMass[node.number]; };
-        const auto fixed = std::ranges::find_if(nodes, [&](const Node& n) { return !(weight(n) > 0); });
+        const auto fixed = std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return !(weight(n) > 0); });
         // Where the cluster goes: to the fixed node, or to the centre of mass.
         dvec3 target = value(fixed != nodes.end() ? *fixed : nodes.front());
         if (fixed == nodes.end()) {
@@ -377,7 +377,7 @@ bool Pins::joinBetween(std::span<dvec3> values, const Moment& moment) {
     matrix_.solve(std::span(pull_));
     // Each node needs its mass times the way of its cluster, of which rows give a part.
     way_.assign(clusters_.size(), dvec3(0.0));
-    std::ranges::fill(sum_, dvec3(0.0));
+    std::fill(sum_.begin(), sum_.end(), dvec3(0.0));
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         for (const auto& [cluster, weight] : rows_[i].clusters) way_[cluster] += (weight * ease_[cluster]) * pull_[i];
         for (const auto& [number, weight] : rows_[i].points) sum_[nodeOf_[number]] -= weight * pull_[i];

@@ -50,7 +50,8 @@ std::vector<int> localOrder(const mechanics::Model& model) {
     const dvec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     std::vector<int> starts = order;
-    std::ranges::stable_sort(starts, [&](int a, int b) { return model.positions[a][axis] < model.positions[b][axis]; });
+    std::stable_sort(starts.begin(), starts.end(),
+                     [&](int a, int b) { return model.positions[a][axis] < model.positions[b][axis]; });
     std::vector<bool> seen(order.size(), false);
     order.clear();
     for (int start : starts) {
@@ -59,7 +60,7 @@ std::vector<int> localOrder(const mechanics::Model& model) {
         order.push_back(start);
         for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
             std::vector<int>& around = neighbours[order[next]];
-            std::ranges::sort(around);
+            std::sort(around.begin(), around.end());
             for (int i : around)
                 if (!seen[i]) {
                     seen[i] = true;

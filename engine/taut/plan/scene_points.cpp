@@ -24,7 +24,7 @@ std::size_t ScenePoints::count() const {
 }
 
 PointRef ScenePoints::refOf(int global) const {
-    const auto after = std::ranges::upper_bound(firstGlobal_, global);
+    const auto after = std::upper_bound(firstGlobal_.begin(), firstGlobal_.end(), global);
     return {static_cast<int>(after - firstGlobal_.begin()) - 1, global - after[-1]};
 }
 
@@ -59,8 +59,9 @@ Spot ScenePoints::spotOf(int number, const dvec3& place) const {
     const auto globalOf = [&](int i) { return global({number, i}); };
     if (body(number).spec->isRigid()) return spotAt(body(number), place).renumbered(globalOf);
     const auto distanceTo = [&](const dvec3& x) { return glm::dot(x - place, x - place); };
-    const auto nearest = std::ranges::min_element(
-        model.positions, [&](const dvec3& x, const dvec3& other) { return distanceTo(x) < distanceTo(other); });
+    const auto nearest =
+        std::min_element(model.positions.begin(), model.positions.end(),
+                         [&](const dvec3& x, const dvec3& other) { return distanceTo(x) < distanceTo(other); });
     return globalOf(static_cast<int>(nearest - model.positions.begin()));
 }
 

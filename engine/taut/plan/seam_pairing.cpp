@@ -6,8 +6,6 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "taut/core/private/contains.h"
-
 namespace taut::world {
 namespace {
 
@@ -43,7 +41,7 @@ Line lineAlong(std::span<const Link> links, std::span<const int> points) {
             next[a].push_back(b);
             next[b].push_back(a);
         }
-    const auto end = std::ranges::find_if(next, [](const auto& own) { return own.second.size() == 1; });
+    const auto end = std::find_if(next.begin(), next.end(), [](const auto& own) { return own.second.size() == 1; });
     Line line{{}, end == next.end()};
     if (next.empty()) return {};
     const int first = line.isClosed ? next.begin()->first : end->first;
@@ -51,7 +49,7 @@ Line lineAlong(std::span<const Link> links, std::span<const int> points) {
         line.points.push_back(here);
         const std::vector<int>& ways = next.at(here);
         if (ways.size() > 2) return {};
-        const auto on = std::ranges::find_if(ways, [&](int i) { return i != before; });
+        const auto on = std::find_if(ways.begin(), ways.end(), [&](int i) { return i != before; });
         if (on == ways.end() || *on == first) break;
         before = here;
         here = *on;
@@ -86,7 +84,7 @@ Way wayAlong(const SewnEdge& edge, std::size_t start, bool isBackward) {
 // nearest to `place`. Expects that shares do not fall.
 int nearest(const Way& way, const SewnEdge& edge, double share, const dvec3& place) {
     const std::vector<double>& shares = way.shares;
-    const auto after = std::ranges::lower_bound(shares, share);
+    const auto after = std::lower_bound(shares.begin(), shares.end(), share);
     const bool isBefore = after != shares.begin() && (after == shares.end() || share - after[-1] <= *after - share);
     const auto [first, last] = std::equal_range(shares.begin(), shares.end(), isBefore ? after[-1] : *after);
     const auto squareAt = [&](std::ptrdiff_t k) {
@@ -105,7 +103,7 @@ Spot spotAt(const Way& way, const SewnEdge& edge, double share, const dvec3& pla
     constexpr double asGood = 0.01;  // of the step between two places
     const auto at = [&](std::ptrdiff_t k) { return way.shares[k]; };
     const int best = nearest(way, edge, share, place);
-    const std::ptrdiff_t after = std::ranges::lower_bound(way.shares, share) - way.shares.begin();
+    const std::ptrdiff_t after = std::lower_bound(way.shares.begin(), way.shares.end(), share) - way.shares.begin();
     if (after == 0 || after == std::ssize(way.shares)) return best;
     const double step = at(after) - at(after - 1);
     if (std::abs(share - at(best)) <= asGood * step) return best;
@@ -140,7 +138,7 @@ std::vector<SewnPair> pairs(const Way& many, const SewnEdge& manyEdge, const Way
     for (std::size_t j = 0; j < few.shares.size(); ++j)
         if (!isTaken[j])
             all.push_back({partner(many, manyEdge, few.shares[j], placeOf(few, fewEdge, j)), static_cast<int>(j)});
-    std::ranges::stable_sort(all, [](const SewnPair& own, const SewnPair& other) {
+    std::stable_sort(all.begin(), all.end(), [](const SewnPair& own, const SewnPair& other) {
         return std::pair(own.a.nearest(), own.b.nearest()) < std::pair(other.a.nearest(), other.b.nearest());
     });
     return all;
@@ -188,7 +186,7 @@ std::vector<SewnPair> pairedByLength(const SewnEdge& a, const SewnEdge& b) {
     std::vector<SewnPair> once;  // the start of a closed edge is there twice
     for (SewnPair& pair : best) {
         if (turnsFirst) std::swap(pair.a, pair.b);
-        if (!core::contains(once, pair)) once.push_back(pair);
+        if (std::find(once.begin(), once.end(), pair) == once.end()) once.push_back(pair);
     }
     return once;
 }

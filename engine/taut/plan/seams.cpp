@@ -16,12 +16,13 @@ using core::Error;
 using core::ErrorKind;
 
 bool isHeld(const Spot& spot, const ScenePoints& scene) {
-    return std::ranges::all_of(
-        spot.shares(),
+    return std::all_of(
+        spot.shares().begin(), spot.shares().end(),
         [&](const Spot::Share& own) {
             const PointRef p = scene.refOf(own.point);
             const std::vector<int>& carried = scene.body(p.body).carried;
-            return scene.body(p.body).model.held[p.point] || std::ranges::binary_search(carried, p.point);
+            return scene.body(p.body).model.held[p.point] ||
+                   std::binary_search(carried.begin(), carried.end(), p.point);
         });
 }
 
@@ -64,12 +65,14 @@ SeamRow rowOf(const JointSide& side, const Source& source, const ScenePoints& sc
         return std::min(scene.distance(end, next.front()), scene.distance(end, next.back()));
     };
     std::vector<PointRef>& first = edges.front();
-    if (edges.size() > 1 && reach(first.front(), edges[1]) < reach(first.back(), edges[1])) std::ranges::reverse(first);
+    if (edges.size() > 1 && reach(first.front(), edges[1]) < reach(first.back(), edges[1]))
+        std::reverse(first.begin(), first.end());
     SeamRow row;
     for (std::vector<PointRef>& next : edges) {
         if (!row.points.empty()) {
             const PointRef last = row.points.back();
-            if (scene.distance(last, next.back()) < scene.distance(last, next.front())) std::ranges::reverse(next);
+            if (scene.distance(last, next.back()) < scene.distance(last, next.front()))
+                std::reverse(next.begin(), next.end());
             if (scene.global(last) == scene.global(next.front()))
                 row.points.pop_back();
             else
@@ -196,19 +199,20 @@ void markSeamCorners(const ScenePoints& scene, const Couplings& coupled) {
             if (!a.isPoint() || !b.isPoint()) continue;
             const PointRef p = scene.refOf(number);
             std::vector<PointRef>& own = members[one.find(number)];
-            if (std::ranges::none_of(own, [&](const PointRef& o) { return scene.global(o) == scene.global(p); }))
+            if (std::none_of(own.begin(), own.end(),
+                             [&](const PointRef& o) { return scene.global(o) == scene.global(p); }))
                 own.push_back(p);
         }
     for (const auto& entry : members) {
         const std::vector<PointRef>& own = entry.second;
-        const bool isCorner = own.size() > 2 || std::ranges::any_of(own, [&](const PointRef& p) {
+        const bool isCorner = own.size() > 2 || std::any_of(own.begin(), own.end(), [&](const PointRef& p) {
                                   return turns(p) || ways(p) != ways(own.front());
                               });
         for (const PointRef& p : own)
             if (isCorner) scene.body(p.body).seamCorners.push_back(p.point);
     }
     for (const PointRef& p : between) scene.body(p.body).seamCorners.push_back(p.point);
-    for (Body* body : scene.bodies()) std::ranges::sort(body->seamCorners);
+    for (Body* body : scene.bodies()) std::sort(body->seamCorners.begin(), body->seamCorners.end());
 }
 
 }  // namespace taut::world

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/core/rigid_motion.h"
 #include "taut/plan/private/couplings.h"
 #include "taut/plan/private/rigid_constraint.h"
@@ -108,7 +107,7 @@ void addSolids(IslandPlan& plan, std::span<const int> members, const ScenePoints
         }
         for (const auto& [point, solid] : coupled.carried) {
             const int carried = coupled.solids.find(solid) == number ? scene.pointOf(point) : -1;
-            if (carried < 0 || core::contains(points, carried)) continue;
+            if (carried < 0 || std::find(points.begin(), points.end(), carried) != points.end()) continue;
             points.push_back(carried);
             rest.push_back(scene.position(point) - jitterOf(scene.body(point.body), point.point));
         }
@@ -124,7 +123,8 @@ std::vector<int> solidsOf(const IslandPlan& plan, std::span<const int> members, 
         if (scene.body(number).spec->isRigid())
             for (const int point : scene.body(number).pointOf) solidOf[point] = coupled.solids.find(number);
     for (const auto& [point, solid] : coupled.carried)
-        if (core::contains(members, solid)) solidOf[scene.pointOf(point)] = coupled.solids.find(solid);
+        if (std::find(members.begin(), members.end(), solid) != members.end())
+            solidOf[scene.pointOf(point)] = coupled.solids.find(solid);
     return solidOf;
 }
 

@@ -30,21 +30,22 @@ std::optional<double> limitOf(const IslandPlan& plan, std::size_t s) {
 }  // namespace
 
 bool StrainLimit::isIn(const IslandPlan& plan) {
-    return std::ranges::any_of(
-        plan.bodies, [](const Body* body) { return body->plasticity.strainLimit.has_value(); });
+    return std::any_of(
+        plan.bodies.begin(), plan.bodies.end(),
+        [](const Body* body) { return body->plasticity.strainLimit.has_value(); });
 }
 
 StrainLimit::StrainLimit(const IslandPlan& plan) {
     for (std::size_t s = 0; s < plan.springs.size(); ++s)
         if (limitOf(plan, s)) points_.insert(points_.end(), {plan.springs[s].a, plan.springs[s].b});
-    std::ranges::sort(points_);
+    std::sort(points_.begin(), points_.end());
     points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
     follow(plan);
 }
 
 void StrainLimit::follow(const IslandPlan& plan) {
     const auto numberOf = [&](int point) {
-        return static_cast<int>(std::ranges::lower_bound(points_, point) - points_.begin());
+        return static_cast<int>(std::lower_bound(points_.begin(), points_.end(), point) - points_.begin());
     };
     links_.clear();
     for (std::size_t s = 0; s < plan.springs.size(); ++s)

@@ -6,7 +6,6 @@
 
 #include "taut/body/private/solid_places.h"
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/plan/mounting.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
@@ -33,7 +32,8 @@ std::vector<int> namedPoints(const JointSide& side, const Body& body) {
     for (const std::string& target : side.targets)
         if (names(target, body))
             for (const int i : selectPoints(body.model, parseTarget(target).selector))
-                if (side.targets.size() == 1 || !core::contains(points, i)) points.push_back(i);
+                if (side.targets.size() == 1 || std::find(points.begin(), points.end(), i) == points.end())
+                    points.push_back(i);
     return points;
 }
 
@@ -152,7 +152,7 @@ class Tying {
     }
 
     static void sort(std::vector<int>& points) {
-        std::ranges::sort(points);
+        std::sort(points.begin(), points.end());
         points.erase(std::unique(points.begin(), points.end()), points.end());
     }
 
@@ -228,8 +228,8 @@ bool isCollider(const std::string& target) {
 }
 
 bool isCollider(const JointSide& side) {
-    return std::ranges::any_of(
-        side.targets, [](const auto& target) { return isCollider(target); });
+    return std::any_of(
+        side.targets.begin(), side.targets.end(), [](const auto& target) { return isCollider(target); });
 }
 
 bool isTie(const JointSpec& joint) {
@@ -250,16 +250,16 @@ void expectAtPlace(const JointSpec& joint, const JointSide& side, double away) {
 }
 
 bool isWhole(const JointSide& side) {
-    return std::ranges::all_of(
-        side.targets,
+    return std::all_of(
+        side.targets.begin(), side.targets.end(),
         [](const auto& target) {
             const std::string selector = parseTarget(target).selector;
             return selector.empty() || selector == "all";
         });
 }
 bool names(const JointSide& side, const Body& body) {
-    return std::ranges::any_of(
-        side.targets, [&](const auto& target) { return names(target, body); });
+    return std::any_of(
+        side.targets.begin(), side.targets.end(), [&](const auto& target) { return names(target, body); });
 }
 int countTied(const JointSpec& joint, const JointSide& side, const Body& body) {
     if (endsAtPlace(joint, body)) return names(side, body) ? 1 : 0;
@@ -302,7 +302,8 @@ void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const Holde
                                                     placeOn(pose, *joint.place)));
                     if (named) expectAtPlace(joint, one, glm::distance(*named, placeOn(pose, *joint.place)));
                 }
-            if (std::ranges::all_of(bodies, [&](const Body* body) { return countTied(joint, one, *body) == 0; }))
+            if (std::all_of(bodies.begin(), bodies.end(),
+                            [&](const Body* body) { return countTied(joint, one, *body) == 0; }))
                 fail(joint.source, "\"" + target + "\" names no point");
         }
     }
@@ -313,7 +314,8 @@ void expectClosable(const IslandPlan& plan, const SceneSpec& spec, const Holders
         const Body* body = authored(plan, point).first;
         const bool isSolid = body != nullptr && body->spec->isRigid();
         return plan.points[static_cast<std::size_t>(point)].held ||
-               (isSolid && (!body->carried.empty() || std::ranges::count(body->model.held, true) > 0));
+               (isSolid &&
+                (!body->carried.empty() || std::count(body->model.held.begin(), body->model.held.end(), true) > 0));
     };
     for (const JointTie& tie : plan.ties)
         for (const JointTie::Part& part : tie.parts) {
@@ -348,7 +350,7 @@ std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std
         const dvec3& place = x[i];
         const std::string holder = holders.nearest(collider, place);
         const collision::Pose pose = holders.poseOf(holder).value();
-        auto grip = std::ranges::find(grips, holder, &Grip::holder);
+        auto grip = std::find_if(grips.begin(), grips.end(), [&](const Grip& own) { return own.holder == holder; });
         if (grip == grips.end()) {
             grip = grips.emplace(grips.end());
             grip->holder = holder;
@@ -364,7 +366,8 @@ std::vector<Grip> tieTo(const Holders& holders, const std::string& collider, std
 
 const Grip* carrierOf(const IslandPlan& plan, int point) {
     for (const Grip& grip : plan.grips)
-        if (grip.ofCollider && grip.rigid && std::ranges::binary_search(grip.points, point)) return &grip;
+        if (grip.ofCollider && grip.rigid && std::binary_search(grip.points.begin(), grip.points.end(), point))
+            return &grip;
     return nullptr;
 }
 
@@ -379,7 +382,7 @@ bool untie(IslandPlan& plan, std::span<const int> points) {
         left.damping.clear();
         left.lengths.clear();
         for (std::size_t i = 0; i < grip.points.size(); ++i) {
-            if (core::contains(points, grip.points[i])) continue;
+            if (std::find(points.begin(), points.end(), grip.points[i]) != points.end()) continue;
             left.points.push_back(grip.points[i]);
             left.offsets.push_back(grip.offsets[i]);
             if (grip.rigid) continue;

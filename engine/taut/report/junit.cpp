@@ -70,9 +70,9 @@ bool isSkipped(Verdict verdict) {
 }
 
 std::string counts(const std::vector<Case>& cases, double seconds) {
-    const auto failures = std::ranges::count_if(
-        cases, [](const Case& c) { return isFailure(c.verdict); });
-    const auto skipped = std::ranges::count_if(cases, [](const Case& c) { return isSkipped(c.verdict); });
+    const auto failures = std::count_if(
+        cases.begin(), cases.end(), [](const Case& c) { return isFailure(c.verdict); });
+    const auto skipped = std::count_if(cases.begin(), cases.end(), [](const Case& c) { return isSkipped(c.verdict); });
     return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"", cases.size(),
                        failures, skipped, seconds);
 }

@@ -18,8 +18,8 @@ std::vector<LegendEntry> entriesOf(const Chart& chart) {
     if (!chart.hasLegend) return entries;
     for (const Panel& panel : chart.panels)
         for (const Curve& curve : panel.curves) {
-            const bool isNew =
-                std::ranges::none_of(entries, [&](const LegendEntry& e) { return e.title == curve.title; });
+            const bool isNew = std::none_of(entries.begin(), entries.end(),
+                                            [&](const LegendEntry& e) { return e.title == curve.title; });
             if (!curve.title.empty() && isNew) entries.push_back({curve.title, curve.style});
         }
     return entries;

@@ -6,11 +6,17 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/numbers.h"
 #include "taut/core/private/utf8.h"
 
 namespace taut::report {
 namespace {
+
+std::string csvText(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
 
 // Numbers as the format says.
 std::string textOf(const Cell& cell, const char* format) {
@@ -24,7 +30,7 @@ std::string textOf(const Cell& cell, const char* format) {
 }
 
 std::string exact(const Cell& cell) {
-    return core::csvCell(textOf(cell, "{}"));
+    return csvText(textOf(cell, "{}"));
 }
 
 std::string brief(const Cell& cell) {
@@ -33,8 +39,8 @@ std::string brief(const Cell& cell) {
 
 // Characters, not bytes: names may hold letters beyond ASCII.
 std::size_t widthOf(const std::string& text) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 }  // namespace
@@ -45,7 +51,7 @@ std::string csv(const TextTable& table) {
         for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + text(cells[i]);
         out += "\n";
     };
-    line(table.columns, core::csvCell);
+    line(table.columns, csvText);
     for (const auto& row : table.rows) {
         TAUT_EXPECTS(row.size() == table.columns.size());
         line(row, exact);

@@ -37,9 +37,10 @@ std::string reason(Verdict verdict, const std::string& text) {
 
 template <class Items>
 std::string counted(const Items& items, const char* what) {
-    if (std::ranges::all_of(items, [](const auto& item) { return item.verdict == Verdict::outdated; }))
+    if (std::all_of(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::outdated; }))
         return "";  // or there are none
-    const auto passed = std::ranges::count_if(items, [](const auto& item) { return item.verdict == Verdict::passed; });
+    const auto passed =
+        std::count_if(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::passed; });
     return fmt::format("<span>{}/{} {}</span>", passed, items.size(), what);
 }
 
@@ -47,7 +48,8 @@ template <class Item>
 std::vector<const Item*> gravestFirst(const std::vector<Item>& items) {
     std::vector<const Item*> sorted;
     for (const Item& item : items) sorted.push_back(&item);
-    std::ranges::stable_sort(sorted, [](const auto* a, const auto* b) { return a->verdict > b->verdict; });
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto* a, const auto* b) { return a->verdict > b->verdict; });
     return sorted;
 }
 
@@ -103,8 +105,8 @@ std::string figurePart(const char* kind, bool swaps, const char* none) {
 // The slider begins at the first picture that fails.
 std::string viewerPart(const TestScenario& scenario) {
     if (scenario.pictures.empty()) return "";
-    const auto bad = std::ranges::find_if(
-        scenario.pictures, [](const TestPicture& picture) { return picture.verdict != Verdict::passed; });
+    const auto bad = std::find_if(scenario.pictures.begin(), scenario.pictures.end(),
+                                  [](const TestPicture& picture) { return picture.verdict != Verdict::passed; });
     const auto first = bad == scenario.pictures.end() ? 0 : bad - scenario.pictures.begin();
     std::string frames;
     for (const TestPicture& picture : scenario.pictures) frames += (frames.empty() ? "" : ",\n") + frameJson(picture);
@@ -201,7 +203,9 @@ std::string tilesPart(const TestReport& report) {
         text += fmt::format("<div class=\"tile\"><b class=\"{}\">{}</b><span>{}</span></div>\n", colour, count, what);
     };
     const auto count = [&](Verdict verdict) {
-        return static_cast<std::size_t>(std::ranges::count(report.scenarios, verdict, &TestScenario::verdict));
+        return static_cast<std::size_t>(
+            std::count_if(report.scenarios.begin(), report.scenarios.end(),
+                          [&](const TestScenario& scenario) { return scenario.verdict == verdict; }));
     };
     tile(report.scenarios.size(), report.scenarios.size() == 1 ? "scenario" : "scenarios", "");
     if (count(Verdict::diverged) > 0) tile(count(Verdict::diverged), "diverged", "diverged");

@@ -14,9 +14,10 @@ namespace {
 
 template <class Items>
 std::string countPassed(const Items& items) {
-    if (std::ranges::all_of(items, [](const auto& item) { return item.verdict == Verdict::outdated; }))
+    if (std::all_of(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::outdated; }))
         return "-";  // or there are none
-    const auto passed = std::ranges::count_if(items, [](const auto& item) { return item.verdict == Verdict::passed; });
+    const auto passed =
+        std::count_if(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::passed; });
     return fmt::format("{}/{}{}", passed, items.size(), static_cast<std::size_t>(passed) == items.size() ? "" : " !");
 }
 
@@ -45,8 +46,8 @@ std::string nameOf(Verdict verdict) {
 }
 
 std::string acceptHeading(const TestScenario& scenario) {
-    const bool fails =
-        std::ranges::any_of(scenario.checks, [](const TestCheck& check) { return check.verdict == Verdict::failed; });
+    const bool fails = std::any_of(scenario.checks.begin(), scenario.checks.end(),
+                                   [](const TestCheck& check) { return check.verdict == Verdict::failed; });
     return fails ? "Where this is meant, once its checks hold" : "Where this is meant";
 }
 
@@ -93,7 +94,8 @@ std::string testSummary(const TestReport& report) {
     const char* comma = " ";
     for (const Verdict verdict :
          {Verdict::diverged, Verdict::failed, Verdict::missing, Verdict::outdated, Verdict::skipped, Verdict::passed}) {
-        const auto count = std::ranges::count(report.scenarios, verdict, &TestScenario::verdict);
+        const auto count = std::count_if(report.scenarios.begin(), report.scenarios.end(),
+                                         [&](const TestScenario& scenario) { return scenario.verdict == verdict; });
         if (count == 0) continue;
         text += fmt::format("{}{} {}", comma, count, verdict == Verdict::missing ? "without golden" : nameOf(verdict));
         comma = ", ";

@@ -12,7 +12,6 @@
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/scene/private/gltf_file.h"
 #include "taut/scene/private/obj_file.h"
 #include "taut/spec/ticks.h"
@@ -96,7 +95,7 @@ std::vector<path> foldersFor(Place place, const world::SceneSpec& spec) {
         folders.insert(folders.begin(), folders[-place.origin]);
     std::vector<path> once;
     for (const path& folder : folders)
-        if (!core::contains(once, folder)) once.push_back(folder);
+        if (std::find(once.begin(), once.end(), folder) == once.end()) once.push_back(folder);
     return once;
 }
 

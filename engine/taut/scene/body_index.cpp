@@ -7,7 +7,6 @@
 
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
-#include "taut/core/private/contains.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/sections.h"
 #include "taut/spec/targets.h"
@@ -62,7 +61,9 @@ std::optional<TargetFault> selectorFaultIn(const BodyEntry& body, const std::str
     if (selector.starts_with('#')) return indexFault(body, selector);
     if (selector.starts_with('(')) return uvFault(body, selector);
     if (selector.ends_with('%')) return percentFault(body, selector);
-    const auto isGroup = [&](const std::string& name) { return core::contains(body.outline.groups, name); };
+    const auto isGroup = [&](const std::string& name) {
+        return std::find(body.outline.groups.begin(), body.outline.groups.end(), name) != body.outline.groups.end();
+    };
     if (selector == "all" || isGroup(selector) || body.isFaulty) return std::nullopt;
     if (!world::commonGroups(selector, isGroup).empty()) return std::nullopt;
     std::vector<std::string> groups = body.outline.groups;
@@ -88,11 +89,12 @@ BodyIndex::BodyIndex(const world::SceneSpec& scene, const world::Kinds& kinds, c
             body.isFaulty = body.outline.hasSurface = true;
         }
         body.solver = spec.solver;
-        if (body.outline.hasSurface && !body.isFaulty && !core::contains(surfaceKinds_, body.kind))
+        if (body.outline.hasSurface && !body.isFaulty &&
+            std::find(surfaceKinds_.begin(), surfaceKinds_.end(), body.kind) == surfaceKinds_.end())
             surfaceKinds_.push_back(body.kind);
     }
     const auto isBefore = [](const BodyEntry& a, const BodyEntry& b) { return a.title() < b.title(); };
-    std::ranges::sort(bodies_, isBefore);
+    std::sort(bodies_.begin(), bodies_.end(), isBefore);
 }
 
 std::optional<TargetFault> BodyIndex::pointsFault(const std::string& target) const {
@@ -114,7 +116,8 @@ std::optional<TargetFault> BodyIndex::tieableFault(const std::string& target) co
     for (const BodyEntry* body : matches(target)) {
         const std::vector<std::string>& places = body->outline.places;
         const bool isWhole = at == std::string::npos && !places.empty();
-        const bool isPlace = at != std::string::npos && core::contains(places, target.substr(at + 1));
+        const bool isPlace =
+            at != std::string::npos && std::find(places.begin(), places.end(), target.substr(at + 1)) != places.end();
         if (isWhole || isPlace) continue;
         if (at == std::string::npos) return pointsFault(target);
         if (auto fault = selectorFaultIn(*body, target.substr(at + 1))) return fault;
@@ -179,7 +182,7 @@ std::optional<TargetFault> BodyIndex::bodiesFault(const std::string& target) con
     const std::string kind(kindOf(title));
     if (kind.size() == title.size())
         return TargetFault{fmt::format("\"{}\" names no body", target), "write KIND.NAME, e.g. cloth.flag"};
-    if (!core::contains(kinds_, kind)) {
+    if (std::find(kinds_.begin(), kinds_.end(), kind) == kinds_.end()) {
         std::string remedy = suggestion(kind, kinds_);
         if (remedy.empty()) remedy = "bodies are " + joined(kinds_);
         return TargetFault{fmt::format("\"{}\" is no kind of body", kind), remedy};

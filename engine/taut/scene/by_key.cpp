@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "taut/core/private/contains.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/sections.h"
 
@@ -13,7 +12,7 @@ namespace taut::scene {
 namespace {
 
 bool isAmong(std::string_view key, std::span<const std::string_view> keys) {
-    return core::contains(keys, key);
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
 // A struct of a scene by its section and name, "cloth.flag" or "solver".

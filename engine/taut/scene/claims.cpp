@@ -8,7 +8,6 @@
 #include "taut/check/check.h"
 #include "taut/check/figures.h"
 #include "taut/check/private/function_table.h"
-#include "taut/core/private/contains.h"
 #include "taut/scene/private/body_index.h"
 #include "taut/scene/private/references.h"
 #include "taut/scene/private/timeline.h"
@@ -115,10 +114,10 @@ class Claims {
         const bool isOfFaces = call.function->counts == world::Counts::bodiesMeetingFaces;
         const auto countsAny = [&](const std::string& target) {
             const std::vector<const BodyEntry*> named = bodies_.matches(target);
-            return std::ranges::any_of(scene_.spec.bodies, [&](const world::BodySpec& body) {
+            return std::any_of(scene_.spec.bodies.begin(), scene_.spec.bodies.end(), [&](const world::BodySpec& body) {
                 const auto isIt = [&](const BodyEntry* entry) { return entry->title() == body.fullName(); };
                 return world::isCounted(call.function->counts, body) &&
-                       (target.empty() || std::ranges::any_of(named, isIt));
+                       (target.empty() || std::any_of(named.begin(), named.end(), isIt));
             });
         };
         const auto doubt = [&](std::size_t at, const std::string& lack) {
@@ -141,7 +140,7 @@ class Claims {
     std::optional<double> birthOf(const std::string& body) const {
         for (const auto& spawn : scene_.spec.actions.of<world::SpawnAction>()) {
             const std::vector<std::string> names = bodies_.names(spawn.target);
-            if (core::contains(names, body)) return spawn.t;
+            if (std::find(names.begin(), names.end(), body) != names.end()) return spawn.t;
         }
         return std::nullopt;
     }

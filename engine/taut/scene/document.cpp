@@ -47,7 +47,7 @@ Node nodeOf(const toml::node& source, int origin) {
             node.members.push_back(
                 {std::string(key.str()), placeOf(key.source().begin, origin), nodeOf(value, origin)});
         }
-        std::ranges::stable_sort(node.members, isBefore);
+        std::stable_sort(node.members.begin(), node.members.end(), isBefore);
     } else if (const toml::array* list = source.as_array()) {
         node.kind = NodeKind::list;
         for (const toml::node& item : *list) node.items.push_back(nodeOf(item, origin));
@@ -172,7 +172,7 @@ class Scanner {
 
     Place placeAt(std::size_t byte) const {
         const std::string_view before = text_.substr(0, byte);
-        const auto line = 1 + std::ranges::count(before, '\n');
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t start = before.rfind('\n') + 1;  // 0 when there is none
         return {origin_, static_cast<int>(line), static_cast<int>(byte - start) + 1};
     }

@@ -56,7 +56,8 @@ class Library {
         const std::string stem = name.substr(std::string_view(fabricPrefix).size());
         Member member{name, place, Node{}};
         member.value.place = place;
-        const auto file = std::ranges::find_if(files_, [&](const path& p) { return p.stem().string() == stem; });
+        const auto file =
+            std::find_if(files_.begin(), files_.end(), [&](const path& p) { return p.stem().string() == stem; });
         if (file == files_.end()) {
             std::vector<std::string> known;
             for (const path& p : files_) known.push_back(p.stem().string());
@@ -106,7 +107,7 @@ std::vector<path> fabricFiles(const std::vector<path>& assetFolders) {
                              [&](const path& file) { return file.stem() == entry.path().stem(); }))
                 files.push_back(entry.path());
     }
-    std::ranges::sort(files, {}, &path::stem);
+    std::sort(files.begin(), files.end(), [](const path& a, const path& b) { return a.stem() < b.stem(); });
     return files;
 }
 
@@ -115,8 +116,9 @@ std::vector<std::string> addFabrics(const std::vector<path>& assetFolders, Node&
     while (true) {  // a fabric may be like another
         std::vector<Member> added;
         eachFabric(root, [&](const std::string& name, Place place) {
-            const bool isThere = root.along({"material", name}) != nullptr ||
-                                 std::ranges::any_of(added, [&](const Member& m) { return m.key == name; });
+            const bool isThere =
+                root.along({"material", name}) != nullptr ||
+                std::any_of(added.begin(), added.end(), [&](const Member& m) { return m.key == name; });
             if (!isThere) added.push_back(library.fabric(name, place));
         });
         if (added.empty()) return library.takeUsed();

@@ -85,7 +85,7 @@ void checkFitKeys(const Node& root, const std::vector<SceneSection>& sections, R
     for (std::size_t i = 0; i < fit.keys.size(); ++i) {
         const std::string& key = fit.keys[i];
         const Place place = keys.items[i].place;
-        if (std::ranges::find(fit.keys, key) != fit.keys.begin() + static_cast<std::ptrdiff_t>(i)) {
+        if (std::find(fit.keys.begin(), fit.keys.end(), key) != fit.keys.begin() + static_cast<std::ptrdiff_t>(i)) {
             problems.addError(place, fmt::format("{} is there twice", key));
             continue;
         }

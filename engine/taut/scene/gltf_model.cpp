@@ -98,11 +98,12 @@ void GltfModel::parse(std::string& bytes) {
     }
     // An extension may be why it could not be read.
     for (const std::string& extension : model_.extensionsRequired)
-        if (std::ranges::none_of(harmless, [&](std::string_view known) { return extension.starts_with(known); }))
+        if (std::none_of(std::begin(harmless), std::end(harmless),
+                         [&](std::string_view known) { return extension.starts_with(known); }))
             fail(fmt::format("it cannot be read without {}: export it without that extension", extension));
     if (!isRead) {
         std::string why = errors.empty() ? warnings : errors;
-        why.erase(std::ranges::find(why, '\n'), why.end());
+        why.erase(std::find(why.begin(), why.end(), '\n'), why.end());
         fail(why.empty() ? "this is not a glTF file" : why);
     }
     if (!model_.asset.version.starts_with("2.")) fail("only glTF 2.0 is read");

@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "taut/core/private/contains.h"
 #include "taut/scene/private/merge.h"
 
 namespace taut::scene {
@@ -38,8 +37,9 @@ void eraseUnfit(const Section& section, const Node& own, Node& table) {
         const auto isOther = [&](const Field& other) {
             return own.find(other.key) != nullptr && (other.inPlaceOf == field->key || field->inPlaceOf == other.key);
         };
-        return std::ranges::any_of(section.fields, isOther) ||
-               (!variant.empty() && !field->only.empty() && !core::contains(field->only, variant));
+        return std::any_of(section.fields.begin(), section.fields.end(), isOther) ||
+               (!variant.empty() && !field->only.empty() &&
+                std::find(field->only.begin(), field->only.end(), variant) == field->only.end());
     });
 }
 
@@ -90,7 +90,7 @@ class Elements {
     std::vector<const Node*> belowOf(const Member& element) {
         std::vector<const Member*> chain{&element};
         while (const Member* next = likeOf(*chain.back())) {
-            const bool isNew = !core::contains(chain, next);
+            const bool isNew = std::find(chain.begin(), chain.end(), next) == chain.end();
             chain.push_back(next);
             if (isNew && chain.size() <= longestChain) continue;
             // Each element of a circle reports it; one that leads into it reports nothing.
@@ -192,7 +192,8 @@ void warnOfHidden(const std::string& section, const Node& defaults, const KeyPat
 }  // namespace
 
 void inherit(const std::vector<SceneSection>& sections, Node& root, Problems& problems) {
-    const auto stands = std::ranges::find(root.members, "defaults", &Member::key);
+    const auto stands = std::find_if(root.members.begin(), root.members.end(),
+                                     [](const Member& member) { return member.key == "defaults"; });
     if (stands != root.members.end()) std::rotate(root.members.begin(), stands, stands + 1);
     std::size_t taken = 0;
     for (const SceneSection& section : sections) {

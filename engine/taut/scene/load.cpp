@@ -75,7 +75,8 @@ void checkSize(const ReadScene& scene, double limit, Problems& problems) {
 
 template <class Element>
 void sortByName(std::vector<Element>& elements) {
-    std::ranges::sort(elements, {}, &Element::name);
+    std::sort(
+        elements.begin(), elements.end(), [](const Element& a, const Element& b) { return a.name < b.name; });
 }
 
 // By kind in the order of the table, then by name.

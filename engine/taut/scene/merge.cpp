@@ -21,8 +21,8 @@ bool isSame(const path& a, const path& b) {
 }
 
 bool isAmong(const path& file, const std::vector<path>& files) {
-    return std::ranges::any_of(
-        files, [&](const path& other) { return isSame(file, other); });
+    return std::any_of(
+        files.begin(), files.end(), [&](const path& other) { return isSame(file, other); });
 }
 
 // "a.toml -> b.toml -> c.toml": each builds on the next.
@@ -43,7 +43,7 @@ void addScenesIn(const path& folder, const path& but, std::vector<std::string>& 
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
         if (entry.path().extension() == ".toml" && !isSame(entry.path(), but))
             names.push_back(entry.path().stem().string());
-    std::ranges::sort(names);
+    std::sort(names.begin(), names.end());
 }
 
 }  // namespace
@@ -80,7 +80,8 @@ BaseFile baseFileOf(const Node& root, const std::vector<path>& chain, const std:
             problems.addError(value.place, fmt::format("scene must be a text, not {}", description(value)));
         return {};
     }
-    const bool isControlFree = std::ranges::all_of(value.text, [](unsigned char c) { return c >= 0x20 && c != 0x7F; });
+    const bool isControlFree =
+        std::all_of(value.text.begin(), value.text.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7F; });
     if (value.text.empty() || !isControlFree) {
         problems.addError(value.place, "scene must be the name of a scene or of a file");
         return {};

@@ -42,7 +42,7 @@ class ObjReader {
         if (!hasUv_) mesh_.cornerUv.clear();
         nameLines();
         for (auto& [name, vertices] : mesh_.groups) {
-            std::ranges::sort(vertices);
+            std::sort(vertices.begin(), vertices.end());
             vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
         }
         return std::move(mesh_);

@@ -24,8 +24,8 @@ std::string withoutBlanks(std::string_view text) {
 }
 
 bool isWord(std::string_view text) {
-    return !text.empty() && std::ranges::all_of(
-                                text,
+    return !text.empty() && std::all_of(
+                                text.begin(), text.end(),
                                 [](char c) {
                                     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
                                            std::string_view("0123456789-_./:@#%*").find(c) != std::string_view::npos;
@@ -61,8 +61,9 @@ class Override {
           sections_(sections),
           root_(root),
           problems_(problems) {
-        const auto section = std::ranges::find_if(
-            sections, [&](const Section& s) { return !s.name.empty() && s.name == parts_.front(); });
+        const auto section = std::find_if(sections.begin(), sections.end(), [&](const Section& s) {
+            return !s.name.empty() && s.name == parts_.front();
+        });
         if (section != sections.end()) section_ = &*section;
     }
 

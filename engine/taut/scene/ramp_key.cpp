@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "taut/core/private/contains.h"
 #include "taut/fields/private/problems.h"
 
 namespace taut::scene {
@@ -70,8 +69,8 @@ struct RowField final : world::RampField {
 std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<SceneSection>& sections,
                                world::SceneSpec& scene, TargetFault& fault) {
     const std::vector<std::string> parts = fields::keyPath(key);
-    const auto section =
-        std::ranges::find_if(sections, [&](const Section& s) { return !s.name.empty() && s.name == parts[0]; });
+    const auto section = std::find_if(sections.begin(), sections.end(),
+                                      [&](const Section& s) { return !s.name.empty() && s.name == parts[0]; });
     const auto fail = [&](std::string message, std::string remedy) {
         fault = {std::move(message), std::move(remedy)};
         return std::nullopt;
@@ -98,7 +97,7 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     std::string path;
     for (std::size_t i = first; i < parts.size(); ++i) path += (i == first ? "" : ".") + parts[i];
     const std::vector<Row> rows = rowsOf(*section);
-    const auto row = std::ranges::find(rows, path, &Row::path);
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.path == path; });
     const std::vector<std::string> paths = rampablePaths(*section);
     if (row == rows.end()) {
         std::string remedy = suggestion(path, paths);
@@ -112,7 +111,7 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     const Node* table = root.along(fields::keyPath(owner));
     const std::string variant = section->variant && table != nullptr ? section->variant(*table) : "";
     const std::vector<std::string>& only = row->field->only;
-    if (!variant.empty() && !only.empty() && !core::contains(only, variant))
+    if (!variant.empty() && !only.empty() && std::find(only.begin(), only.end(), variant) == only.end())
         return fail(fmt::format("{} is {}, which has no {}", owner, variant, path), "");
     auto access = std::make_shared<RowField>();
     access->affects = *row->field->ramp;

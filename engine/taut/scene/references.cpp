@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "taut/core/private/contains.h"
 #include "taut/plan/private/ties.h"
 #include "taut/spec/targets.h"
 
@@ -41,7 +40,7 @@ void checkJointName(const NameReference& reference, const world::ColliderTarget&
     std::vector<std::string> names;
     for (const figure::Node& node : collider.meshData->figure->nodes)
         if (!node.name.empty()) names.push_back(node.name);
-    if (core::contains(names, target.joint)) return;
+    if (std::find(names.begin(), names.end(), target.joint) != names.end()) return;
     std::string remedy = suggestion(target.joint, names);
     if (remedy.empty()) remedy = names.empty() ? "its nodes have no names" : fmt::format("it has {}", joined(names));
     problems.addError(reference.place, fmt::format("{} has no joint \"{}\"", target.collider, target.joint), remedy);
@@ -49,7 +48,7 @@ void checkJointName(const NameReference& reference, const world::ColliderTarget&
 
 void checkCollider(const NameReference& reference, const std::vector<std::string>& colliders,
                    const world::SceneSpec& scene, Problems& problems) {
-    if (core::contains(colliders, reference.text)) return;
+    if (std::find(colliders.begin(), colliders.end(), reference.text) != colliders.end()) return;
     const world::ColliderTarget target = world::parseCollider(reference.text);
     for (const world::ColliderSpec& collider : scene.colliders)
         if (!target.joint.empty() && "collider." + collider.name == target.collider)

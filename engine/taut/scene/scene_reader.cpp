@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "taut/core/private/contains.h"
 #include "taut/fields/private/value_reader.h"
 #include "taut/scene/private/fabrics.h"
 
@@ -18,12 +17,14 @@ class SceneReader {
         : sections_(sections), problems_(problems), out_(out) {}
 
     void read(const Node& root) {
-        const SceneSection& file = *std::ranges::find_if(sections_, [](const Section& s) { return s.name.empty(); });
+        const SceneSection& file =
+            *std::find_if(sections_.begin(), sections_.end(), [](const Section& s) { return s.name.empty(); });
         // The keys before the first table form a table of their own.
         Node settings;
         settings.place = {0, 1, 1};
         for (const Member& member : root.members) {
-            const auto section = std::ranges::find(sections_, member.key, &Section::name);
+            const auto section = std::find_if(sections_.begin(), sections_.end(),
+                                              [&](const Section& s) { return s.name == member.key; });
             if (section != sections_.end() && !section->name.empty())
                 readSection(*section, member);
             else if (file.find(member.key) != nullptr)
@@ -131,11 +132,13 @@ class SceneReader {
     void readTable(const Section& section, const Node& table, Place place, const std::string& where, void* target) {
         const int before = problems_.errorCount();
         const std::string variant = section.variant ? section.variant(table) : "";
-        const auto named = std::ranges::find(section.forms, variant, &Section::name);
+        const auto named = std::find_if(section.forms.begin(), section.forms.end(),
+                                        [&](const Section& s) { return s.name == variant; });
         const Section& own = named == section.forms.end() ? section : *named;
         // A variant that no field has is an error, reported at its place.
         const auto fits = [&](const Field& field) {
-            return field.only.empty() || variant.empty() || core::contains(field.only, variant);
+            return field.only.empty() || variant.empty() ||
+                   std::find(field.only.begin(), field.only.end(), variant) != field.only.end();
         };
         for (const Member& member : table.members) {
             const Field* field = section.find(member.key);
@@ -168,7 +171,7 @@ class SceneReader {
     // Whether a variant exists in the table; a slip such as shape = "spere" does not.
     static bool isKnownVariant(const Section& section, const std::string& variant) {
         const Field* key = section.find(section.variantKey);
-        return key == nullptr || core::contains(key->choices, variant);
+        return key == nullptr || std::find(key->choices.begin(), key->choices.end(), variant) != key->choices.end();
     }
 
     static std::string remedyFor(const Field& field) {

@@ -35,7 +35,7 @@ bool isSame(const Node& a, const Node& b) {
     if (a.number != b.number && (a.number == a.number || b.number == b.number)) return false;
     for (std::size_t i = 0; i < a.items.size(); ++i)
         if (!isSame(a.items[i], b.items[i])) return false;
-    return std::ranges::all_of(a.members, [&](const Member& member) {
+    return std::all_of(a.members.begin(), a.members.end(), [&](const Member& member) {
         const Member* other = b.find(member.key);
         return other != nullptr && isSame(member.value, other->value);
     });
@@ -58,7 +58,7 @@ void set(Node& root, const KeyPath& path, const Node& value, const Change& chang
 std::string keyText(const KeyPath& path, std::size_t from) {
     std::string text;
     for (std::size_t i = from; i < path.size(); ++i) {
-        const bool isBare = !path[i].empty() && std::ranges::all_of(path[i], [](char c) {
+        const bool isBare = !path[i].empty() && std::all_of(path[i].begin(), path[i].end(), [](char c) {
             return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
         });
         text += (i == from ? "" : ".") + (isBare ? path[i] : "\"" + path[i] + "\"");
@@ -126,8 +126,8 @@ class Written {
 
     // A table that exists only because of the header of an inner table.
     bool isImplied(const Node& table) const {
-        return std::ranges::any_of(
-            table.members,
+        return std::any_of(
+            table.members.begin(), table.members.end(),
             [&](const Member& member) { return hasHeader(member.value) && at(member.value.place) == at(table.place); });
     }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string_view>
 
-#include "taut/core/private/contains.h"
 #include "taut/core/private/hash.h"
 #include "taut/scene/private/document.h"
 #include "taut/spec/actions.h"
@@ -23,7 +22,7 @@ constexpr std::string_view neither[] = {"schema", "title", "scene", "defaults", 
 
 template <std::size_t n>
 bool isOneOf(std::string_view key, const std::string_view (&keys)[n]) {
-    return core::contains(keys, key);
+    return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
 
 void add(const Node& node, core::Hash& hash);
@@ -32,7 +31,7 @@ void add(const Node& node, core::Hash& hash);
 std::vector<const Member*> sorted(const Node& table) {
     std::vector<const Member*> members;
     for (const Member& member : table.members) members.push_back(&member);
-    std::ranges::sort(members, [](const Member* a, const Member* b) { return a->key < b->key; });
+    std::sort(members.begin(), members.end(), [](const Member* a, const Member* b) { return a->key < b->key; });
     return members;
 }
 
@@ -119,7 +118,8 @@ StateKeys::StateKeys(const Node& root, const world::SceneSpec& spec) {
             add(action, hash);
             actions_.emplace_back(ticks.at(timeOf(action)), hash.value());
         }
-        std::ranges::stable_sort(actions_, [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::stable_sort(actions_.begin(), actions_.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
     }
     // A body that is spawned later is not there from the start.
     world::foreseen<world::SpawnAction>(spec.actions,

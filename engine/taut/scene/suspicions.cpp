@@ -13,8 +13,9 @@ namespace taut::scene {
 namespace {
 
 bool usesMaterial(const world::SceneSpec& spec, const std::string& name) {
-    return std::ranges::any_of(
-        spec.bodies, [&](const world::BodySpec& body) { return body.materialName() == name; });
+    return std::any_of(
+        spec.bodies.begin(), spec.bodies.end(),
+        [&](const world::BodySpec& body) { return body.materialName() == name; });
 }
 
 // Moments are rounded to the nearest tick, which is visible where that is half a frame away. One warning for all.

@@ -37,7 +37,7 @@ bool Confinement::allows(const std::filesystem::path& file) const {
     std::error_code missing;
     const std::filesystem::path real = std::filesystem::canonical(file, missing);
     if (folders.empty() || missing) return true;
-    return std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
+    return std::any_of(folders.begin(), folders.end(), [&](const std::filesystem::path& folder) {
         std::error_code ignored;
         const std::filesystem::path root = std::filesystem::canonical(folder.empty() ? "." : folder, ignored);
         return !ignored && std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();

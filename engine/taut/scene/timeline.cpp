@@ -7,7 +7,6 @@
 #include <map>
 #include <utility>
 
-#include "taut/core/private/contains.h"
 #include "taut/fields/private/value_reader.h"
 #include "taut/joints/joints.h"
 #include "taut/plan/private/ties.h"
@@ -68,7 +67,8 @@ class Timeline {
             ActionSpec& action = scene_.spec.actions[i];
             events_.push_back({&action, &list->items[i], ticks_.at(action.t), 0});
         }
-        std::ranges::stable_sort(events_, [](const Event& a, const Event& b) { return a.action->t < b.action->t; });
+        std::stable_sort(events_.begin(), events_.end(),
+                         [](const Event& a, const Event& b) { return a.action->t < b.action->t; });
         for (std::size_t i = 0; i < events_.size(); ++i) events_[i].order = i;
     }
 
@@ -100,7 +100,7 @@ class Timeline {
             for (const std::string& end : ends) {
                 for (const BodyEntry* body : bodies_.matches(end)) {
                     const auto tied = bodies_.matches(target);
-                    if (!core::contains(tied, body)) continue;
+                    if (std::find(tied.begin(), tied.end(), body) == tied.end()) continue;
                     return error(event, "target", fmt::format("a joint ties {}: it cannot be spawned", body->title()));
                 }
             }
@@ -154,8 +154,9 @@ class Timeline {
     }
 
     bool isJoint(const std::string& id) const {
-        return std::ranges::any_of(
-            scene_.spec.joints, [&](const JointSpec& joint) { return joint.name == id; });
+        return std::any_of(
+            scene_.spec.joints.begin(), scene_.spec.joints.end(),
+            [&](const JointSpec& joint) { return joint.name == id; });
     }
 
     void checkRelease(const Event& event, const std::string& id) {
@@ -179,7 +180,7 @@ class Timeline {
                    const std::string& otherwise = {}) {
         if (grabbed_.contains(id)) return true;
         const double t = event.action->t;
-        if (core::contains(known_, id)) {
+        if (std::find(known_.begin(), known_.end(), id) != known_.end()) {
             error(event, "id", fmt::format("\"{}\" was released before {} s", id, t));
             return false;
         }
@@ -284,7 +285,7 @@ class Timeline {
             const std::string otherSelector = selectorOf(opposite->target);
             if (selector != otherSelector && selector != "all" && otherSelector != "all") continue;
             for (const std::string& name : bodies_.names(opposite->target)) {
-                if (!core::contains(names, name)) continue;
+                if (std::find(names.begin(), names.end(), name) == names.end()) continue;
                 return error(event, "target", fmt::format("points of {} are held and freed at the same moment", name));
             }
         }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "taut/core/error.h"
-#include "taut/core/private/contains.h"
 #include "taut/spec/private/shape_rows.h"
 #include "taut/spec/spec.h"
 
@@ -41,19 +40,20 @@ bool SceneSpec::isFigure(const ColliderSpec& collider) const {
 }
 
 bool bodiesTouch(const SceneSpec& spec) {
-    return std::ranges::any_of(
-        spec.bodies, [](const BodySpec& body) { return body.touch != Touch::nothing; });
+    return std::any_of(
+        spec.bodies.begin(), spec.bodies.end(), [](const BodySpec& body) { return body.touch != Touch::nothing; });
 }
 
 void meetFigures(SceneSpec& spec) {
-    if (std::ranges::any_of(spec.colliders, [&](const auto& c) { return spec.isFigure(c); }))
+    if (std::any_of(spec.colliders.begin(), spec.colliders.end(), [&](const auto& c) { return spec.isFigure(c); }))
         for (BodySpec& body : spec.bodies) body.meetsFigures = body.collide;
 }
 
 std::vector<std::string> namesOf(const collision::ShapeKinds& shapes, std::string_view field) {
     std::vector<std::string> names;
     for (const collision::ShapeKind& kind : shapes.all())
-        if (field.empty() || core::contains(kind.fields, field)) names.emplace_back(kind.name);
+        if (field.empty() || std::find(kind.fields.begin(), kind.fields.end(), field) != kind.fields.end())
+            names.emplace_back(kind.name);
     return names;
 }
 

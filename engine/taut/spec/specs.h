@@ -32,13 +32,12 @@ struct Pointee {
     using difference_type = std::ptrdiff_t;
     using pointer = Item*;
     using reference = Item&;
-    const Pointer* at = nullptr;
+    const Pointer* at;
     Item& operator*() const { return **at; }
     Pointee& operator++() {
         ++at;
         return *this;
     }
-    Pointee operator++(int) { return {at++}; }
     bool operator==(const Pointee&) const = default;
 };
 
@@ -106,8 +105,8 @@ class Specs {
 
     // The item of that name, or null.
     const Base* find(std::string_view kind, std::string_view name) const {
-        const auto found =
-            std::ranges::find_if(all_, [&](const auto& spec) { return spec->name == name && spec->kind() == kind; });
+        const auto found = std::find_if(all_.begin(), all_.end(),
+                                        [&](const auto& spec) { return spec->name == name && spec->kind() == kind; });
         return found == all_.end() ? nullptr : found->get();
     }
     Base* find(std::string_view kind, std::string_view name) {
@@ -120,8 +119,8 @@ class Specs {
 
     template <class Before>
     void stableSort(Before before) {
-        std::ranges::stable_sort(
-            all_, [&](const auto& a, const auto& b) { return before(*a, *b); });
+        std::stable_sort(
+            all_.begin(), all_.end(), [&](const auto& a, const auto& b) { return before(*a, *b); });
     }
 
   private:

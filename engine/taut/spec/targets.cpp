@@ -35,7 +35,7 @@ std::vector<int> commonPoints(const mechanics::Model& model, std::string_view se
     for (const std::string& name :
          commonGroups(selector, [&](const auto& own) { return model.groups.contains(own); })) {
         std::vector<int> points = model.groups.at(name), both;
-        std::ranges::sort(points);
+        std::sort(points.begin(), points.end());
         if (common) {
             std::set_intersection(common->begin(), common->end(), points.begin(), points.end(),
                                   std::back_inserter(both));
@@ -54,7 +54,8 @@ std::optional<GridPlace> gridPlace(std::string_view selector) {
     for (const std::string_view cell : core::cellsOf(selector.substr(1, selector.size() - 2)))
         numbers.push_back(core::numberIn(cell).value_or(-1));
     if (numbers.size() == 2) numbers.push_back(0);
-    if (numbers.size() != 3 || *std::ranges::min_element(numbers) < 0 || numbers[0] > 1 || numbers[1] > 1)
+    if (numbers.size() != 3 || *std::min_element(numbers.begin(), numbers.end()) < 0 || numbers[0] > 1 ||
+        numbers[1] > 1)
         return std::nullopt;
     return GridPlace{numbers[0], numbers[1], numbers[2]};
 }

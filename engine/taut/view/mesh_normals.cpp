@@ -55,7 +55,7 @@ glm::vec2 boxProjection(glm::vec3 position, glm::vec3 normal) {
 void smoothNormals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles,
                    std::span<glm::vec3> normals) {
     TAUT_EXPECTS(normals.size() == positions.size() && triangles.size() % 3 == 0);
-    std::ranges::fill(normals, glm::vec3(0.0F));
+    std::fill(normals.begin(), normals.end(), glm::vec3(0.0F));
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
         const glm::vec3 area = areaNormal(positions, &triangles[i]);
         for (std::size_t k = 0; k < 3; ++k) normals[triangles[i + k]] += area;
@@ -88,8 +88,9 @@ Mesh creasedMesh(std::span<const glm::vec3> positions, std::span<const std::uint
 
         // Corners with the same point and the same normal share a vertex.
         auto& known = copies[point];
-        const auto same = std::ranges::find_if(
-            known, [&](std::uint32_t vertex) { return glm::dot(geometry.normals[vertex], normal) > 0.9999F; });
+        const auto same = std::find_if(known.begin(), known.end(), [&](std::uint32_t vertex) {
+            return glm::dot(geometry.normals[vertex], normal) > 0.9999F;
+        });
         if (same != known.end()) {
             topology.triangles[i] = *same;
             continue;

@@ -97,7 +97,7 @@ std::vector<float> boxLines(float halfSize, float edgeRadius) {
     const std::size_t count = lines.size();
     if (inner <= 0.0F) lines.push_back(0.0F);
     for (std::size_t i = count; i-- > 0;) lines.push_back(-lines[i]);
-    std::ranges::reverse(lines);
+    std::reverse(lines.begin(), lines.end());
     return lines;
 }
 

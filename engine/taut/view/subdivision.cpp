@@ -1,5 +1,5 @@
-// Catmull and Clark's surface of quadrangles and Loop's of triangles, and their mean where they meet: each face is
-// split in its plane, then every vertex goes to the mean of the rules of the faces around it (Warren and Schaefer: A
+// Catmull and Clark's surface of quadrangles and Loop's of triangles, and their mean where they meet: each face is split
+// in its plane, then every vertex goes to the mean of the rules of the faces around it (Warren and Schaefer: A
 // Factored Approach to Subdivision Surfaces, 2004). A border is a cubic B-spline of its own vertices.
 //
 // Such a surface lies on the inner side of a bend of its vertices, by a sixth of their second differences. So they do
@@ -86,11 +86,14 @@ struct FaceCorner {
 
 Fan fanOf(const std::vector<FaceCorner>& corners) {
     Fan fan;
-    const auto find = [&](std::uint32_t next) { return std::ranges::find(corners, next, &FaceCorner::next); };
-    const auto isFirst = [&](const FaceCorner& c) {
-        return std::ranges::none_of(corners, [&](const FaceCorner& o) { return o.before == c.next; });
+    const auto find = [&](std::uint32_t next) {
+        return std::find_if(
+            corners.begin(), corners.end(), [&](const FaceCorner& c) { return c.next == next; });
     };
-    auto first = std::ranges::find_if(corners, isFirst);
+    const auto isFirst = [&](const FaceCorner& c) {
+        return std::none_of(corners.begin(), corners.end(), [&](const FaceCorner& o) { return o.before == c.next; });
+    };
+    auto first = std::find_if(corners.begin(), corners.end(), isFirst);
     fan.isBorder = first != corners.end();
     if (!fan.isBorder) first = corners.begin();
     auto at = first;
@@ -193,7 +196,7 @@ void tangents(std::uint32_t v, const Fan& fan, Add&& add) {
         double angle = 0.0;
         const double unit = 2.0 * std::numbers::pi / (fan.isFixed ? 12.0 : angleAround(fan));
         const double turn = 2.0 * std::numbers::pi / static_cast<double>(n), c = std::cos(turn);
-        const bool isQuad = !fan.isFixed && std::ranges::any_of(fan.opposite, hasQuad);
+        const bool isQuad = !fan.isFixed && std::any_of(fan.opposite.begin(), fan.opposite.end(), hasQuad);
         const double edge = isQuad ? 1.0 + c + std::cos(0.5 * turn) * std::sqrt(2.0 * (9.0 + c)) : 1.0;
         const auto at = [&](double a) { return glm::dvec2(std::cos(a * unit), std::sin(a * unit)); };
         for (std::size_t i = 0; i < n; ++i) {

@@ -62,7 +62,7 @@ std::vector<glm::vec3> tangentsOf(const std::vector<glm::vec3>& line) {
         tangents[i] = last;
     }
     // Points before the first direction take it over; without any the tube stands upright.
-    const auto known = std::ranges::find_if(tangents, [](glm::vec3 t) { return t != glm::vec3(0.0F); });
+    const auto known = std::find_if(tangents.begin(), tangents.end(), [](glm::vec3 t) { return t != glm::vec3(0.0F); });
     std::fill(tangents.begin(), known, known == tangents.end() ? glm::vec3(0.0F, 1.0F, 0.0F) : *known);
     return tangents;
 }

@@ -54,7 +54,7 @@ void addIsland(WorldImpl& w, IslandPlan plan, const ForceList& current, const En
 ecs::Entity addAlone(WorldImpl& w, std::unique_ptr<Body> body) {
     const WorldImpl::Member newcomer = addBody(w, std::move(body));
     const auto isAfter = [&](const WorldImpl::Member& other) { return sortsBefore(*newcomer.body, *other.body); };
-    w.bodies.insert(std::ranges::find_if(w.bodies, isAfter), newcomer);
+    w.bodies.insert(std::find_if(w.bodies.begin(), w.bodies.end(), isAfter), newcomer);
     ++w.generation;
     SceneSpec alone;  // joints of the scene do not concern it
     alone.solver = w.spec.solver;

@@ -9,7 +9,6 @@
 #include "taut/body/body.h"
 #include "taut/contact/contact_group.h"
 #include "taut/contact/crossings.h"
-#include "taut/core/private/contains.h"
 #include "taut/island/private/island.h"
 #include "taut/world/private/contact_stage.h"
 
@@ -37,7 +36,7 @@ contact::ContactSurface loneSurface(const Body& body, const mechanics::RigidPart
 }
 
 bool any(const std::vector<bool>& flags) {
-    return core::contains(flags, true);
+    return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
 std::size_t goneAroundIn(std::span<const Body* const> bodies) {
@@ -53,7 +52,7 @@ BodySurfaces::BodySurfaces(const Selection& first, const Selection& second) : ge
     const auto add = [&](const Selection& selection, std::vector<bool>& isOf) {
         for (const Selection::Part& part : selection.parts) {
             const std::size_t before = bodies_.size();
-            if (!core::contains(bodies_, part.body))
+            if (std::find(bodies_.begin(), bodies_.end(), part.body) == bodies_.end())
                 for (const mechanics::RigidPart& surface : surfacesOf(*part.body)) {
                     const std::vector<RigidPiece>& pieces = part.body->pieces;
                     const std::size_t number = bodies_.size() - before;

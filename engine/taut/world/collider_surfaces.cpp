@@ -91,12 +91,13 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
 }
 
 bool ColliderSurfaces::hasFigures() const {
-    return std::ranges::any_of(
-        colliders_, [](const Collider& own) { return own.figure != nullptr; });
+    return std::any_of(
+        colliders_.begin(), colliders_.end(), [](const Collider& own) { return own.figure != nullptr; });
 }
 
 const std::string& ColliderSurfaces::nameOf(int surface) const {
-    const auto owner = std::ranges::find_if(colliders_, [&](const Collider& own) { return surface < own.lastSurface; });
+    const auto owner = std::find_if(colliders_.begin(), colliders_.end(),
+                                    [&](const Collider& own) { return surface < own.lastSurface; });
     TAUT_EXPECTS(owner != colliders_.end());
     return owner->name;
 }
@@ -143,7 +144,7 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double end, 
         if (!(square > jumpSpeed * jumpSpeed)) continue;
         own.from = own.to;
         own.xFrom = own.xTo;
-        std::ranges::fill(velocities, dvec3(0.0));
+        std::fill(velocities.begin(), velocities.end(), dvec3(0.0));
         hasJumped = true;
     }
     return hasJumped;

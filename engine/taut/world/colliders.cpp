@@ -67,7 +67,7 @@ std::vector<ColliderMotion> movingColliders(WorldImpl& w) {
 }
 
 void carryTied(WorldImpl& w) {
-    if (std::ranges::none_of(w.islands, [](const auto& island) {
+    if (std::none_of(w.islands.begin(), w.islands.end(), [](const auto& island) {
             return !island->plan().grips.empty() || !island->plan().carriers.empty();
         }))
         return;

@@ -29,8 +29,9 @@ void ConvexColliders::add(int number, const collision::ConvexParts& parts, const
 }
 
 bool ConvexColliders::isAllOf(int collider) const {
-    return std::ranges::any_of(
-        colliders_, [&](const auto& own) { return own.number == collider && own.parts.areAll; });
+    return std::any_of(
+        colliders_.begin(), colliders_.end(),
+        [&](const auto& own) { return own.number == collider && own.parts.areAll; });
 }
 
 void ConvexColliders::move(std::span<const ColliderMotion> moving, double tickSeconds) {
@@ -41,7 +42,7 @@ void ConvexColliders::move(std::span<const ColliderMotion> moving, double tickSe
             own.from = motion.from;
             own.to = motion.to;
         }
-        const bool jumps = std::ranges::any_of(own.parts.shapes, [&](const auto& part) {
+        const bool jumps = std::any_of(own.parts.shapes.begin(), own.parts.shapes.end(), [&](const auto& part) {
             const Frame from = frameOfPose(own.from).of(part.at), to = frameOfPose(own.to).of(part.at);
             return part.shape->bounds() &&
                    travelOf(*part.shape->bounds(), from, to) > collision::fastestSurface * tickSeconds;

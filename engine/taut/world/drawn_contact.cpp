@@ -103,8 +103,8 @@ class NearSheet {
     const Near& operator[](std::size_t v) const { return near_[v]; }
     // Within reach, so that something may be near between them.
     bool areAll(std::span<const std::uint32_t> vertices) const {
-        return std::ranges::all_of(
-            vertices, [&](std::uint32_t v) { return std::isfinite(near_[v].distance); });
+        return std::all_of(
+            vertices.begin(), vertices.end(), [&](std::uint32_t v) { return std::isfinite(near_[v].distance); });
     }
     void measureAgain(std::uint32_t v) { near_[v] = measured(placeOf(v)); }  // after it has moved
 

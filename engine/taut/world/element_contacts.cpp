@@ -127,7 +127,7 @@ void ElementContacts::addFaces(const Query& query) {
          ++t) {
         const contact::Triangle& triangle = triangles[t];
         const auto isNear = [&](int i) { return isNear_[i] != 0; };
-        if (triangle.isGone || std::ranges::none_of(triangle.points, isNear)) continue;
+        if (triangle.isGone || std::none_of(triangle.points.begin(), triangle.points.end(), isNear)) continue;
         double least = 1e300, way = 0;
         for (const int point : triangle.points) {
             const auto i = static_cast<std::size_t>(point);

@@ -44,7 +44,7 @@ void loosen(WorldImpl& w, const std::string& holder, bool isCollider) {
     const auto isOwn = [&](const Grip& grip) { return grip.ofCollider == isCollider && grip.holder == holder; };
     for (const auto& island : w.islands) {
         const std::vector<Grip>& grips = island->plan().grips;
-        if (island->frozen() != nullptr || std::ranges::none_of(grips, isOwn)) continue;
+        if (island->frozen() != nullptr || std::none_of(grips.begin(), grips.end(), isOwn)) continue;
         std::erase_if(island->change(w.now(), Change::grips).grips, isOwn);
     }
 }

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "taut/core/aabb.h"
-#include "taut/core/private/contains.h"
 #include "taut/plan/private/ties.h"
 #include "taut/spec/targets.h"
 #include "taut/world/private/bodies.h"
@@ -145,8 +144,9 @@ void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
 }
 
 bool isJoint(const WorldImpl& w, const std::string& name) {
-    return !name.empty() && std::ranges::any_of(
-                                w.spec.joints, [&](const JointSpec& joint) { return joint.name == name; });
+    return !name.empty() &&
+           std::any_of(
+               w.spec.joints.begin(), w.spec.joints.end(), [&](const JointSpec& joint) { return joint.name == name; });
 }
 
 void releaseJoints(WorldImpl& w, const std::string& name) {
@@ -162,7 +162,7 @@ void beginJoints(WorldImpl& w) {
 void breakJoints(WorldImpl& w) {
     for (const auto& island : w.islands) {
         const std::vector<bool> isOver = island->overloaded();
-        if (!core::contains(isOver, true)) continue;
+        if (std::find(isOver.begin(), isOver.end(), true) == isOver.end()) continue;
         std::size_t next = 0;
         island->release(w.now(), [&](const JointTie&) { return isOver[next++]; });
     }

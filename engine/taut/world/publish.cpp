@@ -100,7 +100,7 @@ std::vector<dvec3> placesAhead(const Island& island, double ahead) {
 // Draws ties of joints. Ties between bodies are extrapolated with them.
 void addTies(const WorldImpl& w, double ahead, bool debug, view::FrameView& view) {
     const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
-    if (std::ranges::none_of(w.drawings, isDrawn)) return;
+    if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
     std::map<std::string, glm::mat4> poses;  // of the carriers of ties
     std::map<std::string, int> count;        // number of ties so far, by name of the drawing
     const auto matrix = [&](const std::string& holder) {

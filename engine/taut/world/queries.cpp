@@ -27,7 +27,8 @@ bool usesDrawnSurface(const Body& body) {
 }
 
 void addDrawn(const WorldImpl& w, const Body& body, std::vector<Corners>& triangles) {
-    const auto member = std::ranges::find_if(w.bodies, [&](const auto& own) { return own.body == &body; });
+    const auto member =
+        std::find_if(w.bodies.begin(), w.bodies.end(), [&](const auto& own) { return own.body == &body; });
     const Island& island = islandOf(body);
     std::vector<glm::vec3> positions;
     for (int i : body.pointOf) positions.emplace_back(island.position(i));
@@ -179,7 +180,7 @@ double World::shareInPicture(std::span<const dvec3> places) const {
     const view::Camera camera = cameraOfPictures(*impl_, impl_->seconds());
     const glm::vec2 size(impl_->spec.picture.size);
     const glm::dmat4 toClip(view::projectionOf(camera, size.x / size.y));
-    const auto count = std::ranges::count_if(places, [&](const dvec3& place) {
+    const auto count = std::count_if(places.begin(), places.end(), [&](const dvec3& place) {
         const glm::dvec4 clip = toClip * glm::dvec4(place, 1.0);
         return std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
     });
@@ -188,8 +189,8 @@ double World::shareInPicture(std::span<const dvec3> places) const {
 
 bool World::hasTouched() const {
     return impl_->contactReport.hadImpulse() ||
-           std::ranges::any_of(
-               impl_->islands, [](const auto& island) { return island->hasTouched(); });
+           std::any_of(
+               impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
 }
 
 std::vector<core::Finding> World::warnings() const {

@@ -12,7 +12,7 @@ namespace {
 
 template <class Spec>
 const Spec* named(const std::vector<Spec>& specs, const std::string& name) {
-    const auto found = std::ranges::find(specs, name, &Spec::name);
+    const auto found = std::find_if(specs.begin(), specs.end(), [&](const Spec& s) { return s.name == name; });
     return found == specs.end() ? nullptr : &*found;
 }
 
@@ -31,8 +31,8 @@ void applyRamps(WorldImpl& w, double moment, fields::Affects which) {
 
 // Whether any of these fields may differ in the coming tick from the previous one.
 bool isRamping(const WorldImpl& w, fields::Affects which) {
-    return std::ranges::any_of(
-        w.ramps,
+    return std::any_of(
+        w.ramps.begin(), w.ramps.end(),
         [&](const Ramp& ramp) { return ramp.action.field->affects == which && w.tick <= ramp.start + ramp.length; });
 }
 
@@ -57,7 +57,7 @@ void changeSprings(WorldImpl& w) {
     if (!isRamping(w, fields::Affects::springs)) return;
     applyRamps(w, static_cast<double>(w.tick) + 0.5, fields::Affects::springs);
     const auto concerns = [&](const Body& body) {
-        return std::ranges::any_of(w.ramps, [&](const Ramp& ramp) {
+        return std::any_of(w.ramps.begin(), w.ramps.end(), [&](const Ramp& ramp) {
             const std::string& owner = ramp.action.field->owner;
             if (ramp.action.field->affects != fields::Affects::springs || w.tick > ramp.start + ramp.length)
                 return false;

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <optional>
 
-#include "taut/core/private/contains.h"
 #include "taut/world/private/impl.h"
 
 namespace taut::world {
@@ -24,7 +23,7 @@ std::vector<std::size_t> companiesOf(const WorldImpl& w) {
     };
     const auto numberOf = [&](const Island* island) {
         const auto isOwn = [&](const auto& other) { return other.get() == island; };
-        return static_cast<std::size_t>(std::ranges::find_if(w.islands, isOwn) - w.islands.begin());
+        return static_cast<std::size_t>(std::find_if(w.islands.begin(), w.islands.end(), isOwn) - w.islands.begin());
     };
     if (w.contactStage)
         for (const auto& [a, b] : w.contactStage->pressing()) {
@@ -40,9 +39,9 @@ bool isGrounded(const Island& island, std::span<const Island::Foothold> foothold
     const auto sticksToCollider = [](const auto& foothold) { return foothold.isOnCollider && foothold.limit > 0; };
     const std::vector<bool> isHeld = heldPointsOf(island.plan());
     const auto contacts = island.contacts();
-    return core::contains(isHeld, true) ||
-           std::ranges::any_of(contacts, [](const auto& contact) { return contact.friction > 0; }) ||
-           std::ranges::any_of(footholds, sticksToCollider);
+    return std::find(isHeld.begin(), isHeld.end(), true) != isHeld.end() ||
+           std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0; }) ||
+           std::any_of(footholds.begin(), footholds.end(), sticksToCollider);
 }
 
 // Islands that press each other fall asleep together if all rest.
@@ -114,14 +113,14 @@ void wakeReached(WorldImpl& w, std::span<const ColliderMotion> moving) {
     for (const auto& island : w.islands) {
         if (!island->isAsleep()) continue;
         if (!figures) figures = figuresOnTheWay(w);
-        const bool isReached = island->isReachedBy(moving) || std::ranges::any_of(*figures, [&](const core::Aabb& box) {
-                                   return isNear(*island, box);
-                               });
+        const bool isReached =
+            island->isReachedBy(moving) ||
+            std::any_of(figures->begin(), figures->end(), [&](const core::Aabb& box) { return isNear(*island, box); });
         if (isReached || island->isOpen()) companies.push_back(island->company());
     }
     if (companies.empty()) return;
     for (const auto& island : w.islands)
-        if (island->isAsleep() && std::ranges::count(companies, island->company()) > 0) island->wake();
+        if (island->isAsleep() && std::count(companies.begin(), companies.end(), island->company()) > 0) island->wake();
 }
 
 void wakeAll(WorldImpl& w) {

@@ -21,7 +21,7 @@ void undoTick(WorldImpl& w) {
 }  // namespace
 
 void closeIslands(WorldImpl& w) {
-    if (std::ranges::none_of(w.islands, [](const auto& island) { return island->isOpen(); })) return;
+    if (std::none_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->isOpen(); })) return;
     w.threads.run([&] {
         const auto island = [&](int i) -> Island& { return *w.islands[i]; };
         core::parallelFor(
@@ -79,8 +79,8 @@ void updateHash(WorldImpl& w) {
 }
 
 bool touchesAny(const WorldImpl& w) {
-    return std::ranges::any_of(
-        w.islands, [](const auto& island) { return touches(island->plan()); });
+    return std::any_of(
+        w.islands.begin(), w.islands.end(), [](const auto& island) { return touches(island->plan()); });
 }
 
 void makeContactStage(WorldImpl& w) {

@@ -50,18 +50,20 @@ std::vector<Picked> pick(const WorldImpl& w, const PointsAction& action) {
     if (points.empty()) failAction(action, "target = \"" + action.target + "\" names no point");
     const auto place = [&](const Picked& p) { return p.island->position(p.point); };
     if (action.near) {
-        const Picked nearest = *std::ranges::min_element(points, [&](const Picked& a, const Picked& b) {
+        const Picked nearest = *std::min_element(points.begin(), points.end(), [&](const Picked& a, const Picked& b) {
             return distance2(place(a), *action.near) < distance2(place(b), *action.near);
         });
         points = {nearest};
     }
     const auto number = [&](const Picked& p) {
-        return std::ranges::find_if(
-            w.islands, [&](const auto& i) { return i.get() == p.island; });
+        return std::find_if(
+            w.islands.begin(), w.islands.end(), [&](const auto& i) { return i.get() == p.island; });
     };
-    std::ranges::stable_sort(
-        points, [&](const Picked& a,
-                    const Picked& b) { return a.island != b.island ? number(a) < number(b) : a.point < b.point; });
+    std::stable_sort(
+        points.begin(), points.end(),
+        [&](const Picked& a, const Picked& b) {
+            return a.island != b.island ? number(a) < number(b) : a.point < b.point;
+        });
     const auto same = [](const Picked& a, const Picked& b) { return a.island == b.island && a.point == b.point; };
     points.erase(std::unique(points.begin(), points.end(), same), points.end());
     return points;

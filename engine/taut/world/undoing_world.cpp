@@ -60,7 +60,7 @@ bool UndoingWorld::mayThrow() const {
     if (!world_.callbacks().empty()) return true;
     const Ticks ticks(spec_.run);
     const std::int64_t tick = world_.tick();
-    return std::ranges::any_of(spec_.actions, [&](const ActionSpec& action) {
+    return std::any_of(spec_.actions.begin(), spec_.actions.end(), [&](const ActionSpec& action) {
         return ticks.at(action.t) <= tick && tick <= ticks.at(action.t + action.lasts());
     });
 }

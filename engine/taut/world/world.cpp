@@ -106,7 +106,8 @@ std::optional<Divergence> World::advance() {
     if (auto divergence = tickIslands(w, moving)) return divergence;
     ++w.tick;
     breakJoints(w);
-    if (std::ranges::any_of(w.islands, [](const auto& island) { return island->hasTorn(); })) redrawDamage(w);
+    if (std::any_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->hasTorn(); }))
+        redrawDamage(w);
     changePicture(w);
     followBodies(w);
     letSleep(w);

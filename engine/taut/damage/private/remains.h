@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "taut/core/private/contains.h"
 #include "taut/damage/damage.h"
 #include "taut/damage/private/skin_pieces.h"
 
@@ -23,7 +22,7 @@ std::vector<Corners> groupsOf(const std::array<int, N>& corners, const Hold& hol
     for (int corner : corners) {
         Corners merged;
         std::erase_if(groups, [&](const Corners& group) {
-            if (std::ranges::none_of(group, [&](int other) { return hold(corner, other); })) return false;
+            if (std::none_of(group.begin(), group.end(), [&](int other) { return hold(corner, other); })) return false;
             merged.insert(merged.end(), group.begin(), group.end());
             return true;
         });
@@ -41,7 +40,7 @@ void splitTriangle(const std::array<int, 3>& t, const std::vector<Corners>& grou
     for (const Corners& group : groups) {
         // The corner of the triangle that represents the group: the only one in it, or the only one not in it.
         std::size_t k = 0;
-        const auto isIn = [&](int corner) { return core::contains(group, corner); };
+        const auto isIn = [&](int corner) { return std::find(group.begin(), group.end(), corner) != group.end(); };
         while (isIn(t[k]) != (group.size() == 1)) ++k;
         const int a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
         if (group.size() == 1) {

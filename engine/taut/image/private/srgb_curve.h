@@ -19,7 +19,7 @@ class SrgbCurve {
     }
     float light(std::uint8_t byte) const { return light_[byte]; }
     std::uint8_t byte(float light) const {
-        return static_cast<std::uint8_t>(std::ranges::upper_bound(middle_, light) - middle_.begin());
+        return static_cast<std::uint8_t>(std::upper_bound(middle_.begin(), middle_.end(), light) - middle_.begin());
     }
 
   private:

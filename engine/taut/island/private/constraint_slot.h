@@ -46,15 +46,15 @@ class ConstraintSlot {
             const std::span<const int> own = constraint->points();
             points_.insert(points_.end(), own.begin(), own.end());
         }
-        std::ranges::sort(points_);
+        std::sort(points_.begin(), points_.end());
         points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
         for (const auto& constraint : plan_.constraints) {
             Tie& tie = ties_.emplace_back();
             tie.constraint = constraint->copy();
             tie.constraint->follow(plan_);
             for (const int point : tie.constraint->points())
-                tie.numbers.push_back(
-                    static_cast<std::size_t>(std::ranges::lower_bound(points_, point) - points_.begin()));
+                tie.numbers.push_back(static_cast<std::size_t>(std::lower_bound(points_.begin(), points_.end(), point) -
+                                                               points_.begin()));
             for (const Constraint::Place& place : tie.constraint->places()) {
                 tie.numbers.push_back(points_.size() + places_.size());
                 places_.push_back(place);
@@ -76,7 +76,7 @@ class ConstraintSlot {
 
     // [N s] The impulse by which a tie has pulled its first end since forgetImpulses(). Some constraints give it in
     // their own axes.
-    void forgetImpulses() { std::ranges::fill(impulse_, dvec3(0.0)); }
+    void forgetImpulses() { std::fill(impulse_.begin(), impulse_.end(), dvec3(0.0)); }
     const dvec3& impulse(std::size_t constraint, int tie) const { return impulse_[ties_[constraint].first + tie]; }
     // The share of these impulses in ω² [1/s²] at t [s], if they took `seconds` [s].
     double turning(double t, double seconds) {
@@ -390,7 +390,7 @@ class ConstraintSlot {
     // Joined bodies are solved together first; turns that move their points by less than that leaves end.
     void takeTurns(bool (Constraint::*projection)(const Constraint::Moment&)) {
         constexpr int mostRounds = 50;
-        std::ranges::fill(pull_, dvec3(0.0));
+        std::fill(pull_.begin(), pull_.end(), dvec3(0.0));
         const bool isJoined = ties_.size() > 1 && joinBodies(projection);
         std::vector<dvec3> ignored(1);
         const bool isOfPlaces = projection == &Constraint::projectPositions;

@@ -94,7 +94,7 @@ class IslandContacts {
         }
         if (colliders != nullptr)
             for (const collision::MovingPoints<Real>& body : colliding_) {
-                const auto first = std::ranges::lower_bound(points, body.first);
+                const auto first = std::lower_bound(points.begin(), points.end(), body.first);
                 const auto last = std::lower_bound(first, points.end(), body.last);
                 collision::MovingPoints<Real> own = body;
                 own.first = static_cast<int>(first - points.begin());
@@ -236,7 +236,7 @@ class IslandContacts {
         moreRecords_.clear();
         more_.clear();
         colliders.resolve(std::span<const collision::MovingPoints<Real>>(colliding_), h, feet_, more_, &moreRecords_);
-        const auto isOld = [&](int i) { return std::ranges::binary_search(touched_, i); };
+        const auto isOld = [&](int i) { return std::binary_search(touched_.begin(), touched_.end(), i); };
         std::erase_if(more_, isOld);
         std::erase_if(moreRecords_, [&](const collision::Contact& contact) { return isOld(contact.point); });
     }
@@ -343,8 +343,8 @@ class IslandContacts {
     // energy above that at the start of the step also counts as added by contact. Where a surface moves its work cannot
     // be told apart.
     void addWorkOnAll(const dvec3& gravity) {
-        const bool moves = std::ranges::any_of(
-            records_, [](const collision::Contact& contact) { return contact.carried != dvec3(0.0); });
+        const bool moves = std::any_of(records_.begin(), records_.end(),
+                                       [](const collision::Contact& contact) { return contact.carried != dvec3(0.0); });
         if (moves) return;
         watch_.meetAtTouch(plan_, gravity);
         const double before = std::max(watch_.energy(plan_, touched_, true, watch_.x, watch_.v, gravity),

@@ -41,7 +41,7 @@ class IndexRuns {
         looseLane_ = static_cast<int>(sources_.size());
         for (int s : left)
             loosePoints_.insert(loosePoints_.end(), elements[std::size_t(s)].begin(), elements[std::size_t(s)].end());
-        std::ranges::sort(loosePoints_);
+        std::sort(loosePoints_.begin(), loosePoints_.end());
         loosePoints_.erase(std::unique(loosePoints_.begin(), loosePoints_.end()), loosePoints_.end());
         for (int s : left) {
             sources_.push_back(s);
@@ -101,7 +101,8 @@ class IndexRuns {
     }
 
     int placeOf(int loosePoint) const {
-        return static_cast<int>(std::ranges::lower_bound(loosePoints_, loosePoint) - loosePoints_.begin());
+        return static_cast<int>(std::lower_bound(loosePoints_.begin(), loosePoints_.end(), loosePoint) -
+                                loosePoints_.begin());
     }
 
     std::vector<CornerRun<Corners>> runs_;

@@ -76,7 +76,7 @@ class ImplicitMatrix {
         implicit_ = system.implicitPart();
         step_ = static_cast<Real>(s);
         implicit_->linearise(t, x, v, s * s, s);
-        std::ranges::fill(inverse_, Real(0));
+        std::fill(inverse_.begin(), inverse_.end(), Real(0));
         implicit_->addDiagonal(inverse_.data());
         const Real *mass = implicit_->masses(), *inverseMass = implicit_->inverseMasses(), *drag = system.dragRates();
         forEachNumber(system.layout(), [&](std::size_t at, std::size_t i) {

@@ -27,9 +27,10 @@ class Supports {
     void take(std::span<Support> supports, const Real* x) {
         all_ = supports;
         x_ = x;
-        std::ranges::fill(rubbed_, Real(0));
+        std::fill(rubbed_.begin(), rubbed_.end(), Real(0));
         for (Support& support : all_) {
-            const bool slides = std::ranges::any_of(support.normal, [](double n) { return n != 0; });
+            const bool slides =
+                std::any_of(support.normal.begin(), support.normal.end(), [](double n) { return n != 0; });
             holds_[index(support)] = slides ? Hold::along : Hold::fully;
             std::size_t p = 0;
             if (slides)
@@ -40,7 +41,7 @@ class Supports {
     }
     void release() {
         for (const Support& support : all_) holds_[index(support)] = Hold::none;
-        std::ranges::fill(rubbed_, Real(0));
+        std::fill(rubbed_.begin(), rubbed_.end(), Real(0));
         all_ = {};
     }
 

@@ -17,7 +17,7 @@ class TieEnds {
     template <class Ties>
     Spot of(const Spot& spot, Ties& ties) {
         return spot.renumbered([&](int point) {
-            const auto found = std::ranges::find(points, point);
+            const auto found = std::find(points.begin(), points.end(), point);
             if (found != points.end()) return static_cast<int>(found - points.begin());
             const int number = static_cast<int>(points.size());
             points.push_back(point);
@@ -44,7 +44,8 @@ class TieEnds {
     static std::vector<Spot::Share> difference(const Spot& a, const Spot& b) {
         std::vector<Spot::Share> all(a.shares().begin(), a.shares().end());
         for (const Spot::Share& other : b.shares()) {
-            const auto same = std::ranges::find_if(all, [&](const auto& own) { return own.point == other.point; });
+            const auto same =
+                std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.point == other.point; });
             if (same != all.end())
                 same->weight -= other.weight;
             else

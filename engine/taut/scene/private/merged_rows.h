@@ -44,7 +44,9 @@ template <class Base, class VariantsOf>
 std::vector<fields::Field> mergedRows(std::span<const world::Kind<Base>> kinds, const VariantsOf& variantsOf) {
     std::vector<fields::Field> rows;
     std::set<std::string> variants;
-    const auto find = [&](const std::string& key) { return std::ranges::find(rows, key, &fields::Field::key); };
+    const auto find = [&](const std::string& key) {
+        return std::find_if(rows.begin(), rows.end(), [&](const fields::Field& row) { return row.key == key; });
+    };
     for (const auto& kind : kinds) {
         auto next = rows.end();
         const std::vector<fields::Field>& own = kind.section.fields;

@@ -42,7 +42,8 @@ void CutAction::perform(World& world) const {
         any = true;
         if (island->frozen() == nullptr) sever(crossing, island->change(w.now(), Change::shape));
     }
-    const bool areRigid = std::ranges::all_of(bodies, [](const Body* body) { return body->spec->isRigid(); });
+    const bool areRigid =
+        std::all_of(bodies.begin(), bodies.end(), [](const Body* body) { return body->spec->isRigid(); });
     if (!any)
         w.actionWarnings.push_back(
             warningAt(source) +

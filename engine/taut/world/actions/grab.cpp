@@ -36,7 +36,7 @@ Kind<ActionSpec> grabKind() {
 // mean of the named points.
 void GrabAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
-    if (std::ranges::any_of(w.hands, [&](const Hand& h) { return h.id == id; }))
+    if (std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& h) { return h.id == id; }))
         failAction(*this, "there is a hand \"" + id + "\" already; release it first");
     if (isJoint(w, id)) failAction(*this, "\"" + id + "\" is the name of a joint; give the hand another id");
     std::vector<Picked> points = pick(w, *this);
@@ -56,7 +56,7 @@ void GrabAction::perform(World& world) const {
         points.clear();
         for (const Picked& candidate : pick(w, bodiesOnly)) {
             const dvec3 x = candidate.island->position(candidate.point);
-            if (std::ranges::any_of(named, [&](const Picked& p) {
+            if (std::any_of(named.begin(), named.end(), [&](const Picked& p) {
                     const dvec3 d = p.island->position(p.point) - x;
                     return glm::dot(d, d) <= radius * radius;
                 }))

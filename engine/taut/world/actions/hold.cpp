@@ -21,10 +21,10 @@ Kind<ActionSpec> freeKind() {
 namespace {
 
 bool isInHand(const IslandPlan& plan, int point) {
-    return std::ranges::any_of(
-        plan.grips,
+    return std::any_of(
+        plan.grips.begin(), plan.grips.end(),
         [&](const Grip& grip) {
-            return grip.rigid && !grip.ofCollider && std::ranges::binary_search(grip.points, point);
+            return grip.rigid && !grip.ofCollider && std::binary_search(grip.points.begin(), grip.points.end(), point);
         });
 }
 
@@ -39,7 +39,7 @@ void pin(const PointsAction& action, WorldImpl& w, bool isHeld) {
         IslandPlan& plan = untied(*island, w.now(), numbers);
         if (!isHeld)
             island->release(w.now(), [&own = numbers](const JointTie& tie) {
-                return tie.b < 0 && std::ranges::binary_search(own, tie.a);
+                return tie.b < 0 && std::binary_search(own.begin(), own.end(), tie.a);
             });
         for (int i : numbers) plan.points[i].held = isHeld;
         if (isHeld) island->stop(w.now(), numbers);

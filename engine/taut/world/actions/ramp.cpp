@@ -22,7 +22,7 @@ void RampAction::perform(World& world) const {
     TAUT_EXPECTS(field != nullptr);
     WorldImpl& w = WorldAccess::of(world);
     Ramp ramp{*this, field->read(w.spec), w.tick, over > 0 ? ticksIn(over, w.ticksPerSecond) : 0};
-    const auto old = std::ranges::find_if(w.ramps, [&](const Ramp& r) { return r.action.key == key; });
+    const auto old = std::find_if(w.ramps.begin(), w.ramps.end(), [&](const Ramp& r) { return r.action.key == key; });
     if (old != w.ramps.end())
         *old = std::move(ramp);
     else

@@ -16,7 +16,7 @@ Kind<ActionSpec> releaseKind() {
 
 void ReleaseAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
-    const bool isHand = std::ranges::any_of(w.hands, [&](const Hand& hand) { return hand.id == id; });
+    const bool isHand = std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& hand) { return hand.id == id; });
     if (!isHand && isJoint(w, id)) return releaseJoints(w, id);
     handOf(w, *this, id);
     loosen(w, id, false);

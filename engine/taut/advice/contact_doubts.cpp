@@ -79,7 +79,8 @@ std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
             for (const int i : body->pointOf) solid.x.push_back(island->plan().positions[i]);
             for (const dvec3& x : solid.touching()) solid.box.add(x);
         }
-    std::ranges::sort(solids, [](const PlacedSolid& a, const PlacedSolid& b) { return sortsBefore(*a.body, *b.body); });
+    std::sort(solids.begin(), solids.end(),
+              [](const PlacedSolid& a, const PlacedSolid& b) { return sortsBefore(*a.body, *b.body); });
     return solids;
 }
 
@@ -87,7 +88,7 @@ std::vector<PlacedSolid> placedSolids(const WorldImpl& world) {
 void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<core::Finding>& doubts) {
     const auto isConvex = [](const PlacedSolid& solid) {
         const auto& pieces = solid.body->pieces;
-        return std::ranges::all_of(pieces, [](const auto& piece) { return piece.shape != nullptr; });
+        return std::all_of(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.shape != nullptr; });
     };
     std::size_t count = 0;
     for (const PlacedSolid& inner : solids)
@@ -96,7 +97,7 @@ void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<core::Fi
             if (isConvex(inner) && isConvex(outer)) continue;
             const Inside inside(outer.x, outer.body->model.triangles, {8, 8});
             const auto touching = inner.touching();
-            if (!std::ranges::all_of(touching, [&](const dvec3& x) { return inside.has(x); })) continue;
+            if (!std::all_of(touching.begin(), touching.end(), [&](const dvec3& x) { return inside.has(x); })) continue;
             if (++count <= mostDoubts)
                 doubts.push_back(warningAt(inner.body->spec->source) +
                                  fmt::format("{} starts wholly inside {}, and nothing brings it out: move it, or give "
@@ -146,7 +147,7 @@ void doubtSunk(const WorldImpl& world, const std::vector<PlacedSolid>& solids, s
             solid.body->spec->collide && deepest.depth > share * glm::length(solid.box.high - solid.box.low);
         if (!isCounted) continue;
         const std::string& collider = names[deepest.collider];
-        const bool isMounted = std::ranges::any_of(world.spec.joints, [&](const auto& joint) {
+        const bool isMounted = std::any_of(world.spec.joints.begin(), world.spec.joints.end(), [&](const auto& joint) {
             return isTie(joint) && !joint.touch && colliderOf(joint) == collider &&
                    world::names(pointsOf(joint), *solid.body);
         });
@@ -222,7 +223,7 @@ std::map<std::string, double> colliderWidths(const WorldImpl& world) {
                 box.add(part.at.toWorld(part.shape->bounds()->corner(i)));
         if (!(box.low.x <= box.high.x)) continue;
         std::array sizes{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
-        std::ranges::sort(sizes);
+        std::sort(sizes.begin(), sizes.end());
         widths[collider.name] = sizes[1];
     }
     return widths;

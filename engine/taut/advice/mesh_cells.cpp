@@ -111,7 +111,7 @@ void addThin(const BlockSpec& block, const std::vector<dvec3>& x, double volume,
         }
     }
     if (thinArea < worthSaying * area) return;
-    std::ranges::sort(thin);
+    std::sort(thin.begin(), thin.end());
     // No larger than a third of the whole, for which one cell is too coarse however thick it is.
     double thinner = 0.0, enough = block.cell;
     for (const auto& [under, own] : thin)

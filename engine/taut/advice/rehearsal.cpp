@@ -121,10 +121,10 @@ Outcome play(const SceneSpec& scene, std::int64_t tick, double end, Rehearsal& r
 // Whether nothing drives the bodies once they have started: their energy can only fall.
 bool isLeftAlone(const SceneSpec& scene) {
     return scene.forces.empty() && scene.joints.empty() && bodiesTouch(scene) &&
-           std::ranges::all_of(
-               scene.actions, [](const auto& action) { return action.t == 0; }) &&
-           std::ranges::all_of(
-               scene.colliders,
+           std::all_of(
+               scene.actions.begin(), scene.actions.end(), [](const auto& action) { return action.t == 0; }) &&
+           std::all_of(
+               scene.colliders.begin(), scene.colliders.end(),
                [&](const ColliderSpec& collider) { return collider.keys.empty() && !scene.isFigure(collider); });
 }
 
@@ -215,7 +215,7 @@ Rehearsal rehearse(const SceneSpec& scene) {
     for (const IslandInfo& island : world.islands())
         rehearsal.advice.insert(rehearsal.advice.end(), island.advice.begin(), island.advice.end());
     for (const core::Finding& warning : world.warnings())
-        if (std::ranges::none_of(rehearsal.faults, [&](const core::Finding& fault) {
+        if (std::none_of(rehearsal.faults.begin(), rehearsal.faults.end(), [&](const core::Finding& fault) {
                 return fault.text.find(warning.text) != std::string::npos;
             }))
             rehearsal.warnings.push_back(warning);

@@ -92,7 +92,7 @@ void doubtMasses(const WorldImpl& world, std::vector<core::Finding>& doubts) {
             all.emplace_back(mass, body);
         }
     if (all.empty()) return;
-    std::ranges::sort(all, [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     const double median = all[all.size() / 2].first;
     std::set<const BodySpec*> seen;  // copies would repeat the same
     for (const auto& [mass, body] : all)
@@ -141,9 +141,9 @@ void doubtFillings(const WorldImpl& world, std::vector<core::Finding>& doubts) {
         const bool keepsPressure = filling.keeps == mechanics::FillingKeeps::pressure;
         if (keepsPressure && filling.pressure == 0.0) continue;
         const auto isIn = [&](const JointSide& side) {
-            return std::ranges::any_of(bodies, [&](const Body* body) {
-                return names(side, *body) &&
-                       std::ranges::any_of(filling.in, [&](const std::string& in) { return names(in, *body); });
+            return std::any_of(bodies.begin(), bodies.end(), [&](const Body* body) {
+                return names(side, *body) && std::any_of(filling.in.begin(), filling.in.end(),
+                                                         [&](const std::string& in) { return names(in, *body); });
             });
         };
         for (const JointSpec& joint : world.spec.joints) {

@@ -32,7 +32,7 @@ path newOf(const path& file) {
 path checked(const path& folder, const std::string& name) {
     const path relative(name);
     const bool isBelow = !name.empty() && relative.is_relative() &&
-                         std::ranges::none_of(relative, [](const path& part) { return part == ".."; });
+                         std::none_of(relative.begin(), relative.end(), [](const path& part) { return part == ".."; });
     std::error_code error;
     const path root = std::filesystem::canonical(folder, error);
     const path parent = std::filesystem::weakly_canonical((folder / relative).parent_path(), error);

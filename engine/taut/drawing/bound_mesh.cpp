@@ -35,7 +35,8 @@ std::vector<dvec3> placesOf(const MeshData& mesh, const MeshPlace& place) {
     const FinishSpec& finish = body.spec->finish;
     const MeshData& mesh = *finish.skinData;
     const auto has = [&](const std::array<int, 3>& t) { return core::contains(t, static_cast<int>(vertex)); };
-    const auto face = static_cast<std::size_t>(std::ranges::find_if(mesh.triangles, has) - mesh.triangles.begin());
+    const auto face = static_cast<std::size_t>(std::find_if(mesh.triangles.begin(), mesh.triangles.end(), has) -
+                                               mesh.triangles.begin());
     const std::string line = face < mesh.lines.size() ? fmt::format(":{}", mesh.lines[face]) : "";
     throw core::Error(
         core::ErrorKind::badContent,

@@ -50,7 +50,7 @@ class Maker {
     bool stands(const collision::ShapeSizes& sizes, const glm::mat4& transform) const {
         constexpr double near = 1e-4;  // [m]
         const glm::mat4 at = matrixOf(poseAt(whole_, 0.0)) * transform;
-        return at[1].y > 1.0F - 1e-6F && std::ranges::any_of(all_, [&](const ColliderSpec& other) {
+        return at[1].y > 1.0F - 1e-6F && std::any_of(all_.begin(), all_.end(), [&](const ColliderSpec& other) {
                    return isFloor(other, kinds_) && at[3].y - sizes.halfSize.y < other.position.y + near;
                });
     }

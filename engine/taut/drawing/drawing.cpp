@@ -65,7 +65,7 @@ std::vector<int> orderInFile(const BodySpec& spec) {
     const std::vector<int>& numbers = source->meshData->numbers;
     std::vector<int> order(numbers.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, [&](int a, int b) {
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
         return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)];
     });
     return order;
@@ -207,7 +207,7 @@ class SkinDrawing final : public BodyDrawing {
         if (refinement_.levels == 0) return;
         std::vector<std::uint32_t> kept;
         for (std::size_t v = 0; v < points_.size(); ++v)
-            if (std::ranges::binary_search(body_.seamCorners, points_[v]))
+            if (std::binary_search(body_.seamCorners.begin(), body_.seamCorners.end(), points_[v]))
                 kept.push_back(static_cast<std::uint32_t>(v));
         fine_ =
             view::subdivided(refinement_.faces, refinement_.rest, refinement_.keepsCorners, refinement_.levels, kept);
@@ -240,7 +240,9 @@ class SkinDrawing final : public BodyDrawing {
         static constexpr const char* sides[] = {"left", "right", "bottom", "top", "back", "front"};
         for (int side = 0; side < sidesOfBlock; ++side) {
             const std::vector<int>& group = model.groups.at(sides[side]);
-            if (std::ranges::all_of(triangle, [&](int p) { return std::ranges::binary_search(group, p); })) return side;
+            if (std::all_of(triangle.begin(), triangle.end(),
+                            [&](int p) { return std::binary_search(group.begin(), group.end(), p); }))
+                return side;
         }
         return 0;
     }

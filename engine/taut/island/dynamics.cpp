@@ -110,12 +110,12 @@ class DynamicsOf final : public Dynamics {
         addGrips();
     }
     bool callsBack(const ForceList& forces) const override {
-        return std::ranges::any_of(
-            acting_, [&](const auto& acting) { return forces[acting.first]->isCallback(); });
+        return std::any_of(
+            acting_.begin(), acting_.end(), [&](const auto& acting) { return forces[acting.first]->isCallback(); });
     }
     bool isSteady(const ForceList& forces) const override {
-        return std::ranges::all_of(
-            acting_, [&](const auto& acting) { return forces[acting.first]->isSteady(); });
+        return std::all_of(
+            acting_.begin(), acting_.end(), [&](const auto& acting) { return forces[acting.first]->isSteady(); });
     }
     void steer(const ForceList& forces) override {
         for (const auto& [number, generator] : acting_) forces[number]->steer(*generator);
@@ -249,7 +249,7 @@ class DynamicsOf final : public Dynamics {
         // Checking all is faster than picking out more than a tenth.
         if (touched.size() * 10 > static_cast<std::size_t>(state_.layout.count)) return isBounded();
         const auto limit = static_cast<Real>(mechanics::speedLimit);
-        return std::ranges::all_of(touched, [&](int i) {
+        return std::all_of(touched.begin(), touched.end(), [&](int i) {
             bool isBelow = true;
             for (int p = 0; p < 3; ++p) isBelow = isBelow && std::abs(state_.v[index(i, p)]) < limit;
             return isBelow;
@@ -340,7 +340,7 @@ class DynamicsOf final : public Dynamics {
 
     // Points in a rigid grip move with its holder.
     void lead() {
-        leads_ = std::ranges::any_of(plan_.grips, &Grip::rigid);
+        leads_ = std::any_of(plan_.grips.begin(), plan_.grips.end(), [](const Grip& grip) { return grip.rigid; });
         for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
             if (!plan_.grips[g].rigid) continue;
             system_.lead({plan_.grips[g].points, [this, g](double t, std::span<dvec3> x, std::span<dvec3> v) {

@@ -110,7 +110,7 @@ class Constraint {
     // A released tie stays released.
     bool holds(int tie = 0) const { return gone_.empty() || !gone_[tie]; }
     void letGo(int tie);
-    int count() const { return size() - static_cast<int>(std::ranges::count(gone_, true)); }  // that hold
+    int count() const { return size() - static_cast<int>(std::count(gone_.begin(), gone_.end(), true)); }  // that hold
 
     // Writes or reads its state between ticks.
     void visit(StateBytes& bytes);

@@ -69,7 +69,7 @@ void checkCollider(const CheckInput& input, ColliderSpec& collider) {
 std::vector<std::string> variantsOf(const Kind<JointSpec>& kind) {
     const std::string title(kind.make()->title());
     const std::vector<Field>& rows = kind.section.fields;
-    if (std::ranges::all_of(rows, [](const Field& row) { return row.only.empty(); })) return {title};
+    if (std::all_of(rows.begin(), rows.end(), [](const Field& row) { return row.only.empty(); })) return {title};
     return {title, title + " to a collider"};
 }
 
@@ -104,9 +104,9 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
         const std::vector<std::string> variants = variantsOf(row != nullptr ? *row : kinds.all().front());
         const auto isOn = [&](const char* key) {
             const Member* side = table.find(key);
-            return side != nullptr &&
-                   (isCollider(side->value.text) ||
-                    std::ranges::any_of(side->value.items, [](const Node& item) { return isCollider(item.text); }));
+            return side != nullptr && (isCollider(side->value.text) ||
+                                       std::any_of(side->value.items.begin(), side->value.items.end(),
+                                                   [](const Node& item) { return isCollider(item.text); }));
         };
         return isOn("a") || isOn("b") ? variants.back() : variants.front();
     };

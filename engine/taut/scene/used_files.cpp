@@ -26,7 +26,8 @@ std::uint64_t contentOf(const std::string& path) {
 class Files {
   public:
     void add(const std::string& path) {
-        const bool isKnown = std::ranges::any_of(files_, [&](const UsedFile& file) { return file.path == path; });
+        const bool isKnown =
+            std::any_of(files_.begin(), files_.end(), [&](const UsedFile& file) { return file.path == path; });
         if (!path.empty() && !isKnown) files_.push_back({path, contentOf(path)});
     }
     std::vector<UsedFile> take() { return std::move(files_); }

@@ -72,7 +72,8 @@ void ContactReport::look(const ContactStage& stage, double start) {
     // The remaining crossings began in this tick.
     for (const auto& [names, crossed] : edges) {
         const std::string &first = names.first, &second = names.second;
-        auto said = std::ranges::find_if(said_, [&](const Said& s) { return s.first == first && s.second == second; });
+        auto said = std::find_if(said_.begin(), said_.end(),
+                                 [&](const Said& s) { return s.first == first && s.second == second; });
         if (said == said_.end()) {
             said_.push_back({first, second, {}});
             said = said_.end() - 1;
@@ -102,7 +103,7 @@ std::vector<std::string> ContactReport::warnings() const {
 
 void ContactReport::visit(StateBytes& bytes, std::span<const Body* const> bodies) {
     const auto visitNumber = [&](const Body*& body) {
-        auto number = static_cast<std::int64_t>(std::ranges::find(bodies, body) - bodies.begin());
+        auto number = static_cast<std::int64_t>(std::find(bodies.begin(), bodies.end(), body) - bodies.begin());
         const auto count = static_cast<std::int64_t>(bodies.size());  // of a figure
         bytes.atLeast(number, 0, count);
         body = number < count ? bodies[number] : nullptr;

@@ -44,7 +44,8 @@ void visitPart(StateBytes& bytes, PoseMove& move) {
 // Expects as many numbers as the field has.
 void visitValue(StateBytes& bytes, std::vector<double>& value, std::size_t size) {
     bytes.list(value);
-    bytes.require(value.size() == size && std::ranges::all_of(value, [](double v) { return std::isfinite(v); }));
+    bytes.require(value.size() == size &&
+                  std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
 }
 
 // The field is that of any action of the scene with the same key. Reading writes the saved value into the scene.
@@ -139,7 +140,8 @@ void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const st
         bytes.each(names, [&](std::string& name) { bytes(name); });
     }
     if (bytes.isReading())
-        std::erase_if(names, [&](const std::string& name) { return std::ranges::count(actions, name) > 0; });
+        std::erase_if(names,
+                      [&](const std::string& name) { return std::count(actions.begin(), actions.end(), name) > 0; });
     for (std::size_t i = 0; i < std::max(names.size(), own.size()); ++i) {
         if (i >= own.size() || (i < names.size() && names[i] != own[i]))
             misfit("they need the " + names[i] + ", which this world has not, or not in this place");
@@ -200,8 +202,9 @@ void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied)
     bytes(count);
     if (count != w.islands.size()) misfit("its bodies hang together in another way");
     // Applies ramps to the bodies, for the next ramp that takes an island's springs from them.
-    const bool ramped = std::ranges::any_of(
-        w.ramps, [](const Ramp& ramp) { return ramp.action.field->affects == fields::Affects::springs; });
+    const bool ramped = std::any_of(w.ramps.begin(), w.ramps.end(), [](const Ramp& ramp) {
+        return ramp.action.field->affects == fields::Affects::springs;
+    });
     if (bytes.isReading() && ramped)
         for (const WorldImpl::Member& member : w.bodies) takeSprings(w.spec, *member.body);
     if (bytes.isReading()) {

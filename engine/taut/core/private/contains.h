@@ -7,7 +7,7 @@ namespace taut::core {
 
 template <class Range, class Value>
 bool contains(const Range& range, const Value& value) {
-    return std::ranges::find(range, value) != std::ranges::end(range);
+    return std::find(std::begin(range), std::end(range), value) != std::end(range);
 }
 
 }  // namespace taut::core

@@ -95,7 +95,8 @@ SceneSection sectionOf(const char* name, const char* help, std::vector<Spec> wor
     };
     if constexpr (requires(Spec spec) { spec.name; })
         section.existing = [list](world::SceneSpec& scene, const std::string& title) -> void* {
-            const auto found = std::ranges::find(scene.*list, title, &Spec::name);
+            const auto found = std::find_if((scene.*list).begin(), (scene.*list).end(),
+                                            [&](const Spec& own) { return own.name == title; });
             return found == (scene.*list).end() ? nullptr : &*found;
         };
     return section;

@@ -17,6 +17,7 @@
 #include "game/scene_file.h"
 #include "game/suggestion.h"
 #include "game/usage.h"
+#include "taut/core/private/contains.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/machine.h"
 #include "taut/study/problems.h"
@@ -59,8 +60,7 @@ std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
     }
     std::vector<std::string> names = shippedScenes();
     const bool isBare = flags.subject.find('/') == std::string::npos && !flags.subject.ends_with(".toml") &&
-                        std::find(names.begin(), names.end(), flags.subject) == names.end() &&
-                        !std::filesystem::exists(flags.subject);
+                        !core::contains(names, flags.subject) && !std::filesystem::exists(flags.subject);
     if (isBare) {
         for (const study::ProblemInfo& problem : study::problems()) names.emplace_back(problem.name);
         for (const ChartStudy& own : chartStudies()) names.emplace_back(own.name);

@@ -11,6 +11,8 @@
 #include "game/suggestion.h"
 #include "game/usage.h"
 
+#include "taut/core/private/contains.h"
+
 namespace taut::game {
 namespace {
 
@@ -181,7 +183,7 @@ Option Options::value(const std::string& names, Target& target, const std::strin
     const Option option = add(app_.add_option(names, target, help));
     return option.check([&app = app_](const std::string& text) {  // the library takes any next word
         const std::vector<std::string> flags = flagNames(app);
-        return std::ranges::find(flags, text) == flags.end() ? "" : "its value is missing before " + text;
+        return !core::contains(flags, text) ? "" : "its value is missing before " + text;
     });
 }
 template Option Options::value(const std::string&, std::string&, const std::string&);

@@ -41,8 +41,7 @@ std::string withWords(const char* how, const OptionFacts& option) {
 
 // The word that a command takes first, if any.
 const OptionFacts* firstWord(const CommandFacts& command) {
-    const auto found = std::find_if(command.options.begin(), command.options.end(),
-                                    [](const OptionFacts& option) { return option.isPositional(); });
+    const auto found = std::ranges::find_if(command.options, &OptionFacts::isPositional);
     return found == command.options.end() ? nullptr : &*found;
 }
 

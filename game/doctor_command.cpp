@@ -15,6 +15,7 @@
 #include "game/web_page.h"
 #include "game/window.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/instruction_set.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/compare.h"
@@ -36,7 +37,7 @@ void printFact(const std::string& name, const std::string& fact) {
 struct Packages {
     std::vector<std::string> names;
     void add(const std::string& name) {
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        if (!core::contains(names, name)) names.push_back(name);
     }
 };
 

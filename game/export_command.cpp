@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -20,7 +19,9 @@
 #include "game/web_page.h"
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/parallel.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/core/whole_file.h"
 #include "taut/geometry/every_nth.h"
 #include "taut/geometry/private/format_table.h"
@@ -63,7 +64,7 @@ std::vector<std::string> targetsIn(const std::vector<std::string>& texts) {
         std::string target;
         int depth = 0;
         const auto take = [&] {
-            if (std::find(targets.begin(), targets.end(), target) == targets.end()) targets.push_back(target);
+            if (!core::contains(targets, target)) targets.push_back(target);
             target.clear();
         };
         for (const char c : text) {
@@ -150,7 +151,7 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
     add(flags.points, geometry::formatOf(formats, Holds::points, flags.points),
         [&] { return "points go to " + oneOf(ofEach(formats, Holds::points, endingAndReaders)); });
     if (flags.points.empty() && !flags.of.empty()) failUsage("--of selects points: add --points out.npz");
-    if (flags.digits > 0 && std::none_of(all.begin(), all.end(), [](const auto& to) { return to.format->hasDigits; }))
+    if (flags.digits > 0 && std::ranges::none_of(all, [](const auto& to) { return to.format->hasDigits; }))
         failUsage("--digits applies to {}; other formats have full precision", endingsWithDigits(formats));
     if (flags.output.empty() && flags.web.empty() && (flags.noNormals || !flags.only.empty()))
         failUsage("--only and --no-normals apply to geometry: add -o, or name points with --of");
@@ -182,8 +183,7 @@ std::string onlyFault(const world::SceneSpec& spec, const std::string& target) {
     }
     for (const world::ColliderSpec& collider : spec.colliders) names.push_back("collider." + collider.name);
     names.emplace_back("ground");
-    if (std::any_of(names.begin(), names.end(), [&](const auto& name) { return core::matches(target, name); }))
-        return "";
+    if (std::ranges::any_of(names, [&](const auto& name) { return core::matches(target, name); })) return "";
     const bool isOfBodies = target.find('.') != std::string::npos && !target.starts_with("collider.");
     std::string fault = isOfBodies ? scene::targetFault(spec, target, false) : "";
     if (fault.empty()) fault = "there is no " + target;
@@ -222,8 +222,7 @@ geometry::GeometryOptions geometryOptions(const ExportFlags& flags, const world:
     options.generator = fmt::format("taut {}", TAUT_VERSION);
     if (!flags.only.empty())
         options.isWanted = [only = targetsIn(flags.only)](const std::string& name) {
-            return std::any_of(only.begin(), only.end(),
-                               [&](const std::string& pattern) { return core::matches(pattern, name); });
+            return std::ranges::any_of(only, [&](const std::string& pattern) { return core::matches(pattern, name); });
         };
     return options;
 }
@@ -334,15 +333,15 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
     if (!sinks.all.empty())
         fewer = std::make_unique<geometry::EveryNth>(sinks, run.firstFrame, run.lastFrame, run.every, options.isWanted);
 
-    const auto start = std::chrono::steady_clock::now();
+    const core::Stopwatch watch;
     LabProgress progress("export", flags.quiet, interruption.flag());
     run.frameSimulated = [&](std::int64_t frame) {
         progress.show(static_cast<double>(frame + 1) / static_cast<double>(run.lastFrame + 1),
                       fmt::format("frame {}/{}", frame + 1, run.lastFrame + 1));
     };
-    bool isWhole = false;
+    bool isFinished = false;
     try {
-        isWhole = pipeline::exportGeometry(world, run, fewer.get(), points.get(), interruption.flag());
+        isFinished = pipeline::exportGeometry(world, run, fewer.get(), points.get(), interruption.flag());
     } catch (const core::Error& error) {
         if (error.kind() != core::ErrorKind::diverged) throw;
         const std::int64_t good = world.tick() / world.ticksPerFrame();
@@ -351,14 +350,13 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
             text += fmt::format("; --frames {}-{} writes the frames before", run.firstFrame, good);
         throw core::Error(core::ErrorKind::diverged, text);
     }
-    if (!isWhole) return static_cast<int>(interruption.exitCode().value_or(ExitCode::interrupted));
+    if (!isFinished) return static_cast<int>(interruption.exitCode().value_or(ExitCode::interrupted));
     if (fewer) printLost(fewer->lost(), flags.every);
     if (flags.quiet) return static_cast<int>(ExitCode::ok);
     std::string text;
     for (const auto& [file, format] : destinations)
         text += fmt::format("{}{} ({})", text.empty() ? "" : " and ", file, sizeText(file));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    printNote("{} frames in {}, {:.1f} s\n", keys, text, seconds);
+    printNote("{} frames in {}, {:.1f} s\n", keys, text, watch.seconds());
     return static_cast<int>(ExitCode::ok);
 }
 

@@ -11,7 +11,7 @@ void FileWatch::watch(std::vector<std::string> files) {
     const std::vector<Stamp> before = std::move(known_);
     known_ = last_ = look();
     for (std::size_t i = 0; i < files_.size(); ++i)
-        if (const auto old = std::find(files.begin(), files.end(), files_[i]); old != files.end())
+        if (const auto old = std::ranges::find(files, files_[i]); old != files.end())
             known_[i] = before[old - files.begin()];
 }
 

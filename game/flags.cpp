@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -10,33 +9,22 @@
 #include "game/command_line.h"
 #include "game/usage.h"
 #include "taut/core/error.h"
+#include "taut/core/numbers.h"
 #include "taut/core/private/instruction_set.h"
 #include "taut/core/private/parallel.h"
 
 namespace taut::game {
-namespace {
-
-template <class Number>
-std::optional<Number> whole(std::string_view text) {
-    Number value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
-    return value;
-}
-
-}  // namespace
-
 FrameRange frameRange(const std::string& text) {
     const auto fail = [&] {
         failUsage("--frames {}: expected a range like 0-119, the first not after the last", text);
     };
     const std::string_view view = text;
     const std::size_t dash = view.find('-');
-    const auto first = whole<std::int64_t>(view.substr(0, dash));
+    const auto first = core::wholeIn<std::int64_t>(view.substr(0, dash));
     if (!first) fail();
     if (dash == std::string_view::npos) return {*first, *first};
     if (dash + 1 == view.size()) return {*first, std::nullopt};
-    const auto last = whole<std::int64_t>(view.substr(dash + 1));
+    const auto last = core::wholeIn<std::int64_t>(view.substr(dash + 1));
     if (!last || *last < *first) fail();
     return {*first, last};
 }
@@ -46,8 +34,9 @@ Shard shard(const std::string& text) {
     const std::string_view view = text;
     const std::size_t slash = view.find('/');
     const auto fail = [&](const std::string& reason) { failUsage("--shard {}: {}", text, reason); };
-    const auto index = whole<std::int64_t>(view.substr(0, slash));
-    const auto count = slash == std::string_view::npos ? std::nullopt : whole<std::int64_t>(view.substr(slash + 1));
+    const auto index = core::wholeIn<std::int64_t>(view.substr(0, slash));
+    const auto count =
+        slash == std::string_view::npos ? std::nullopt : core::wholeIn<std::int64_t>(view.substr(slash + 1));
     if (!index || !count) fail("expected a number and a count, like 0/8");
     if (*count < 1 || *count > most) fail(fmt::format("there may be 1 to {} shards", most));
     if (*index >= *count) fail(fmt::format("there is none; they count from 0/{0} to {1}/{0}", *count, *count - 1));
@@ -59,8 +48,8 @@ Size pictureSize(const std::string& text) {
     const std::string_view view = text;
     const std::size_t cross = view.find('x');
     if (cross != std::string_view::npos) {
-        const auto width = whole<int>(view.substr(0, cross));
-        const auto height = whole<int>(view.substr(cross + 1));
+        const auto width = core::wholeIn<int>(view.substr(0, cross));
+        const auto height = core::wholeIn<int>(view.substr(cross + 1));
         const auto isFine = [&](const std::optional<int>& side) { return side && *side >= least && *side <= most; };
         if (isFine(width) && isFine(height)) return {*width, *height};
     }
@@ -107,10 +96,8 @@ std::function<int()> withThreads(Options& options, std::function<int()> action) 
 
 std::function<std::string(const std::string&)> numberWithin(double least, double most) {
     return [least, most](const std::string& text) -> std::string {
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool isNumber = error == std::errc() && end == text.data() + text.size();
-        if (isNumber && value >= least && value <= most) return "";  // false for nan
+        const auto value = core::numberIn(text);
+        if (value && *value >= least && *value <= most) return "";
         return fmt::format("expected a number from {:g} to {:g}, not {}", least, most, text);
     };
 }

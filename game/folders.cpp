@@ -35,7 +35,7 @@ std::vector<std::string> namesIn(const std::filesystem::path& folder, const char
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error))
         if (entry.path().extension() == extension) names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
+    std::ranges::sort(names);
     return names;
 }
 

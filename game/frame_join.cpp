@@ -35,9 +35,8 @@ std::string nameOf(const PartRecord& record) {
 
 // Compares each with the one that has most states: if it agrees with that, it agrees with the others.
 void expectOneRun(const image::FramePattern& pattern, const std::vector<PartRecord>& records) {
-    const auto longest = std::max_element(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
-        return a.hashes.size() < b.hashes.size();
-    });
+    const auto longest = std::ranges::max_element(
+        records, [](const PartRecord& a, const PartRecord& b) { return a.hashes.size() < b.hashes.size(); });
     for (const PartRecord& record : records) {
         if (&record == &*longest) continue;
         const std::string difference = pipeline::differenceOf(record, *longest);
@@ -89,8 +88,8 @@ void expectUnchanged(const FrameJoin& join) {
     std::vector<std::string> names;
     for (std::int64_t frame = join.frames.first; frame <= join.frames.last; ++frame) {
         const auto sum = sums[frame - join.frames.first];
-        if (std::none_of(join.records.begin(), join.records.end(),
-                         [&](const PartRecord& record) { return sum && record.pictureOf(frame) == sum; }))
+        if (std::ranges::none_of(join.records,
+                                 [&](const PartRecord& record) { return sum && record.pictureOf(frame) == sum; }))
             names.push_back(join.pattern.pathOf(frame).filename().string());
     }
     if (names.empty()) return;
@@ -150,7 +149,7 @@ class Reading {
 // Another run that has failed before its first picture has left none of the parts.
 void leaveOutFailed(std::vector<PartRecord>& records) {
     const auto hasDrawn = [](const PartRecord& record) { return record.lastDrawn() >= record.first; };
-    const auto drawn = std::find_if(records.begin(), records.end(), hasDrawn);
+    const auto drawn = std::ranges::find_if(records, hasDrawn);
     if (drawn == records.end()) return;
     std::erase_if(records, [&, run = std::pair(drawn->key, drawn->count)](const PartRecord& record) {
         return !hasDrawn(record) && std::pair(record.key, record.count) != run;

@@ -19,6 +19,7 @@
 #include "taut/bodies/cloth.h"
 #include "taut/body/private/solid_places.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/parallel.h"
 #include "taut/mechanics/sheet_moduli.h"
 #include "taut/ode/method_table.h"
@@ -73,7 +74,7 @@ TickCost measuredCost(world::World& world, std::int64_t ticks) {
     for (cost.from = cost.ticks; cost.from > 0 && late < 0.5 * cost.spent;) late += costs[--cost.from];
     if (cost.from == cost.ticks) cost.from = 0;  // finer than the clock
     costs.erase(costs.begin(), costs.begin() + cost.from);
-    std::sort(costs.begin(), costs.end());
+    std::ranges::sort(costs);
     const std::size_t tenth = costs.size() / 10;
     cost.least = costs[tenth];
     cost.mean = late / static_cast<double>(costs.size());
@@ -83,8 +84,7 @@ TickCost measuredCost(world::World& world, std::int64_t ticks) {
 
 bool mayHaveContacts(const world::SceneSpec& spec) {
     const auto collides = [](const world::BodySpec& body) { return body.collide; };
-    return world::bodiesTouch(spec) ||
-           (!spec.colliders.empty() && std::any_of(spec.bodies.begin(), spec.bodies.end(), collides));
+    return world::bodiesTouch(spec) || (!spec.colliders.empty() && std::ranges::any_of(spec.bodies, collides));
 }
 
 struct Facts {
@@ -219,7 +219,7 @@ void printJson(const Facts& facts) {
 void printMaterials(const world::SceneSpec& spec) {
     std::vector<std::string> known;
     for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
-        if (std::find(known.begin(), known.end(), cloth.material) != known.end()) continue;
+        if (core::contains(known, cloth.material)) continue;
         known.push_back(cloth.material);
         const mechanics::SheetStiffness sheet = mechanics::sheetStiffness(cloth.build(spec));
         printResult("\nmaterial {} in the cells of cloth.{}\n", cloth.material, cloth.name);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "game/test_outcome.h"
 #include "game/test_shards.h"
 #include "game/usage.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/private/video_writer.h"
 
@@ -29,8 +29,6 @@ struct JoinFlags {
     bool quiet = false;
 };
 
-using Clock = std::chrono::steady_clock;
-
 // The record of the whole run, and its metrics where all parts have theirs.
 void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
     writeWith(sink.companion("run.json"),
@@ -41,7 +39,7 @@ void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
 }
 
 int joinFrames(const JoinFlags& flags) {
-    const auto start = Clock::now();
+    const core::Stopwatch watch;
     if (!flags.output.empty() && !image::isVideoPath(flags.output))
         failUsage("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output);
     const std::optional<FrameRange> wanted =
@@ -60,8 +58,7 @@ int joinFrames(const JoinFlags& flags) {
     const Interruption interruption;
     if (encodeFrames(join, *sink, flags.quiet, interruption.flag())) {
         writeJoinedRecords(join, *sink);
-        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        if (!flags.quiet) printNote("{}, in {}, {:.1f} s\n", proved, flags.output, seconds);
+        if (!flags.quiet) printNote("{}, in {}, {:.1f} s\n", proved, flags.output, watch.seconds());
     }
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
 }

@@ -40,7 +40,7 @@ std::string programText(const pipeline::Machine& machine) {
 
 void LabProgress::show(double done, const std::string& doing) {
     if (stop_ || !line_.isDue(done >= 1.0)) return;
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double spent = watch_.seconds();
     const std::string left = done > 0.01 ? clockText(spent * (1.0 / done - 1.0)) + " left" : "time left unknown";
     line_.show(fmt::format("{} {:3.0f} %  {}  {}", name_, 100 * done, left, doing));
 }

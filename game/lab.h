@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "game/interruption.h"
 #include "game/live_line.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/pipeline/machine.h"
 #include "taut/report/chart.h"
 
@@ -36,7 +36,7 @@ class LabProgress {
     std::string name_;
     LiveLine line_;
     const std::atomic<bool>& stop_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    core::Stopwatch watch_;
 };
 
 // Runs a study with these settings, with progress and until an interruption.

@@ -56,7 +56,7 @@ void LivePlay::makeLevels() {
     std::vector<double> costs;
     for (const DrawingLevel& level : levels_) costs.push_back(level.cost);
     // As fine as before; at first where most machines end up, or a level below.
-    const auto first = std::find_if(levels_.begin(), levels_.end(), [](const auto& l) { return l.name == "normal"; });
+    const auto first = std::ranges::find_if(levels_, [](const auto& l) { return l.name == "normal"; });
     const std::ptrdiff_t wanted = adaptation_ ? adaptation_->level() : first - levels_.begin();
     const auto begin = std::min(wanted, std::ssize(levels_) - 1);
     adaptation_.emplace(std::move(costs), static_cast<int>(begin), longestTurn);

@@ -7,6 +7,7 @@
 #include "game/live_play.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/whole_file.h"
 #include "taut/live/recording.h"
 #include "taut/spec/common_rows.h"
@@ -54,9 +55,7 @@ void LivePlay::handle(const WindowEvent& event) {
 
 void LivePlay::press(const std::string& key, bool isRepeat) {
     if (isRepeat && key != ".") return;
-    const auto is = [&](std::initializer_list<const char*> names) {
-        return std::find(names.begin(), names.end(), key) != names.end();
-    };
+    const auto is = [&](std::initializer_list<const char*> names) { return core::contains(names, key); };
     if (is({"q", "escape"})) isOver_ = true;
     if (is({"space"})) isPaused_ = !isPaused_;
     if (is({"."})) {
@@ -124,7 +123,7 @@ void LivePlay::copyName() {
 
 void LivePlay::nextMethod() {
     const std::vector<std::string> names = world::methodNames();
-    const auto now = std::find(names.begin(), names.end(), session_->spec().solver.integrator);
+    const auto now = std::ranges::find(names, session_->spec().solver.integrator);
     const std::string next = now == names.end() || now + 1 == names.end() ? names.front() : *(now + 1);
     std::vector<std::string> changes = changes_;
     std::erase_if(changes, [](const std::string& change) { return change.starts_with("solver.integrator="); });

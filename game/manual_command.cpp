@@ -15,6 +15,7 @@
 #include "game/messages.h"
 #include "game/usage.h"
 #include "game/version.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/whole_file.h"
 
 namespace taut::game {
@@ -79,7 +80,7 @@ void printPage(const std::string& word) {
     std::set<std::string> found;
     const std::vector<Heading> headings = headingsWith(word);
     for (const Heading& heading : headings) found.insert(heading.page);
-    if (std::find(pages.begin(), pages.end(), word) != pages.end()) found = {word};
+    if (core::contains(pages, word)) found = {word};
     if (found.empty())
         failUsage("no page of the manual has this name or a heading with it: {}; pages: {}", word,
                   fmt::join(pages, ", "));

@@ -172,8 +172,7 @@ std::string sceneText(const std::string& title, const std::vector<std::string>& 
     const auto count = static_cast<double>(with.size());
     std::string text = fmt::format(fmt::runtime(head), fmt::arg("title", title));
     for (std::size_t i = 0; i < with.size(); ++i) {
-        const auto piece =
-            std::find_if(std::begin(pieces), std::end(pieces), [&](const Piece& each) { return each.word == with[i]; });
+        const auto piece = std::ranges::find(pieces, with[i], &Piece::word);
         const auto before = std::count(with.begin(), with.begin() + static_cast<std::ptrdiff_t>(i), with[i]);
         const std::string name = before == 0 ? "first" : fmt::format("first{}", before + 1);
         const double x = apart * (static_cast<double>(i) - 0.5 * (count - 1.0));

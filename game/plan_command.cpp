@@ -1,15 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <string>
 
 #include "game/command_line.h"
 #include "game/lab.h"
-#include "game/live_line.h"
 #include "game/messages.h"
-#include "game/progress.h"
 #include "game/scene_file.h"
 #include "game/scene_search.h"
 #include "taut/core/error.h"
@@ -27,17 +24,10 @@ struct PlanFlags : SearchFlags {
 };
 
 study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const std::atomic<bool>& stop) {
-    LiveLine line(flags.quiet);
-    const auto start = std::chrono::steady_clock::now();
+    LabProgress line("plan", flags.quiet, stop);
     study::PlanSettings settings;
     settings.effort = 1e9 * flags.effort;
-    settings.listener.stop = &stop;
-    settings.listener.progress = [&](double done, const std::string& doing) {
-        if (!line.isDue(done >= 1.0)) return;
-        const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        const double left = spent * (1.0 / std::max(done, 0.02) - 1.0);
-        line.show(fmt::format("plan {:3.0f} %  about {} left  {}", 100 * done, clockText(left), doing));
-    };
+    settings.listener = {&stop, [&line](double done, const std::string& doing) { line.show(done, doing); }};
     return study::makePlan(spec, settings);
 }
 
@@ -45,8 +35,7 @@ study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const s
 void expectNoOtherChanges(const SearchedScene& scene, const study::Plan& plan, const std::string& changed) {
     const world::SceneSpec now = scene::loadSceneText(changed, scene.file.string(), loadOptions()).spec;
     for (const scene::Change& change : study::planChanges(scene.spec, now))
-        if (std::none_of(plan.changes.begin(), plan.changes.end(),
-                         [&](const scene::Change& planned) { return planned.key == change.key; }))
+        if (std::ranges::none_of(plan.changes, [&](const scene::Change& planned) { return planned.key == change.key; }))
             throw core::Error(core::ErrorKind::badContent,
                               fmt::format("{}: {} would change too, by its like; give it a value of its own first",
                                           scene.file.string(), change.key));

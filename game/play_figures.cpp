@@ -30,8 +30,7 @@ void FiguresPlace::follow(const pipeline::PictureBox& covered, float width, std:
         box = mirrored(box, width);
         isUnder = false;
     }
-    const bool isOverBody =
-        hand && std::any_of(body.begin(), body.end(), [&](glm::vec2 at) { return holds(box, at, 0.0F); });
+    const bool isOverBody = hand && std::ranges::any_of(body, [&](glm::vec2 at) { return holds(box, at, 0.0F); });
     wanted_ = isUnder ? 0.0F : isOverBody ? thin : 1.0F;
     opacity_ += static_cast<float>(1.0 - std::exp(-seconds / fading)) * (wanted_ - opacity_);
     if (std::abs(opacity_ - wanted_) < 0.02F) opacity_ = wanted_;

@@ -44,8 +44,7 @@ std::vector<DrawingLevel> drawingLevels(const world::PictureSpec& scene) {
 }
 
 DrawingLevel levelNamed(const std::string& name, const world::PictureSpec& scene) {
-    const auto found =
-        std::find_if(everyLevel.begin(), everyLevel.end(), [&](const DrawingLevel& l) { return l.name == name; });
+    const auto found = std::ranges::find(everyLevel, name, &DrawingLevel::name);
     TAUT_EXPECTS(found != everyLevel.end());
     DrawingLevel level = *found;
     if (level.samples == 0) level.samples = scene.samples;

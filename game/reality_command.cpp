@@ -14,6 +14,7 @@
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "game/usage.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/reality/chart.h"
@@ -40,8 +41,7 @@ void checkRows(const std::vector<std::string>& wanted) {
     std::vector<std::string> names;
     for (const reality::Row& row : reality::rows()) names.push_back(row.name);
     for (const std::string& name : wanted)
-        if (std::find(names.begin(), names.end(), name) == names.end())
-            failUsage("there is no row '{}'; there are {}", name, fmt::join(names, ", "));
+        if (!core::contains(names, name)) failUsage("there is no row '{}'; there are {}", name, fmt::join(names, ", "));
 }
 
 int compareWithReality(const RealityFlags& flags) {

@@ -62,15 +62,11 @@ int record(const RecordFlags& flags) {
     world::World world(spec, {.threads = flags.threads});
     const std::int64_t last = (pipeline::frameCount(spec.run) - 1) * world.ticksPerFrame();
     LabProgress progress("record", flags.quiet, interruption.flag());
-    std::optional<world::Divergence> divergence;
-    regression::addTick(tape, world, !flags.noPoints);
-    while (world.tick() < last && !interruption.flag() && !divergence) {
-        divergence = world.advance();
-        if (divergence) break;
-        regression::addTick(tape, world, !flags.noPoints);
+    const auto divergence = regression::addTicks(tape, world, last, !flags.noPoints, [&] {
         progress.show(static_cast<double>(world.tick()) / static_cast<double>(last),
                       fmt::format("{:.2f} s", world.time()));
-    }
+        return !interruption.flag();
+    });
     regression::writeTape(output, tape);
     printResult("{}: {} ticks, {:.4g} s, last hash {:016x}\n", output.string(), tape.ticks(),
                 static_cast<double>(tape.ticks()) * tape.tickSeconds, tape.chain.back());

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -31,6 +30,7 @@
 #include "game/usage.h"
 #include "taut/check/figures.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/hash.h"
 #include "taut/core/private/parallel.h"
 #include "taut/core/whole_file.h"
@@ -99,10 +99,8 @@ std::vector<std::string> addFigures(const std::string& text, const world::SceneS
 // Parts of one run may draw into one folder at the same time; states and their records are one run's alone.
 std::vector<pipeline::RunLock> locksOf(const RenderFlags& flags, const RunPart& part,
                                        const std::optional<PartPlace>& place, const std::filesystem::path& states) {
-    char host[256] = "";
-    ::gethostname(host, sizeof host - 1);
-    const std::string name = fmt::format("taut render {}{}{}, process {} on {}", flags.scene,
-                                         part.title.empty() ? "" : " ", part.title, ::getpid(), host);
+    const std::string name =
+        pipeline::partyName(fmt::format("taut render {}{}{}", flags.scene, part.title.empty() ? "" : " ", part.title));
     const bool keepsStates = flags.continuation.every > 0;
     std::vector<pipeline::RunLock> locks;
     if (keepsStates) locks.emplace_back(states, pipeline::RunParty{std::nullopt, name});
@@ -226,7 +224,7 @@ void noteWhatIsAhead(const RenderFlags& flags, const RunPart& part, const world:
 
 // Warnings of the run, such as a block squashed flat.
 void warnOfNew(const std::vector<core::Finding>& foreseen, std::vector<core::Finding> met) {
-    std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
+    std::erase_if(met, [&](const auto& warning) { return core::contains(foreseen, warning); });
     printWarnings(met);
 }
 

@@ -1,6 +1,5 @@
 #include "game/render_stills.h"
 
-#include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "game/usage.h"
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/pipeline/overlay.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/world.h"
@@ -80,9 +80,8 @@ class Walk {
     }
 
     void hear() {
-        const auto now = std::chrono::steady_clock::now();
         pipeline::FrameRecord record{.frame = world.tick() / world.ticksPerFrame(), .time = world.time()};
-        record.simulating = std::chrono::duration<double>(now - std::exchange(heard_, now)).count();
+        record.simulating = watch_.restart();
         if (isMeasured_) {
             record.metrics = world.metrics();
             overlay_.add({*record.metrics, world.tick()});
@@ -93,7 +92,7 @@ class Walk {
     pipeline::Overlay overlay_;
     bool isMeasured_;
     Progress progress_;
-    std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
+    core::Stopwatch watch_;
 };
 
 }  // namespace

@@ -3,16 +3,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstdlib>
-#include <string_view>
 #include <thread>
 
 #include "game/command_line.h"
 #include "game/folders.h"
 #include "game/usage.h"
 #include "taut/core/error.h"
+#include "taut/core/numbers.h"
 #include "taut/pipeline/self_test.h"
 #include "taut/spec/picture_spec.h"
 
@@ -23,12 +22,8 @@ GlChoice glNamed(const std::string& gl) {
     if (gl.empty()) return {render::backends()};
     for (const Backend backend : {Backend::osmesa, Backend::egl})
         if (gl == pipeline::nameOf(backend)) return {{backend}};
-    const std::string_view view = gl;
-    if (view.starts_with("egl:")) {
-        int device = 0;
-        const auto [end, error] = std::from_chars(view.data() + 4, view.data() + view.size(), device);
-        if (error == std::errc() && end == view.data() + view.size() && device >= 0) return {{Backend::egl}, device};
-    }
+    if (gl.starts_with("egl:"))
+        if (const auto device = core::wholeIn<int>(gl.substr(4))) return {{Backend::egl}, device};
     failUsage("expected osmesa, egl, or egl:N with the number of a device that taut doctor names, not {}", gl);
 }
 

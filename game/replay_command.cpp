@@ -75,19 +75,15 @@ regression::Tape played(const ReplayFlags& flags, const regression::Tape& tape, 
     world::World world(sceneOf(flags, tape), {.threads = flags.threads});
     regression::Tape now = regression::blankTape();
     LabProgress progress("replay", flags.quiet, interruption.flag());
-    regression::addTick(now, world, hasPoints(tape));
-    const auto differs = [&] {
-        const auto at = static_cast<std::size_t>(world.tick());
-        return at >= tape.chain.size() || now.chain[at] != tape.chain[at];
-    };
-    while (world.tick() < tape.ticks() && !interruption.flag() && !differs()) {
-        if (const auto divergence = world.advance())
-            throw core::Error(core::ErrorKind::diverged, fmt::format("at tick {} of the tape's {}\n{}", world.tick(),
-                                                                     tape.ticks(), divergence->message));
-        regression::addTick(now, world, hasPoints(tape));
+    const auto goesOn = [&] {
         progress.show(static_cast<double>(world.tick()) / static_cast<double>(tape.ticks()),
                       fmt::format("{:.2f} s", world.time()));
-    }
+        const auto at = static_cast<std::size_t>(world.tick());
+        return !interruption.flag() && at < tape.chain.size() && now.chain[at] == tape.chain[at];
+    };
+    if (const auto divergence = regression::addTicks(now, world, tape.ticks(), hasPoints(tape), goesOn))
+        throw core::Error(core::ErrorKind::diverged, fmt::format("at tick {} of the tape's {}\n{}", world.tick(),
+                                                                 tape.ticks(), divergence->message));
     return now;
 }
 

@@ -22,10 +22,6 @@ bool overlap(const pipeline::PartRecord& record, const pipeline::FrameSpan& fram
     return record.first <= frames.last && record.last >= frames.first;
 }
 
-std::string hexadecimal(std::uint64_t key) {
-    return fmt::format("{:016x}", key);
-}
-
 void removeFile(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::remove(path, error);
@@ -57,9 +53,9 @@ void removeChanged(const PartPlace& place, const pipeline::PartRecord& own) {
     }
 }
 
-bool isWhole(const RunPart& part, const PartPlace& place) {
+bool hasAllFrames(const RunPart& part, const PartPlace& place) {
     const std::vector<image::FramePattern> patterns = place.files();
-    return std::all_of(patterns.begin(), patterns.end(), [&](const image::FramePattern& pattern) {
+    return std::ranges::all_of(patterns, [&](const image::FramePattern& pattern) {
         return pipeline::framesMissing(pattern.framesThere(), part.frames).empty();
     });
 }
@@ -71,7 +67,7 @@ void takeAwayRecords(const RunPart& part, const std::vector<pipeline::PartRecord
 }
 
 bool isOfRun(const pipeline::PartRecord& record, const RunPart& part, const PartPlace& place) {
-    return record.key == hexadecimal(place.key) && record.count == part.count;
+    return record.key == pipeline::hexadecimal(place.key) && record.count == part.count;
 }
 
 // Failed before its first picture. Who draws another run holds the lock of the folder: it is at work no more.
@@ -85,7 +81,7 @@ void refuseOtherRuns(const RunPart& part, const PartPlace& place, const std::vec
         if (isOfRun(record, part, place)) continue;
         if (!place.mayOverwrite && !hasLeftNothing(record, place)) {
             const std::string other =
-                record.key == hexadecimal(place.key)
+                record.key == pipeline::hexadecimal(place.key)
                     ? fmt::format("a run of {} frames, and this one has {}", record.count, part.count)
                     : fmt::format("another run{}", record.fault.empty() ? "" : ", or of none");
             throw core::Error(
@@ -139,7 +135,7 @@ RunPart partOf(const RenderFlags& flags, const world::RunSpec& run) {
 }
 
 void noteMissingLocks(const std::vector<pipeline::RunLock>& locks) {
-    const auto open = std::find_if(locks.begin(), locks.end(), [](const auto& lock) { return !lock.excludesOthers(); });
+    const auto open = std::ranges::find_if(locks, [](const auto& lock) { return !lock.excludesOthers(); });
     if (open == locks.end()) return;
     printNote("note: {} has no locks: let no two runs, and no two of the same shard, write there\n",
               open->folder().string());
@@ -159,7 +155,7 @@ PartState claimPart(const RunPart& part, const PartPlace& place, const std::stri
     const std::vector<pipeline::PartRecord> records = pipeline::partRecords(place.pattern);
     if (part.isShared) refuseOtherRuns(part, place, records);
     const std::string name = part.companion("run", ".json");
-    const auto own = std::find_if(records.begin(), records.end(), [&](const pipeline::PartRecord& record) {
+    const auto own = std::ranges::find_if(records, [&](const pipeline::PartRecord& record) {
         return record.path.filename() == name && isOfRun(record, part, place);
     });
     const bool goesOn = own != records.end() && place.resumes;
@@ -168,7 +164,7 @@ PartState claimPart(const RunPart& part, const PartPlace& place, const std::stri
         if (!place.resumes) takeAwayRecords(part, records);
         return PartState::fresh;
     }
-    if (goesOn && own->ended == "complete" && own->pictureOf(part.frames.last) && isWhole(part, place))
+    if (goesOn && own->ended == "complete" && own->pictureOf(part.frames.last) && hasAllFrames(part, place))
         return PartState::complete;
     const std::vector<std::int64_t> there = framesThere(place, part.frames);
     if (own == records.end() && place.resumes && !place.mayOverwrite && !there.empty())

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -22,7 +21,9 @@
 #include "game/test_shards.h"
 #include "game/test_suite.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/parallel.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/regression/goldens.h"
@@ -31,8 +32,6 @@
 
 namespace taut::game {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 report::TestReport blankReport(const TestRun& run) {
     const pipeline::Machine machine = pipeline::machine();
@@ -53,7 +52,7 @@ std::vector<std::string> orphans(const TestFlags& flags, const TestRun& run) {
         if (!flags.filters.empty() || !std::filesystem::is_directory(path, ignored)) return notes;
     std::vector<std::string> names;
     for (const auto& [name, goldens] : run.manifest.scenarios)
-        if (std::find(run.names.begin(), run.names.end(), name) == run.names.end()) names.push_back(name);
+        if (!core::contains(run.names, name)) names.push_back(name);
     if (!names.empty())
         notes.push_back(fmt::format("{}: there are goldens of scenarios that are not in {}: {}",
                                     run.suite.goldens.manifest().string(), fmt::join(flags.paths, ", "),
@@ -94,7 +93,7 @@ int test(const TestFlags& flags) {
 
     const Interruption interruption;
     const core::ThreadLimit limit(run.suite.threadsEach);
-    const auto start = Clock::now();
+    const core::Stopwatch watch;
     report::TestReport report = blankReport(run);
     report.notes = orphans(flags, run);
     for (const std::string& note : report.notes) printWarning(note);
@@ -120,7 +119,7 @@ int test(const TestFlags& flags) {
         report.scenarios.push_back(regression::unreadScenario(scenario));
         printNote("{}\n", scenario.fault);
     }
-    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    report.seconds = watch.seconds();
     addAcceptance(acceptBeginning(flags), report);
     if (interruption.exitCode()) addUnplayed(run.read.scenarios, report);
     showOutcome(report, flags.output);

@@ -30,7 +30,7 @@ bool isAcceptable(const report::TestScenario& scenario) {
     };
     if (scenario.state.verdict == report::Verdict::outdated) return scenario.state.bits < world::resultBits;
     if (!scenario.state.word.empty()) return false;  // there is nothing to accept
-    return differs(scenario.state) || std::any_of(scenario.pictures.begin(), scenario.pictures.end(), differs);
+    return differs(scenario.state) || std::ranges::any_of(scenario.pictures, differs);
 }
 
 // A line for each number of bits that goldens were recorded by.

@@ -1,30 +1,27 @@
 #include "game/test_shards.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "game/exit_code.h"
 #include "game/test_outcome.h"
 #include "game/usage.h"
-#include "taut/core/bytes.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/hash.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/report/saved_report.h"
-#include "taut/scene/private/body_size.h"
 #include "taut/scene/private/used_files.h"
 #include "taut/world/result_bits.h"
 
 namespace taut::game {
 namespace {
 
-const pipeline::SealedKind kind{.mark = "tauttest", .version = 2, .title = "shard of a test"};
+const pipeline::SealedKind kind{.mark = "tauttest", .version = 3, .title = "shard of a test"};
 
 // Empty where it cannot be read.
 std::string contentIfThere(const std::filesystem::path& path) {
@@ -49,38 +46,8 @@ std::uint64_t keyOf(const TestFlags& flags, const TestRun& run) {
     return hash.value();
 }
 
-// Which of so many have this turn, by `costs` from the dearest on.
-std::set<std::size_t> turns(const std::vector<double>& costs, const Shard& piece) {
-    std::vector<std::size_t> order(costs.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
-    std::set<std::size_t> mine;
-    for (auto i = static_cast<std::size_t>(piece.index); i < order.size(); i += static_cast<std::size_t>(piece.count))
-        mine.insert(order[i]);
-    return mine;
-}
-
 [[noreturn]] void refuse(const std::filesystem::path& folder, const std::string& why) {
     throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", folder.string(), why));
-}
-
-TestShard readShard(const std::filesystem::path& path) {
-    const std::vector<std::byte> content = pipeline::readSealed(path, kind);
-    core::ByteReader reader(content);
-    TestShard shard;
-    try {
-        shard.piece = {reader.number<std::int64_t>(), reader.number<std::int64_t>()};
-        shard.key = reader.number<std::uint64_t>();
-        shard.accepts = reader.text();
-        shard.hasUnread = reader.number<bool>();
-        for (auto left = reader.number<std::uint64_t>(); left > 0; --left) shard.names.push_back(reader.text());
-        shard.report = report::reportIn(reader.list<std::byte>());
-        if (!reader.isAtEnd() || shard.piece.index < 0 || shard.piece.index >= shard.piece.count)
-            core::ByteReader::fail();
-    } catch (const core::Error& error) {
-        throw core::Error(core::ErrorKind::badContent, fmt::format("{}: {}", path.string(), error.what()));
-    }
-    return shard;
 }
 
 std::vector<std::filesystem::path> shardFiles(const std::filesystem::path& folder) {
@@ -91,7 +58,7 @@ std::vector<std::filesystem::path> shardFiles(const std::filesystem::path& folde
         if (name.starts_with("shard_") && name.ends_with(".taut") && name.find("-of-") != std::string::npos)
             files.push_back(folder / name);
     }
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     return files;
 }
 
@@ -106,7 +73,7 @@ void addReport(report::TestReport& all, const report::TestReport& part) {
     addOnce(all.renderer, part.renderer);
     addOnce(all.compiler, part.compiler);
     for (const std::string& note : part.notes)
-        if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end()) all.notes.push_back(note);
+        if (!core::contains(all.notes, note)) all.notes.push_back(note);
     all.scenarios.insert(all.scenarios.end(), part.scenarios.begin(), part.scenarios.end());
     all.seconds = std::max(all.seconds, part.seconds);  // side by side
 }
@@ -133,6 +100,11 @@ void expectOneRun(const std::filesystem::path& folder, const std::map<std::int64
 
 }  // namespace
 
+void visit(core::Bytes& bytes, TestShard& shard) {
+    bytes(shard.piece.index, shard.piece.count, shard.key, shard.accepts, shard.hasUnread, shard.names, shard.report);
+    bytes.require(shard.piece.index >= 0 && shard.piece.index < shard.piece.count);
+}
+
 void deal(const TestFlags& flags, TestRun& run) {
     run.names = namesOf(run.read);
     if (flags.shard.empty()) return;
@@ -142,11 +114,11 @@ void deal(const TestFlags& flags, TestRun& run) {
     if (piece.count > count)
         failUsage("--shard {}: {} scenario{} cannot be divided into {}", flags.shard, count, count == 1 ? "" : "s",
                   piece.count);
-    std::vector<double> costs;
-    for (const regression::Scenario& scenario : run.read.scenarios)
-        costs.push_back(scene::sizeOf(scenario.spec).bytes() * scenario.spec.run.seconds);
-    costs.resize(run.names.size(), 0.0);  // unreadable files cost nothing
-    const std::set<std::size_t> mine = turns(costs, piece);
+    std::vector<std::size_t> order = regression::longestFirst(run.read.scenarios);
+    for (std::size_t i = order.size(); i < run.names.size(); ++i) order.push_back(i);  // unreadable files cost nothing
+    std::set<std::size_t> mine;
+    for (auto i = static_cast<std::size_t>(piece.index); i < order.size(); i += static_cast<std::size_t>(piece.count))
+        mine.insert(order[i]);
     std::size_t at = 0;
     const auto isForeign = [&](const auto&) { return !mine.contains(at++); };
     std::vector<regression::Scenario> scenarios;
@@ -164,10 +136,7 @@ std::filesystem::path shardPath(const std::filesystem::path& folder, const Shard
 
 std::vector<pipeline::RunLock> lockReport(const std::filesystem::path& folder, const TestRun& run,
                                           const std::optional<Shard>& piece) {
-    char host[256] = "";
-    ::gethostname(host, sizeof host - 1);
-    const std::string name =
-        fmt::format("taut test{}, process {} on {}", piece ? " --shard " + piece->text() : "", ::getpid(), host);
+    const std::string name = pipeline::partyName("taut test" + (piece ? " --shard " + piece->text() : ""));
     std::vector<pipeline::RunLock> locks;
     locks.emplace_back(folder, pipeline::RunParty{piece ? std::optional(run.key) : std::nullopt, name});
     if (piece)
@@ -180,7 +149,7 @@ std::optional<TestShard> storedShard(const std::filesystem::path& folder, const 
     const std::filesystem::path path = shardPath(folder, piece);
     if (!core::isThere(path)) return std::nullopt;
     try {
-        TestShard shard = readShard(path);
+        TestShard shard = pipeline::readSealedValue<TestShard>(path, kind);
         if (shard.key == run.key && shard.piece.index == piece.index && shard.piece.count == piece.count) return shard;
     } catch (const core::Error&) {  // damaged, it is played again
     }
@@ -192,17 +161,7 @@ int exitCodeOf(const TestShard& shard) {
 }
 
 void writeShard(const std::filesystem::path& folder, const TestShard& shard) {
-    core::ByteWriter writer;
-    writer.add(shard.piece.index);
-    writer.add(shard.piece.count);
-    writer.add(shard.key);
-    writer.add(std::string_view(shard.accepts));
-    writer.add(static_cast<std::uint8_t>(shard.hasUnread ? 1 : 0));
-    writer.add(static_cast<std::uint64_t>(shard.names.size()));
-    for (const std::string& name : shard.names) writer.add(std::string_view(name));
-    const std::vector<std::byte> report = report::bytesOf(shard.report);
-    writer.addList(std::span<const std::byte>(report));
-    pipeline::writeSealed(shardPath(folder, shard.piece), kind, writer.take());
+    pipeline::writeSealedValue(shardPath(folder, shard.piece), kind, shard);
 }
 
 bool hasTestShards(const std::filesystem::path& folder) {
@@ -215,7 +174,7 @@ TestShard joinedShards(const std::filesystem::path& folder) {
     std::map<std::int64_t, TestShard> shards;
     std::map<std::string, std::string> holders;  // of pieces, by their text
     for (const std::filesystem::path& file : files) {
-        TestShard shard = readShard(file);
+        TestShard shard = pipeline::readSealedValue<TestShard>(file, kind);
         const std::string name = file.filename().string();
         if (const auto [holder, isFirst] = holders.emplace(shard.piece.text(), name); !isFirst)
             refuse(folder, fmt::format("{} holds shard {}, and so does {}; remove the copy", name, shard.piece.text(),
@@ -230,10 +189,9 @@ TestShard joinedShards(const std::filesystem::path& folder) {
         all.hasUnread = all.hasUnread || shard.hasUnread;
     }
     const auto place = [&](const report::TestScenario& scenario) {
-        return std::find(all.names.begin(), all.names.end(), scenario.name);
+        return std::ranges::find(all.names, scenario.name);
     };
-    std::stable_sort(all.report.scenarios.begin(), all.report.scenarios.end(),
-                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    std::ranges::stable_sort(all.report.scenarios, [&](const auto& a, const auto& b) { return place(a) < place(b); });
     return all;
 }
 

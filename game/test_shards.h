@@ -9,6 +9,7 @@
 
 #include "game/flags.h"
 #include "game/test_suite.h"
+#include "taut/core/bytes.h"
 #include "taut/pipeline/run_lock.h"
 #include "taut/report/test_report.h"
 
@@ -23,6 +24,8 @@ struct TestShard {
     bool hasUnread = false;          // some scenarios cannot be read
     report::TestReport report;
 };
+
+void visit(core::Bytes& bytes, TestShard& shard);
 
 // Keeps only the scenarios of flags.shard; the longest are dealt out first. run.names and run.key stay those of all.
 // Throws core::Error(usage) if there are fewer scenarios than shards.

@@ -1,7 +1,6 @@
 #include "game/test_suite.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <system_error>
@@ -54,14 +53,13 @@ void choose(const TestFlags& flags, regression::ReadScenarios& read) {
     };
     const std::vector<std::string> names = namesOf(read);
     for (const std::string& word : wanted)
-        if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return fits(word, name); })) {
+        if (std::ranges::none_of(names, [&](const std::string& name) { return fits(word, name); })) {
             const std::string hint = didYouMean(word, names);
             failUsage("{}: there is no scenario '{}'{}", updates ? "--update" : "--filter", word,
                       hint.empty() ? "; there are " + fmt::format("{}", fmt::join(names, ", ")) : hint);
         }
     const auto isUnwanted = [&](const auto& scenario) {
-        return std::none_of(wanted.begin(), wanted.end(),
-                            [&](const std::string& word) { return fits(word, scenario.name); });
+        return std::ranges::none_of(wanted, [&](const std::string& word) { return fits(word, scenario.name); });
     };
     std::erase_if(read.scenarios, isUnwanted);
     std::erase_if(read.unread, isUnwanted);
@@ -119,8 +117,8 @@ TestRun prepare(const TestFlags& flags) {
     run.suite.goldens = goldenFolder(flags, run.paths);
     if (flags.isConfined) refuseLinks(run.suite.goldens.path);
     if (!flags.updates.empty()) {
-        const std::string name = fmt::format("taut test --update {}, process {}", flags.updates.front(), ::getpid());
-        run.lock = pipeline::RunLock(run.suite.goldens.path, {std::nullopt, name});
+        run.lock = pipeline::RunLock(
+            run.suite.goldens.path, {std::nullopt, pipeline::partyName("taut test --update " + flags.updates.front())});
         core::FileBatch::recover(run.suite.goldens.path);
     }
     run.manifest = regression::readManifest(run.suite.goldens);

@@ -24,7 +24,7 @@ std::string versionDate() {
     std::istringstream date(TAUT_DATE);  // "22 Nov 2026"
     std::string day, month, year;
     date >> day >> month >> year;
-    const auto number = std::find(months.begin(), months.end(), month) - months.begin() + 1;
+    const auto number = std::ranges::find(months, month) - months.begin() + 1;
     return fmt::format("{}-{:02}-{:0>2}", year, number, day);
 }
 

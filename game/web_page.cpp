@@ -199,10 +199,9 @@ std::filesystem::path webEngine(const std::string& wish) {
 std::string livePage(const std::filesystem::path& file, const scene::Loaded& scene, const LivePageWish& wish) {
     const std::vector<scene::Rampable> rampable = scene.actions->rampable(scene.spec);
     for (const std::string& key : wish.sliders) {
-        const auto own =
-            std::find_if(rampable.begin(), rampable.end(), [&](const auto& other) { return other.key == key; });
+        const auto own = std::ranges::find_if(rampable, [&](const auto& other) { return other.key == key; });
         if (own == rampable.end()) failSlider(key, rampable);
-        if (own->value.size() > 1 && std::all_of(own->value.begin(), own->value.end(), [](double x) { return x == 0; }))
+        if (own->value.size() > 1 && std::ranges::all_of(own->value, [](double x) { return x == 0; }))
             failUsage("--sliders: {} has no direction for a slider; give it a length in the scene", key);
     }
     const std::filesystem::path engine = webEngine(wish.engine);

@@ -43,11 +43,14 @@ void addLamp(int lamp, vec3 place, vec3 normal, vec3 smoothNormal, vec3 toEye, v
 
 // `normal` is that of the threads, `smoothNormal` of the surface, both on the side that is seen; `pixel` the size of a
 // pixel there [m], `fibres` a unit vector in the surface where there is anisotropy. `pattern`: colour of the front,
-// openness 0 … 1; `back`: colour of the back, roughness; `kind`: sheen, dulled less greyed, translucency, woven.
+// openness 0 … 1; `back`: colour of the back, roughness; `kind`: sheen, dulled less greyed, translucency, woven;
+// `strands`: anisotropy, fuzz.
 vec3 lit(vec3 place, vec3 toEye, vec3 smoothNormal, vec3 normal, vec3 fibres, float pixel, bool isBack, vec4 pattern,
-         vec4 back, vec4 kind, float anisotropy) {
+         vec4 back, vec4 kind, vec2 strands) {
     float open = pattern.a, roughness = back.a;
-    vec3 albedo = albedoOf(isBack, pattern.rgb, back.rgb, kind.y);
+    float facingEye = clamp(dot(normal, toEye), 0.0, 1.0);
+    // Between fibres that stand up it is dark: the less so the more they are seen from the side.
+    vec3 albedo = albedoOf(isBack, pattern.rgb, back.rgb, kind.y) * (1.0 - 0.6 * strands.y * facingEye * facingEye);
     vec3 through = isBack ? pattern.rgb : back.rgb;
 
     float lightSide = dot(smoothNormal, lightWay.xyz);
@@ -62,10 +65,10 @@ vec3 lit(vec3 place, vec3 toEye, vec3 smoothNormal, vec3 normal, vec3 fibres, fl
     // Threads that lie side by side, as in satin, are round: they spread the gloss across them. What goes through them
     // takes their colour (Sadeghi and others 2013).
     vec3 glossColour = vec3(0.04);
-    if (anisotropy > 0.0) {
-        float across = 1.0 - anisotropy;
+    if (strands.x > 0.0) {
+        float across = 1.0 - strands.x;
         exponent.y = max(exponent.y * across * across * across, 1.0);
-        glossColour += 0.5 * anisotropy * albedo;
+        glossColour += 0.5 * strands.x * albedo;
     }
 
     vec3 diffuse = lightColour.rgb * direct + lightOn(normal) * open;
@@ -83,7 +86,7 @@ vec3 lit(vec3 place, vec3 toEye, vec3 smoothNormal, vec3 normal, vec3 fibres, fl
 
     // Gloss of a dielectric, and the bright rim of fibres.
     vec3 halfWay = normalize(lightWay.xyz + toEye);
-    float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
+    float rim = 1.0 - facingEye;
     float rim2 = rim * rim;
     float gloss = glossOf(normal, fibres, halfWay, exponent);
     float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
@@ -93,6 +96,6 @@ vec3 lit(vec3 place, vec3 toEye, vec3 smoothNormal, vec3 normal, vec3 fibres, fl
 #endif
     vec3 mirrored = reflect(-toEye, normal);
     light += lightFrom(mirrored, 2.0 * roughness * roughness) * (fresnel * (1.0 - roughness) * 0.6 * open);
-    light += kind.x * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight.rgb);
+    light += kind.x * rim2 * mix(rim, 1.0, strands.y) * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight.rgb);
     return light;
 }

@@ -10,8 +10,8 @@
 // WIDE where a light is so large that its penumbra may be wider than those bounds reach: then there are second ones
 // that reach further.
 #ifdef WIDE
-const int mostSearches = 24;
-const int mostTaps = 64;
+const int mostSearches = 12;
+const int mostTaps = 32;
 #else
 const int mostSearches = 8;
 const int mostTaps = 20;
@@ -99,9 +99,14 @@ float reaching(vec3 place, vec3 facing, float pixel, bool casts, mat4 toMap, mat
 
     int taps = clear || dark ? 0 : (alone ? 3 : clamp(int(2.0 * radius / texel), 6, mostTaps));
     float share = 1.0 / float(max(taps, 1));
+#ifdef WIDE
+    float ring = 1.0 / (float(max(taps, 1)) - 0.5);  // the last tap lies on the rim: a wide penumbra ends there
+#else
+    float ring = share;
+#endif
     float reached = 0.0;
     for (int i = 0; i < taps; ++i) {
-        vec2 off = way * (radius * sqrt((float(i) + 0.5) * share));
+        vec2 off = way * (radius * sqrt((float(i) + 0.5) * ring));
         reached += litAt(compared, vec3(at.xy + off * toUv, min(ref + dot(rising, off), 1.0)));
         way = goldenTurn * way;
     }

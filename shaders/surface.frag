@@ -1,5 +1,5 @@
 // What of cloth, ropes, blocks and colliders can be seen: kept for light.frag, so that each pixel is lit once and small
-// triangles cost little. Variants: PATTERN 0 … 4, WEAVE, TWO_SIDED, FIBRES.
+// triangles cost little. Variants: PATTERN 0 … 4, WEAVE 0 … 4, SLUB, FUZZ, TWO_SIDED, FIBRES.
 #ifdef FIBRES
 #include "frame.glsl"
 #endif
@@ -34,7 +34,7 @@ void main() {
     }
 #endif
     vec2 pixel = fwidth(along);
-    vec3 colour = patternColour(along, pixel);
+    vec3 colour = threadColour(along, pixel, patternColour(along, pixel));
     uint smoothNormal = octahedral(normal);
     float open = 1.0;
 #ifdef FIBRES

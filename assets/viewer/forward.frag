@@ -5,7 +5,7 @@
 in vec3 upright;
 in vec2 along;            // [m] along the material
 uniform vec4 back, kind;  // as lit() has them
-uniform float anisotropy;
+uniform vec2 strands;
 out vec4 colour;
 
 void main() {
@@ -19,6 +19,7 @@ void main() {
 #if PATTERN == 4
     front.rgb = decoded(front.rgb);  // whose bytes three.js hands on as they are
 #endif
+    front.rgb = threadColour(along, over, front.rgb);
 #ifdef FIBRES
     fibres = warpOn(along, normal);
 #endif
@@ -27,6 +28,6 @@ void main() {
 #endif
     float pixel = sqrt(length(cross(dFdx(place), dFdy(place))));
     vec3 light = lit(place, normalize(eye.xyz - place), smoothNormal, normal, fibres, pixel, isBack, front, back, kind,
-                     anisotropy);
+                     strands);
     colour = vec4(filmic(light), 1.0);
 }

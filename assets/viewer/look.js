@@ -138,16 +138,19 @@ class Picture {
     if (picture) Object.assign(picture, {encoding: 3000, colorSpace: '', anisotropy: 8, needsUpdate: true});
     const {uv} = mesh.geometry.attributes;  // of taut's own in metres, v upwards
     for (let i = 0; uv && i < uv.count; ++i) uv.setXY(i, finish.repeat * uv.getX(i), -finish.repeat * uv.getY(i));
-    const isTwoSided = loaded.side === THREE.DoubleSide, isWoven = finish.weave > 0;
+    const isTwoSided = loaded.side === THREE.DoubleSide, isWoven = finish.weave > 0 || finish.fuzz > 0;
     const pattern = picture ? 4 : Math.max(['plain', 'checker', 'stripes', 'tartan'].indexOf(finish.pattern), 0);
     const definitions = [`PATTERN ${pattern}`];
     if (isTwoSided) definitions.push('TWO_SIDED');
-    if (isWoven) definitions.push('WEAVE');
+    if (isWoven) definitions.push(`WEAVE ${finish.binding}`);
+    if (finish.slub > 0) definitions.push('SLUB');
+    if (finish.fuzz > 0) definitions.push('FUZZ');
     if (finish.anisotropy > 0) definitions.push('FIBRES');
     return this.shown('surface', 'forward', definitions, uniformsOf({
       transform: mesh.matrixWorld, normalTransform: new THREE.Matrix3(), picture, repeat: finish.repeat,
       frontColour: vector(loaded.color.toArray()), accentColour: vector(finish.accent), weave: finish.weave,
-      thread: finish.thread, back: four(finish.back, loaded.roughness), anisotropy: finish.anisotropy || 0,
+      weftColour: vector(finish.back), thread: finish.thread, slub: finish.slub, fuzz: finish.fuzz,
+      back: four(finish.back, loaded.roughness), strands: new THREE.Vector2(finish.anisotropy, finish.fuzz),
       kind: new THREE.Vector4(finish.sheen, 0, isTwoSided ? finish.translucency : 0, isWoven ? 1 : 0),
     }), {side: loaded.side});
   }

@@ -62,7 +62,7 @@ std::filesystem::path sceneFile(const std::string& name) {
     if (std::filesystem::is_directory(given, ignored))
         throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: this is a folder, not a scene file", name));
     if (std::filesystem::exists(given, ignored)) return given;
-    std::sort(shipped.begin(), shipped.end());
+    std::ranges::sort(shipped);
     const std::string hint = isBare ? fields::suggestion(stem, shipped) : "";
     throw core::Error(core::ErrorKind::inputOutput,
                       fmt::format("{}: there is no such file{}{}", name, isBare ? " and no such shipped scene" : "",

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "game/python/errors.h"
 #include "game/python/folders.h"
-#include "taut/spec/private/motion.h"
 #include "taut/spec/private/rotation.h"
+#include "taut/world/components.h"
 
 namespace py = pybind11;
 
@@ -219,17 +218,17 @@ std::string LiveWorld::pickled() const {
 
 image::Image LiveWorld::draw(world::PictureSpec picture, bool debug) {
     view::FrameView view = asked().view(debug);
-    const std::vector<world::CameraSpec>& cameras = spec().cameras;
     if (!picture.camera.empty()) {
-        const auto camera = std::find_if(cameras.begin(), cameras.end(),
-                                         [&](const world::CameraSpec& each) { return each.name == picture.camera; });
-        if (camera == cameras.end()) {
-            std::string names;
-            for (const world::CameraSpec& each : cameras) names += (names.empty() ? "" : ", ") + each.name;
+        std::optional<view::Camera> found;
+        std::string names;
+        asked().registry().each<world::CameraPart>([&](ecs::Entity, const world::CameraPart& part) {
+            names += (names.empty() ? "" : ", ") + part.spec.name;
+            if (part.spec.name == picture.camera) found = world::cameraOf(part, view.time);
+        });
+        if (!found)
             refuse(fmt::format("there is no camera \"{}\"; {}", picture.camera,
                                names.empty() ? "the scene has none" : "there are " + names));
-        }
-        view.camera = world::cameraAt(*camera, asked().time());
+        view.camera = *found;
     }
     const py::gil_scoped_release free;
     return painter_.draw(view, picture);

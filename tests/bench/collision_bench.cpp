@@ -1,4 +1,4 @@
-// What a collider costs: to build it, and a point of a cloth that lies on it, passes near by, or is far from it.
+// Cost of a collider: to build it, and of a point of a cloth that lies on it, passes near by, or is far from it.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What contact with a rigid shape costs a point: a cloth of 256 × 256 points in single precision, all of which lie on
+// Cost per point of contact with a rigid shape: a cloth of 256 × 256 points in single precision, all of which lie on
 // the shape, and the same cloth far from it and without any.
 #include <benchmark/benchmark.h>
 

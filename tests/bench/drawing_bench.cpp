@@ -1,6 +1,6 @@
-// What a picture of 1280 × 720 costs in processor time, pass by pass: the shipped scenes under a still and under their
+// Processor time of a picture of 1280 × 720, pass by pass: the shipped scenes under a still and under their
 // own camera, with GL's own threads off. The counters are milliseconds a picture of each pass; waiting for GL between
-// them adds a little. `view` is what comes before: the surfaces that are drawn.
+// them adds a little. `view` is the work before: the drawn surfaces.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -28,7 +28,7 @@ double processorTime() {  // [ms]
 // milliseconds: of processor time for a view.
 std::vector<view::FrameView> viewsOf(const world::SceneSpec& spec, double& milliseconds) {
     world::World world(spec, {.threads = 1});
-    std::vector<view::FrameView> views{world.view(false)};  // what does not change is made
+    std::vector<view::FrameView> views{world.view(false)};  // constant data is made
     views.clear();
     milliseconds = 0.0;
     for (int frame = 0; frame < firstFrame + frames; ++frame) {

@@ -1,5 +1,5 @@
-// The cloth that the benchmarks step: square, hung from its top row, slightly rippled. Knows nothing of what it is
-// compared with.
+// The cloth that the benchmarks step: square, hung from its top row, slightly rippled. It does not know the
+// contestants.
 #pragma once
 
 #include <memory>

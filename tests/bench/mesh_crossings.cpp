@@ -1,4 +1,4 @@
-// Edges that go through triangles, in meshes of whatever program: what beside.sh compares besides the time.
+// Edges that go through triangles, in meshes of any program. beside.sh compares them besides the time.
 //
 //   taut_mesh_crossings play SCENE FOLDER [OVERRIDE…]   plays it, and writes cloth.sheet of every frame as OBJ
 //   taut_mesh_crossings count FILE…                     how many have crossings, of how many, and the most

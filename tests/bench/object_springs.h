@@ -1,5 +1,5 @@
 // A cloth as textbooks write it: one object a spring end, its force through a virtual call, points as structures.
-// What taut's one-spring-is-one-spring runs are measured against.
+// The reference for taut's runs of springs.
 #pragma once
 
 #include <memory>

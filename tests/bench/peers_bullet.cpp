@@ -2,8 +2,8 @@
 // of peers.csv:   taut_peers_bullet told 10,20 1,10,100   (a way of telling, numbers of cells along the strip, Γ after
 // Γ)
 //
-// How Bullet is told the fabric. told: a link has one number, m_kLST from 0 to 1: the part of its error that goes in a
-// round. That is a spring of m_kLST m/h², with the reduced mass m of its ends and the step h. Bending is by links
+// How the fabric is set in Bullet. told: a link has one number, m_kLST from 0 to 1: the part of its error that goes in
+// a round. That is a spring of m_kLST m/h², with the reduced mass m of its ends and the step h. Bending is by links
 // between points two cells apart, as generateBendingConstraints(2) makes them. They have no stiffness in a flat sheet,
 // so no number is right. They get the bending energy of the fabric at its own curvature, one over its bending length ℓ
 // = (B/w)^⅓: over the width k_b = 9Bℓ²/a⁴, from e = k_b a⁴κ⁴/18. The step is so short that this is m_kLST = 0.025, a

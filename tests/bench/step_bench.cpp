@@ -1,11 +1,11 @@
-// What a step costs, per point: taut, one iteration of Bullet's soft body over the same springs, and a textbook
-// object a spring end. Contestants take turns in short bouts, so that whatever else the machine does hits all alike;
+// Cost of a step per point: taut, one iteration of Bullet's soft body over the same springs, and a textbook
+// object a spring end. Contestants take turns in short bouts, so that other work of the machine affects all alike;
 // a ratio is the median over rounds of bout against bout.
 //
 //   Cloth/<float|double>/N/threads      counters: ns a point a step of each, and how many times faster taut is
-//   Scaling/…                           the same cloth, taut alone: what a point costs as the state grows
-//   Mesh/…                              likewise, as a mesh with the numbering of a file
-//   WindyCloth/…                        likewise, with wind on its triangles
+//   Scaling/…                           the same cloth, taut alone: cost of a point as the state grows
+//   Mesh/…                              the same, as a mesh with the numbering of a file
+//   WindyCloth/…                        the same, with wind on its triangles
 //
 // Bullet's link solver and the textbook version run on one thread always, Bullet in single precision always.
 #include <benchmark/benchmark.h>
@@ -41,7 +41,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-// One contestant: how many steps make a bout, and what its bouts took.
+// One contestant: the number of steps of a bout, and the times of its bouts.
 template <class Stepper>
 class Contestant {
   public:
@@ -50,7 +50,7 @@ class Contestant {
         steps_ = std::clamp(static_cast<int>(boutNanoseconds / std::max(once, time())), fewestSteps, 100000);
     }
     // Runs a bout; returns its cost [ns per point per step]. A step before it, untimed, brings back into the caches
-    // what the other contestant drove out: a run steps on and on.
+    // the data that the other contestant displaced, as in a long run.
     double bout() {
         stepper_(1);
         const double each = time() / steps_ / points_;

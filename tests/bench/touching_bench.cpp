@@ -128,7 +128,7 @@ BENCHMARK_CAPTURE(touching, 125 boxes fall, heap(5), 20)->Unit(benchmark::kMilli
 BENCHMARK_CAPTURE(touching, 1000 boxes fall, heap(10), 20)->Unit(benchmark::kMillisecond)->Iterations(60);
 BENCHMARK_CAPTURE(touching, 55 bricks stand, wall(10), 20)->Unit(benchmark::kMillisecond)->Iterations(60);
 
-// One detection among the shapes of solids, without the ground: what is found and solved after it is left out.
+// One detection among the shapes of solids, without the ground, the narrow phase and the solver.
 void detecting(benchmark::State& state, const world::SceneSpec& spec, int ticks) {
     world::World world(spec, {.threads = 1});
     for (int i = 0; i < ticks; ++i) (void)world.advance();

@@ -1,4 +1,4 @@
-// What many bodies cost: both figures are to stay flat a body.
+// Cost of many bodies: both figures per body should be constant.
 #include <benchmark/benchmark.h>
 
 #include "taut/bodies/cloth.h"

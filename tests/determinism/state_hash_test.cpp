@@ -1,5 +1,5 @@
 // The same scene gives the same state hash at every tick: for every number of threads, every instruction set, and —
-// through the recorded hashes, which the builds of both compilers are held against — every compiler.
+// through the recorded hashes, with which both compilers' builds are compared — every compiler.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_P(EveryPrecision, HashesChangeWhenAnythingDoes) {
     EXPECT_NE(world.stateHash(), hashes("everything", GetParam(), 3, 2, core::instructionSet()).back());
 }
 
-// All kinds of springs and forces, a contact, a joint: every method, whatever computes it, and each its own motion.
+// All kinds of springs and forces, a contact, a joint: every method, on any hardware, and each its own motion.
 TEST_P(EveryPrecision, HashesOfEveryMethodAreTheSameForThreadsAndInstructionSets) {
     std::map<std::uint64_t, std::string_view> seen;
     for (const ode::MethodInfo& method : ode::methods()) {

@@ -16,7 +16,7 @@ namespace {
 
 using namespace taut::fuzz;
 
-// libFuzzer has no other place for what its calls share.
+// libFuzzer has no other place for the common data of its calls.
 const Target*& target() {
     static const Target* chosen = nullptr;
     return chosen;

@@ -2,7 +2,7 @@
 
 #include "fuzz/support.h"
 
-// What it names lies in a folder that is not there.
+// It names files in a folder that does not exist.
 void taut::fuzz::readGltf(View bytes) {
     scene::gltfMeshText(std::string(textOf(bytes)), "/none/fuzz.gltf", {{"/none"}});
 }

@@ -2,7 +2,7 @@
 
 #include "fuzz/support.h"
 
-// A line is what follows one --set.
+// A line is the value of one --set.
 void taut::fuzz::readOverrides(View bytes) {
     scene::LoadOptions options = alone();
     std::string_view text = textOf(bytes);

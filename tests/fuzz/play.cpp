@@ -10,7 +10,7 @@
 namespace taut::fuzz {
 namespace {
 
-// What is too much for a moment: points times steps of a tick, and evaluations in all, for contact may shorten steps.
+// Limits of a short run: points times steps of a tick, and evaluations in all, for contact may shorten steps.
 constexpr double mostWork = 20'000;
 constexpr std::int64_t mostEvaluations = 20'000;
 
@@ -32,7 +32,7 @@ PlayedScene playedScene(const world::SceneSpec& spec, std::int64_t ticks) {
     const support::Played one = support::play(spec, plain);
     PlayedScene played;
     played.wasPlayed = true;
-    // What is too fast is said to be so before that, but where a step that is given is far too long.
+    // Motion that is too fast is reported before that, unless a given step is far too long.
     if (!spec.solver.dt && one.end.find("not a number") != std::string::npos) played.fault = one.end;
     const auto compare = [&](const char* what, const std::function<void(support::Playing&)>& change) {
         support::Playing how = plain;

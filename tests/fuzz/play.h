@@ -9,7 +9,7 @@
 namespace taut::fuzz {
 
 struct PlayedScene {
-    std::string fault;       // what differs, or becomes no number; empty: nothing
+    std::string fault;       // the difference, or the value that is not a number; empty: nothing
     bool wasPlayed = false;  // false: it was refused, or would have taken too long
     double gain = 0;         // of energy: support::Played::gain
 };

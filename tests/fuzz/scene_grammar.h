@@ -1,5 +1,5 @@
 // Scenes from bytes by a grammar, so that every byte string is one that can be played: a few tiny bodies near each
-// other, of all kinds, methods and numbers, with what may happen to them. It plays nothing.
+// other, of all kinds, methods and numbers, with actions. It plays nothing.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the targets share: bytes as the readers want them, a file in memory, a small scene.
+// Common code of the targets: bytes as the readers want them, a file in memory, a small scene.
 #pragma once
 
 #include <sys/mman.h>
@@ -49,7 +49,7 @@ inline scene::LoadOptions alone() {
     return options;
 }
 
-// One of each kind, named as seeds.sh names what it finds in the shipped scenes; half a second without actions.
+// One of each kind, named as seeds.sh names the parts of the shipped scenes; half a second without actions.
 inline constexpr std::string_view smallScene = R"(schema = 1
 run = { fps = 30, seconds = 0.5 }
 [material.a]

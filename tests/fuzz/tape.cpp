@@ -9,7 +9,7 @@ void readTape(View bytes) {
     regression::readTape(MemoryFile(bytes).path());
 }
 
-// Changes what is under the seal and seals it again, or little would come past the checksum; now and then the seal.
+// Changes the content under the seal and seals it again, or little would come past the checksum; now and then the seal.
 Bytes changedTape(const Bytes& bytes, const Change& change, unsigned number) {
     const pipeline::SealedKind kind{
         .mark = "tauttape", .version = 3, .title = "tape", .oldest = 1, .maxContent = std::uint64_t{1} << 20U};

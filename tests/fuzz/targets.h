@@ -17,13 +17,14 @@ using Change = std::function<void(Bytes&)>;
 struct Target {
     std::string_view name;
     void (*read)(View bytes);
-    // How to change them so that what lies below checksums is reached; null: as they are. Equal numbers, equal results.
+    // How to change them so that the content below checksums is reached; null: as they are. Equal numbers, equal
+    // results.
     Bytes (*changed)(const Bytes& bytes, const Change& change, unsigned number) = nullptr;
 };
 
 std::span<const Target> targets();
 
-// What the target makes of bytes: refused or taken.
+// The result of a target for bytes: refused or taken.
 void give(const Target& target, View bytes);
 
 // The bytes, a little different.

@@ -6,7 +6,7 @@
 namespace taut::fuzz {
 namespace {
 
-// Not what is too much for a moment: very many points, or very small steps.
+// Excludes long runs: very many points, or very small steps.
 void play(const world::SceneSpec& spec) {
     if (scene::sizeOf(spec).points > 200) return;
     world::World world(spec, {.threads = 1});
@@ -20,7 +20,7 @@ void play(const world::SceneSpec& spec) {
 
 }  // namespace
 
-// What happens to a small scene: [[at]] and whatever else may follow it.
+// The actions of a small scene: [[at]] and other tables that may follow it.
 void readTimeline(View bytes) {
     play(scene::loadSceneText(std::string(smallScene) + std::string(textOf(bytes)), "fuzz.toml", alone()).spec);
 }

@@ -23,7 +23,7 @@ const world::SceneSpec& sceneOfStates() {
 
 }  // namespace
 
-// A saved state: what is taken as one can be asked and goes on.
+// A saved state: an accepted one answers queries and continues.
 void readWorld(View bytes) {
     world::World world(sceneOfStates(), {.threads = 1});
     world.restore(std::as_bytes(bytes));

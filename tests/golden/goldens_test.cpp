@@ -1,4 +1,4 @@
-// What the goldens of this folder are kept by. That the scenarios do what their goldens say is a test of its own, `taut
+// The rules of the goldens of this folder. That the scenarios agree with their goldens is a test of its own, `taut
 // test assets/scenarios`.
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(Goldens, AreNamedInTheManifestAndHaveAReason) {
         }
         for (const auto& [key, picture] : goldens.pictures) {
             named.insert(folder.picture(scenario, key));
-            named.insert(folder.stored(scenario, key));  // of those that start from one
+            named.insert(folder.stored(scenario, key));  // of pictures that start from one
             EXPECT_TRUE(std::filesystem::exists(folder.picture(scenario, key))) << scenario << " " << key;
             EXPECT_GT(picture.why.size(), 10U) << scenario << " " << key;
         }
@@ -50,13 +50,13 @@ TEST(Goldens, AreNamedInTheManifestAndHaveAReason) {
     }
 }
 
-// What is said of the tolerance where it is defined, and measured by calibration, is said of this one.
+// The comment of the tolerance, and the calibration, are about this one.
 TEST(Goldens, AreComparedWithTheToleranceThatIsJustified) {
     EXPECT_EQ(regression::readManifest(folder).tolerance, image::Tolerance{});
     EXPECT_EQ(regression::readManifest(folder).otherRenderer, image::betweenRenderers);
 }
 
-// What the tolerance is for: a shadow switched off, a camera moved by a pixel, a colour off by a shade must fail.
+// The purpose of the tolerance: a shadow switched off, a camera moved by a pixel, a colour off by a shade must fail.
 TEST(Goldens, FindMistakesInAPicture) {
     scene::LoadOptions load;
     load.overrides = {"picture.size=[640, 360]"};

@@ -144,7 +144,7 @@ TEST(StandingStrip, FallsWhereTheoryHasIt) {
     EXPECT_GT(leaned(8.1), 0.1);
 }
 
-// f₁ = 1.875104²/(2π) √(B/(ρ L⁴)), by leap-frog; of a rope likewise with EI and its mass a metre. Gravity is so weak
+// f₁ = 1.875104²/(2π) √(B/(ρ L⁴)), by leap-frog; of a rope with EI and its mass a metre. Gravity is so weak
 // that it only sets the strip swinging about a sag of w L⁴/(8 B), a thousandth of its length: 1.4 % of that are of the
 // second mode.
 TEST(Cantilever, SwingsAtItsFrequency) {
@@ -220,14 +220,14 @@ keys = [{ t = 0, position = [0, 1, 0] }, { t = 1, position = [0.5, 1, 0], rotati
         for (int tick = 0; tick < 60; ++tick) ASSERT_FALSE(world.advance());
         settle(world);
         const glm::dvec3 end = world.positions(world.select("cloth.strip@right")).front();
-        // What is left of the motion after settling, a hundred thousandth of the length.
+        // The rest of the motion after settling, a hundred thousandth of the length.
         EXPECT_NEAR(end.x, 0.5, 1e-6);
         EXPECT_NEAR(end.y, 1.0 + length, 1e-6);
     }
 }
 
 // Broadcloth whose threads rub hangs as stiffly with steps of 1/60 s, beyond which friction would turn back a thousand
-// times, as with steps that follow it. With one Newton step threads slip late: what hangs differs by some thousandths.
+// times, as with steps that follow it. With one Newton step threads slip late: the droop differs by some thousandths.
 TEST(Hysteresis, ComesToRestWithLongImplicitStepsWhereItDoesWithShortOnes) {
     const auto hangs = [](const std::string& method) {
         const std::vector<std::string> overrides{
@@ -244,7 +244,7 @@ TEST(Hysteresis, ComesToRestWithLongImplicitStepsWhereItDoesWithShortOnes) {
     EXPECT_NEAR(hangs("sdirk2"), exact, 0.005 * exact);
 }
 
-// No fold, no twist and no friction is left across a cut: what is off falls as anything does.
+// No fold, no twist and no friction is left across a cut: the cut part falls freely.
 TEST(Bending, ActsNotAcrossACut) {
     const std::string text = R"(
 schema = 1

@@ -38,8 +38,8 @@ double omegaOf(const Model& model) {
     return mechanics::boundAnywhere({model.springs, inverseMasses}, {}).omega;
 }
 
-// 20000 steps at half of the limit, wild motion at all frequencies: the slope of the energy over the run is what its
-// swing leaves by chance. Runge-Kutta 4 at the same cost loses far more.
+// 20000 steps at half of the limit, wild motion at all frequencies: the slope of the energy over the run is the chance
+// remainder of its swing. Runge-Kutta 4 at the same cost loses far more.
 TEST(BlanesMoanEnergy, DoesNotDriftWhereRungeKuttasDoes) {
     const Model model = thrownCloth(3.0);
     const double h = 1.6 / omegaOf(model);

@@ -1,5 +1,5 @@
-// Blocks pressed flat or turned inside out: they come back. Pressed to a line they do not, and that is
-// told.
+// Blocks pressed flat or turned inside out: they come back. Pressed to a line they do not, which is
+// reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Model block(int cells) {
                                   .dragRate = 1.0});
 }
 
-// A block whose points are put elsewhere and let go. All springs and volumes keep the lengths of the rest shape.
+// A block whose points are moved and released. All springs and volumes keep the lengths of the rest shape.
 class Released {
   public:
     template <class Deform>
@@ -62,8 +62,8 @@ class Released {
 
   private:
     // Nine tenths of the limit by the bounds of the working range and of the deformed start; implicit Euler, which has
-    // none, at 1 ms. Explicit Euler at two tenths: near its limit, which dashpots and drag alone give it, it feeds what
-    // turns and folds.
+    // none, at 1 ms. Explicit Euler at two tenths: near its limit, which dashpots and drag alone give it, it feeds
+    // turning and folding.
     static double step(const Model& model, std::span<const dvec3> rest, std::string_view method) {
         std::vector<double> inverseMasses;
         for (double m : model.masses) inverseMasses.push_back(1.0 / m);

@@ -1,4 +1,4 @@
-// Points against a plane through the world: bounces, slopes, and contact that is much stiffer than what holds it.
+// Points against a plane through the world: bounces, slopes, and contact that is much stiffer than the springs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,7 +100,7 @@ TEST(Incline, LetsAPointSlideAtTheCoulombRateOrNotAtAll) {
                 const double along = glm::dot(point(world), down);
                 EXPECT_NEAR(glm::dot(point(world), away), 0.0, 1e-9);  // on the plane
                 if (share > 1.0) {
-                    EXPECT_LT(std::abs(along), 1e-6);  // sticks: no creep by what gravity adds in a step, 1e-5 m
+                    EXPECT_LT(std::abs(along), 1e-6);  // sticks: no creep by the fall of a step, 1e-5 m
                 } else {
                     // A step of 1e-3 s of one second: first order, a h t = 0.1 % ... 0.4 % of the way.
                     EXPECT_NEAR(along / (0.5 * a * t * t), 1.0, 5e-3);
@@ -108,10 +108,10 @@ TEST(Incline, LetsAPointSlideAtTheCoulombRateOrNotAtAll) {
             }
 }
 
-// Half a step of gravity is what a velocity at the time of a contact must not show.
+// A velocity at the time of a contact must not show half a step of gravity.
 TEST(Rest, IsSpeedZeroUnderAnyGravity) {
     for (const ode::MethodInfo& method : ode::methods()) {
-        if (method.name == "euler") continue;  // what it adds in each fall keeps it bouncing
+        if (method.name == "euler") continue;  // the energy that each fall adds keeps it bouncing
         for (double gravity : {9.81, 25.0, 200.0}) {
             world::SceneSpec scene = onePointOver(0.005, 1.0 / 60.0, std::string(method.name));
             scene.world.gravity = dvec3(0.0, -gravity, 0.0);
@@ -222,7 +222,7 @@ TEST(StiffContact, GoesOnInTheStepsThatItHasShortened) {
 }
 
 // A ball that creeps up to a dumb-bell at rest, pushes it away and then strikes it a hundred times as fast, at 5 m/s:
-// what it brings then is measured against that, not against the creeping, which takes 1024 times as many steps.
+// its momentum then is measured against that, not against the creeping, which takes 1024 times as many steps.
 TEST(StiffContact, ShortensStepsByWhatThereIsNowNotByWhatThereWasAtFirst) {
     world::SceneSpec scene = onePointOver(0.0, 1.0 / 60.0);
     scene.solver.dt.reset();
@@ -252,7 +252,7 @@ TEST(StiffContact, ShortensStepsByWhatThereIsNowNotByWhatThereWasAtFirst) {
     EXPECT_FALSE(saysThatContactAdded(world));
 }
 
-// Implicit Euler itself only takes: what rises is the contact's. On a smooth ground the net slides and spins on.
+// Implicit Euler itself only takes energy: a rise is the contact's. On a smooth ground the net slides and spins on.
 TEST(StiffContact, NeverRaisesTheEnergyOfImplicitSteps) {
     for (double restitution : {0.0, 1.0}) {
         world::World world(thrownNet("implicit-euler", restitution));

@@ -1,5 +1,5 @@
-// What is drawn finer than it is computed stays where contact has put it: in all shipped scenes in which cloth touches
-// something, a tenth of its thickness is the most that it sinks into a collider, a figure, or another layer.
+// Surfaces drawn finer than simulated stay where contact has put them: in all shipped scenes in which cloth touches
+// something, a tenth of the thickness is the most that they sink into a collider, a figure, or another layer.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -53,7 +53,7 @@ TEST(FloatFloor, SinglePrecisionIsBestNearAQuarterMillisecondWhileDoubleGoesOn) 
     EXPECT_NEAR(best, 2, 1);  // 2.5e-4 s, give or take a halving
     EXPECT_GT(single[best], 1e-7);
     EXPECT_LT(single[best], 2e-6);
-    // Up to there both are the same, within what rounding has added; at the shortest step single precision is worse
+    // Up to there both are the same, within the rounding so far; at the shortest step single precision is worse
     // again by several times (measured: 9), and far from double.
     EXPECT_NEAR(single[0] / twice[0], 1.0, 0.05);
     EXPECT_GT(single[count - 1], 3.0 * single[best]);

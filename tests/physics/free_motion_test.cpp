@@ -1,4 +1,4 @@
-// Motion without supports: falling, drag, flight, and what must not depend on the observer.
+// Motion without supports: falling, drag, flight, and independence of the observer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -181,7 +181,7 @@ TEST(Reversal, BringsAClothBackAfterFiveHundredSteps) {
         network.run().reverse();
         network.step(500);
         for (int i = 0; i < cloth.pointCount(); ++i)
-            // 1000 steps of rounding, enlarged by what the folding cloth magnifies.
+            // 1000 steps of rounding, enlarged by the folding cloth.
             EXPECT_LT(glm::length(network.position(i) - cloth.positions[i]), 1e-9) << method;
     }
 }

@@ -1,4 +1,4 @@
-// What hangs at rest: statics against theory, and the same shape at every resolution.
+// Hanging bodies at rest: statics against theory, and the same shape at every resolution.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -191,7 +191,7 @@ TEST(Refinement, KeepsTheSagOfARope) {
     }
     EXPECT_NEAR(sag[1] / sag[0], 1.0, 0.01);
     EXPECT_NEAR(sag[2] / sag[1], 1.0, 0.0025);
-    // Second order, give or take what 1/n⁴ adds: 2 ± 0.1.
+    // Second order, give or take the term 1/n⁴: 2 ± 0.1.
     EXPECT_NEAR(std::log2((sag[1] - sag[0]) / (sag[2] - sag[1])), 2.0, 0.1);
 }
 

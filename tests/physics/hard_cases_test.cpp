@@ -1,4 +1,4 @@
-// Networks at the edge of what is defined: no length, no room, no freedom, no balance of masses, not a number.
+// Networks at the edge of definition: no length, no room, no freedom, no balance of masses, not a number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ TEST(PretensionedSpring, HasTheSameLimitAsAtRest) {
             const Model model = between(k, restLength, {1e-6, 2e-6, 0});
             const double limit = method.largestStep(mode);
             const double stable = std::isfinite(limit) ? 0.99 * limit : 100.0 / mode.omega;
-            // What grows in Blanes and Moan's method from 3.13 on does so slowly, and not beyond 3.16.
+            // Growth in Blanes and Moan's method from 3.13 on is slow, and not beyond 3.16.
             const double unstable = method.name == "blanes-moan" ? 6.4 / mode.omega
                                     : limit > 0.0                ? 1.01 * limit
                                                                  : 1.0 / mode.omega;

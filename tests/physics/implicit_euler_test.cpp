@@ -1,4 +1,4 @@
-// Implicit Euler: what it damps, how far its step may go, its solver against a dense one, and what it says when that
+// Implicit Euler: its damping, its largest step, its solver against a dense one, and its report when the solver
 // does not converge.
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST(ImplicitEulerRing, SlowsAsTheTheorySaysAndMoreInASingleNewtonStep) {
     EXPECT_LT(slowed(1e6, 1), 0.8 * ought);
 }
 
-// Twenty links let go sideways, one second a step: it hangs within some steps, straight and as long as its weight
+// Twenty links released sideways, one second a step: it hangs within some steps, straight and as long as its weight
 // pulls.
 TEST(ImplicitEulerChain, HangsAfterAFewStepsOfASecond) {
     Model model;
@@ -83,8 +83,8 @@ TEST(ImplicitEulerChain, HangsAfterAFewStepsOfASecond) {
         ASSERT_TRUE(network.isBounded(10.0)) << h;
         double y = 0.0;
         for (int i = 1; i <= 20; ++i) {
-            y -= 0.05 + 9.81 * 0.01 * (21 - i) / 400.0;        // each link carries what hangs below
-            EXPECT_NEAR(network.position(i).y, y, 1e-6) << h;  // the solver, and what swing is left
+            y -= 0.05 + 9.81 * 0.01 * (21 - i) / 400.0;        // each link carries the links below
+            EXPECT_NEAR(network.position(i).y, y, 1e-6) << h;  // the solver, and the rest of the swing
             EXPECT_NEAR(network.position(i).x, 0.0, 1e-6) << h;
         }
     }

@@ -29,7 +29,7 @@ double fastest(const Model& model) {
     return mechanics::boundAnywhere({model.springs, inverseMasses}, {}).omega;
 }
 
-// Displaces the model along a shape (points) whose largest entry is about 1, lets go, and watches the share of the
+// Displaces the model along a shape (points) whose largest entry is about 1, releases it, and watches the share of the
 // shape in the motion, for both methods that have the same positions.
 void expectMode(Model model, const std::vector<dvec3>& shape, double amplitude, double omega, double tolerance,
                 dvec3 gravity = dvec3(0.0)) {

@@ -1,4 +1,4 @@
-// Soft bodies of a mesh: what touches is the mesh, not the cells that carry it.
+// Soft bodies of a mesh: the mesh touches, not the cells that carry it.
 #include <memory>
 
 #include "taut/spec/actions.h"
@@ -100,7 +100,7 @@ TEST(MeshBlock, LiesOnItsMesh) {
     }
 }
 
-// A stiff ball, light at the corners of its cells, falls onto the ground: what it has in its springs, in motion and in
+// A stiff ball, light at the corners of its cells, falls onto the ground: its energy of springs, motion and
 // height is at no time more than it began with.
 TEST(MeshBlock, GainsNoEnergyAsItLands) {
     world::SceneSpec spec = scene();
@@ -121,7 +121,7 @@ TEST(MeshBlock, GainsNoEnergyAsItLands) {
     EXPECT_GT(softest, 0.2 * before);
 }
 
-// A ball, and a cube of twelve triangles, are cut aslant in the air, and nothing stirs. What is drawn of the pieces is
+// A ball, and a cube of twelve triangles, are cut aslant in the air, and nothing stirs. The drawn pieces are
 // the body, open nowhere: seen from far away its volume is that of the mesh.
 TEST(MeshBlock, IsDrawnUpToTheCut) {
     for (const auto& mesh : {ball(0.2), cube(0.4)}) {
@@ -154,7 +154,7 @@ TEST(MeshBlock, IsDrawnUpToTheCut) {
 }
 
 // A ball that lies on the ground is cut near its top, and across into slices of one layer of points: nothing jumps, and
-// what has no whole cell lies on the ground too.
+// pieces without a complete cell lie on the ground too.
 TEST(MeshBlock, IsCutWhereItLies) {
     world::SceneSpec spec = scene();
     spec.colliders = {ground(0.0)};
@@ -205,8 +205,8 @@ TEST(MeshBlock, LiesOnTheGroundWhereItIsCut) {
     for (const glm::vec3& x : drawn(world, "block.cube")) EXPECT_GT(static_cast<double>(x.y), 0.9 * own.thickness);
 }
 
-// Two meet in the air: what one gives the other takes. Where they press each other is found once in a block of steps, so
-// the places slide past each other by a millimetre, which is the lever that angular momentum is lost by.
+// Two meet in the air: momentum passes from one to the other. Where they press each other is found once in a block of
+// steps, so the places slide past each other by a millimetre, which is the lever that angular momentum is lost by.
 TEST(MeshBlock, KeepsMomentumAndItsMoment) {
     world::SceneSpec spec = scene(0.0);
     spec.world.gravity = dvec3(0.0);

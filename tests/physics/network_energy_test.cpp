@@ -27,8 +27,8 @@ Model swingingChain(double tau, double drag) {
     return model;
 }
 
-// ω = 90/s at most, z = 0.09 at h = 1 ms: the energy swings by about z²/4 of what is in the springs, a few 1e-3 J of 1
-// J.
+// ω = 90/s at most, z = 0.09 at h = 1 ms: the energy swings by about z²/4 of the energy of the springs, a few 1e-3 J of
+// 1 J.
 TEST(SwingingChain, HasNoTrendInItsEnergyOverAHundredThousandSteps) {
     for (const char* method : {"leapfrog", "velocity-verlet"}) {
         SCOPED_TRACE(method);
@@ -71,7 +71,7 @@ TEST(SwingingChain, LosesEnergyToDashpotsAndDragUntilItHangs) {
         }
 }
 
-// What the world says of energy and momentum against the numbers of a net written down here.
+// The world's energy and momentum against the numbers of a net written down here.
 TEST(WorldMetrics, AreTheEnergiesAndMomentaOfTheNet) {
     world::SceneSpec scene = exactScene(1e-3);
     world::NetSpec net;

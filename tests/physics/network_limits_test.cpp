@@ -50,7 +50,7 @@ double farthest(world::World& world, const std::vector<dvec3>& from) {
     return most;
 }
 
-// Runs just below and just above the step; the diagnosis must name what it found.
+// Runs just below and just above the step; the diagnosis must name the cause.
 void expectLimit(const char* method, double limit, double tau, double drag) {
     SCOPED_TRACE(std::string(method) + ", τ = " + std::to_string(tau) + ", drag " + std::to_string(drag));
     world::World calm(stirredCloth(0.97 * limit, method, tau, drag));
@@ -78,7 +78,7 @@ void expectLimit(const char* method, double limit, double tau, double drag) {
     EXPECT_LE(divergence->safeStep, limit * (1.0 + 1e-9));
     EXPECT_GT(divergence->safeStep, 0.4 * limit);  // a bound for any shape, not a guess
     EXPECT_NE(divergence->message.find("remedy"), std::string::npos);
-    // What was good is kept, and numbers all of it.
+    // The last good state is kept, and is all numbers.
     for (const dvec3& x : positionsOf(wild, "cloth.sheet")) EXPECT_TRUE(std::isfinite(x.x + x.y + x.z));
     // And the safe step is safe.
     world::World mended(stirredCloth(divergence->safeStep, method, tau, drag));
@@ -100,7 +100,7 @@ TEST(ClothLimit, OfLeapfrogFallsWithDashpots) {
             expectLimit(method, 2.0 * (std::sqrt(tau * tau + 1.0 / (omega * omega)) - tau), tau, 0.0);
 }
 
-// Strong dashpots do not let it run away: above the limit the flat cloth trembles and buckles out of its plane, where
+// Strong dashpots do not let it run away: above the limit the flat cloth jitters and buckles out of its plane, where
 // it is less stiff, and there it stays, noisy. No divergence, so the word before the first frame is all the more
 // needed.
 TEST(ClothLimit, OfLeapfrogWithStrongDashpotsIsWhereTheFlatClothBeginsToTremble) {
@@ -166,7 +166,7 @@ TEST(AutomaticStep, HoldsTheFlagInTheWindForSeconds) {
     }
 }
 
-// The step that forgets the dashpots, 0.9 · 2/Ω, is what the bound is for.
+// The step that forgets the dashpots, 0.9 · 2/Ω, is the reason for the bound.
 TEST(AutomaticStep, IsShorterThanTheOneThatForgetsDashpots) {
     world::World found(flag(), {.keepsSteps = true});
     const world::IslandInfo info = found.islands().front();

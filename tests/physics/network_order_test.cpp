@@ -115,7 +115,7 @@ TEST(ClothOrder, IsThatOfTheMethodWithDashpotsDragAndWind) {
 }
 
 // The drag of air on a triangle goes with |u·n| u, which has a kink where the air moves along the triangle. A step
-// across a kink in v' is off by h² times the jump of its slope, whatever the method: a method of order 4 falls to 2,
+// across a kink in v' is off by h² times the jump of its slope, for any method: a method of order 4 falls to 2,
 // with a factor that depends on where in the step the kink lies. The joins of gusts (noise.h) do no such harm: with
 // lift alone, above, order 4 stands in the same gusts.
 TEST(ClothOrder, IsTwoForMethodsOfOrderFourWhereDragCrossesEdgeOn) {
@@ -125,7 +125,7 @@ TEST(ClothOrder, IsTwoForMethodsOfOrderFourWhereDragCrossesEdgeOn) {
         SCOPED_TRACE(method);
         const auto error = [&](int steps) { return errorOf(model, Air::blowing, method, steps, ought).second; };
         // Long steps hide the kinks behind the error of smooth motion, ∝ h⁴; at 0.5 ms and less kinks lead. Over four
-        // halvings their chances even out: measured 2.3 (velocities), from both sides within what the chances allow.
+        // halvings their chances even out: measured 2.3 (velocities), bounded from both sides within the scatter.
         const double order = std::log2(error(400) / error(6400)) / 4.0;
         EXPECT_GT(order, 1.5);
         EXPECT_LT(order, 2.8);

@@ -91,7 +91,7 @@ TEST(ExplicitEulerOscillator, GrowsAtItsKnownRate) {
         // x_n = Re (1 - i z)^n
         const double amplitude = std::pow(1.0 + z * z, 0.5 * i);
         ASSERT_NEAR(run.state.x[0], amplitude * std::cos(i * std::atan(z)), 1e-11 * amplitude) << "after " << i;
-        // The energy grows by 1 + z² each step, whatever the phase.
+        // The energy grows by 1 + z² each step, at any phase.
         ASSERT_NEAR(energyOf(phaseOf(run)), energyOf(start) * amplitude * amplitude, 1e-11 * amplitude * amplitude)
             << "after " << i;  // rounding: 2000 steps of 1e-15
     }

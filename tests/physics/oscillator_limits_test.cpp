@@ -140,7 +140,7 @@ TEST(BlanesMoanLimit, IsTheTraceOfItsStepUndamped) {
     EXPECT_NEAR(halfTrace(limit), -1.0, 1e-10);  // the conditions grant rounding 1e-11
     EXPECT_LT(halfTrace(limit + 1e-4), -1.0);
     for (double z = 0.01; z < limit - 1e-6; z += 0.01) ASSERT_GT(halfTrace(z), -1.0) << z;
-    // What grows there grows slowly, and not beyond 3.16: below and above by 0.4 % each, over 2e5 steps.
+    // Growth there is slow, and not beyond 3.16: below and above by 0.4 % each, over 2e5 steps.
     EXPECT_LT(largestAmplitude("blanes-moan", damped(0.0, 0.0), 0.996 * limit / omega), 100.0);
     EXPECT_GT(largestAmplitude("blanes-moan", damped(0.0, 0.0), 1.004 * limit / omega), 1e11);
     EXPECT_NEAR(method.automaticStep({omega}) / method.largestStep({omega}), 1.0, 1e-8);  // its constant's digits

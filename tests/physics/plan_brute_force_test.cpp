@@ -1,4 +1,4 @@
-// What `plan` picks, held against a grid of resolutions, methods and steps. The witness is a run of its own, see
+// The choice of `plan` against a grid of resolutions, methods and steps. The witness is a run of its own, see
 // plan_scenes.h, without plan's extrapolation.
 #include <gtest/gtest.h>
 
@@ -63,8 +63,8 @@ struct Best {
 };
 
 // The cheapest way on the grid that meets the need: cells from the fewest to two more than chosen, all methods,
-// substeps from the fewest that are stable to those that cost more than the cheapest so far: each number of them up to
-// 32, beyond it numbers 2 % apart. Starts from what was chosen.
+// substeps from the fewest that are stable to ones that cost more than the cheapest so far: each number of them up to
+// 32, beyond it numbers 2 % apart. Starts from the choice.
 Best cheapest(const Witness& witness, const Best& chosen) {
     const double frames = witness.context.grid.frames();
     Best best = chosen;

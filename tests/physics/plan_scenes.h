@@ -1,4 +1,4 @@
-// Thirteen small scenes that differ in what decides how to compute them, each with a witness: a run of another method
+// Thirteen small scenes that differ in the deciding cost, each with a witness: a run of another method
 // than plan's own references are made by, and so fine that half as fine a one is within a fifth of the need.
 #pragma once
 

@@ -1,4 +1,4 @@
-// SDIRK2: what is too fast for its step dies out, on stiff ropes too, and it errs less than implicit Euler for the same
+// SDIRK2: motion too fast for its step dies out, on stiff ropes too, and it errs less than implicit Euler for the same
 // solves. Its order, and that no step is too long for it, are in the tests of all methods.
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(Sdirk2Rope, IsAsCalmAsImplicitEulersAfterAJerk) {
     }
 }
 
-// A chain let go sideways, steps of a picture's length: less than a third of the error.
+// A chain released sideways, steps of a picture's length: less than a third of the error.
 TEST(Sdirk2Chain, ErrsFarLessThanImplicitEulerForTheSameSolves) {
     Model model;
     addPoint(model, {0, 0, 0}, 1.0, true);

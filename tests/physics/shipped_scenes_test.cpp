@@ -1,4 +1,4 @@
-// What the shipped scenes promise, played to their ends.
+// The promises of the shipped scenes, played to their ends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,7 +69,7 @@ TEST(ShippedScenes, AJumpingColliderDoesNotExplodeACloth) {
     }
     // 0.2 kg of cloth carried off at no more than the ball's 30 m/s has 90 J; an explosion has no bound.
     EXPECT_LT(energy, 90.0);
-    // One second later what is left is a cloth that falls or hangs: 0.2 kg at 10 m/s.
+    // One second later there is only a cloth that falls or hangs: 0.2 kg at 10 m/s.
     EXPECT_LT(world.metrics().kinetic, 10.0);
     EXPECT_LT(world.metrics().maxStrain, 0.5);
 }

@@ -67,7 +67,7 @@ void advanceBy(World& world, double seconds) {
         ASSERT_FALSE(world.advance());
 }
 
-// In still air it comes to fall with √(2 m g / ρ C_D A), where A is what is seen of it from below.
+// In still air it comes to fall with √(2 m g / ρ C_D A), where A is its area seen from below.
 TEST(Solid, FallsAtTheSpeedAtWhichTheAirCarriesIt) {
     world::SceneSpec spec = scene();
     world::WindSpec air;
@@ -130,7 +130,7 @@ TEST(SolidBall, SlidesAndThenRolls) {
     EXPECT_NEAR(end.centre.y, 0.1, 1e-5);
 }
 
-// What touches is a prism of 24 sides, which would lose two thirds of its energy in a turn. On the faces and edges of a
+// Contact uses a prism of 24 sides, which would lose two thirds of its energy in a turn. On the faces and edges of a
 // board it rolls three turns as a round body does.
 TEST(SolidCylinder, RollsOverABoardWithoutLoss) {
     world::SceneSpec spec = scene(0.4);
@@ -229,7 +229,7 @@ TEST(SolidBox, TipsOverAtItsAngle) {
     }
 }
 
-// What comes in leaves at the other end: a row of five that touch, without loss.
+// An incoming ball leaves at the other end: a row of five that touch, without loss.
 TEST(SolidBall, PassesItsMomentumOnThroughARow) {
     world::SceneSpec spec = scene();
     spec.world.gravity = dvec3(0.0);
@@ -299,8 +299,8 @@ TEST(SolidBox, MadeOfHalvesMovesAsTheWhole) {
         for (const dvec3& centre : {middle, motionOf(three, "solid.parts").centre})
             furthest = std::max(furthest, glm::distance(centre, wanted));
         if (tick == 20) EXPECT_LT(furthest, 1e-11);  // in the air: a weld is settled to 1e-12 in each of 168 steps
-        // The first impact, of an edge: two rows or four, which the solver settles to 1e-5 of the thickness. What
-        // balances on an edge after it grows apart.
+        // The first impact, of an edge: two rows or four, which the solver settles to 1e-5 of the thickness. A body
+        // that balances on an edge after it grows apart.
         if (tick == 28) EXPECT_LT(furthest, 2e-8);
     }
     constexpr double fallOfAnInstant = 9.81 / (240.0 * 240.0);  // [m] from rest: such gaps count as closed
@@ -330,7 +330,7 @@ TEST(SolidCompound, RestsOnEachOfItsParts) {
 }
 
 // Two boxes with a corner each in one place, where their faces are nearer than their thickness: they turn about it as
-// if they could not touch; they touch once it has let go.
+// if they could not touch; they touch once it is released.
 TEST(SolidBox, TouchesNoneThatAJointHoldsToIt) {
     world::SceneSpec spec = scene();
     spec.world.gravity = dvec3(0.0);
@@ -491,7 +491,7 @@ TEST(SolidBox, OfADoublePendulumFollowsLagrangesEquations) {
     EXPECT_LT(opening, 1e-4 * length);
 
     // In the axes of a bar, from its axle or hinge at the lower edge: the middle, and the other lower edge.
-    using Angles = std::vector<double>;  // of both bars, and their rates
+    using Angles = std::vector<double>;  // of the two bars, and their rates
     const std::complex<double> middle(length / 2, width / 2), edge(length, 0.0);
     const double inertia = (length * length + width * width) / 12 + std::norm(middle);  // over the mass
     const auto rates = [&](const Angles& at, Angles& rate, double) {
@@ -512,7 +512,7 @@ TEST(SolidBox, OfADoublePendulumFollowsLagrangesEquations) {
     EXPECT_LT(std::hypot(there.x - end.real(), there.y - end.imag()), 1e-3);
 }
 
-// A crate at a wall is carried by it and let go again: a world restored in between has the same bits.
+// A wall carries a crate and releases it again: a world restored in between has the same bits.
 TEST(SolidBox, IsCarriedByAWallAsInARestoredWorld) {
     world::SceneSpec spec = scene();
     spec.colliders = {ground(0.0, 0.5)};
@@ -584,8 +584,8 @@ TEST(SolidCylinder, KeepsASpinThatIsFastForTheTick) {
     EXPECT_NEAR(world.metrics().angularMomentum.y / start.angularMomentum.y, 1.0, 1e-4);
 }
 
-// Without gravity: a ball and a point of a net against a wall, and two balls head on. What two bodies or a body and a
-// collider give back is the product of what stands for both.
+// Without gravity: a ball and a point of a net against a wall, and two balls head on. The restitution of two bodies or
+// a body and a collider is the product of the two factors.
 TEST(Solid, BouncesByTheFactorsOfBothSides) {
     world::SceneSpec spec = scene();
     spec.world.gravity = dvec3(0.0);
@@ -644,7 +644,7 @@ TEST(Solid, StaysOnItsSideOfAThinPlate) {
     }
 }
 
-// Aslant, one ball gives another of its mass what it has along the line between their centres when they meet, and
+// Aslant, one ball gives another of its mass its velocity along the line between their centres when they meet, and
 // bounces off a fixed one by twice of that, however far it comes in an instant.
 TEST(SolidBall, BouncesAlongTheLineBetweenTheCentres) {
     for (const double speed : {1.0, 30.0, 100.0}) {
@@ -693,7 +693,7 @@ TEST(SolidBox, BouncesOffAFaceWithoutTurning) {
     EXPECT_LT(glm::length(motion.spin), 1e-6);
 }
 
-// On its corners, with friction. A tick's energy is known but for what gravity does in it.
+// On its corners, with friction. A tick's energy is known but for the work of gravity in it.
 TEST(SolidBox, GainsNoEnergyWhereItBouncesAndTurns) {
     world::SceneSpec spec = scene();
     spec.colliders = {ground(0.0, 0.5)};
@@ -749,7 +749,7 @@ TEST(Solid, KeepsMomentaWhereItIsRound) {
     EXPECT_LT(glm::length(end.turning - start.turning) / glm::length(start.turning), 0.005);
 }
 
-// A ball, a box and a cylinder fall on a free cloth in free space: nothing is lost of both momenta, nothing crosses.
+// A ball, a box and a cylinder fall on a free cloth in free space: neither momentum is lost, nothing crosses.
 TEST(Solid, KeepsMomentaWithACloth) {
     world::SceneSpec spec = scene(0.5);
     spec.contact.detections = 32;  // steps that change while bodies press would lose momentum
@@ -835,7 +835,8 @@ TEST(SolidMesh, AnArchOfWedgesStandsFromItsLeastDepthOn) {
     }
 }
 
-// What starts within another comes apart, no faster than crossings do, and neither gains more momentum than the other.
+// A body that starts within another comes apart, no faster than crossings do, and neither gains more momentum than the
+// other.
 TEST(SolidBox, ComesOutOfOneThatItStartsIn) {
     for (const dvec3& offset : {dvec3(0.0), dvec3(0.05, 0.03, 0.02)}) {
         world::SceneSpec spec = scene();
@@ -852,8 +853,8 @@ TEST(SolidBox, ComesOutOfOneThatItStartsIn) {
     }
 }
 
-// Ten boxes of 0.1 m, each turned and a little aside, under which friction holds every one. They lean by less than what
-// they may, and then sleep. A ball that is dropped on them wakes all within its tick.
+// Ten boxes of 0.1 m, each turned and a little aside, under which friction holds every one. They lean by less than
+// allowed, and then sleep. A ball that is dropped on them wakes all within its tick.
 TEST(SolidBox, StandsInAStackAndSleeps) {
     constexpr int count = 10;
     world::SceneSpec spec = scene();
@@ -962,7 +963,7 @@ struct Dominoes {
 // [s] that each domino of a row falls until it meets the next, with all before it leaning on it, which turn about their
 // feet: van Leeuwen, "The domino effect", Am. J. Phys. 78 (2010). Lengths are heights. The corner of the one behind
 // slides down the back of the one before it: sin(θ' - θ) = pitch cos θ - depth, so that θ of the head says all.
-// Forces between them go out with the right weights; what is left says how the head falls, and how it meets the next.
+// Forces between them go out with the right weights; the rest says how the head falls, and how it meets the next.
 std::vector<double> timesOfDominoes(const Dominoes& row, double spin, int count) {
     const double depth = row.depth / row.height, gap = row.gap / row.height, pitch = depth + gap;
     const double inertia = (1 + depth * depth) / 3, second = std::sqrt(row.height / g), last = std::asin(gap);
@@ -1042,7 +1043,7 @@ TEST(SolidBox, TopplesInARowAtTheSpeedOfTheory) {
     EXPECT_NEAR((starts[count - 1] - starts[3]) / time, 1.0, 0.01);
 }
 
-// A ball is a point that keeps its radius from what it meets, from cords too: it lies on four of them.
+// A ball is a point that keeps its radius from other surfaces, from cords too: it lies on four of them.
 TEST(SolidBall, LiesOnCords) {
     world::SceneSpec spec = scene();
     std::vector<std::string> cords;

@@ -12,7 +12,7 @@
 namespace taut::test::step_following {
 namespace {
 
-// A tetrahedron of springs, stretched by a fiftieth and let go, that spins in space without any damping.
+// A tetrahedron of springs, stretched by a fiftieth and released, that spins in space without any damping.
 world::SceneSpec spinningNet(double stiffness) {
     world::SceneSpec scene;
     scene.solver.precision = world::Precision::double_;

@@ -1,4 +1,4 @@
-// What the charts rest on: the solutions in closed form, the computed references, and the orders that come out.
+// The basis of the charts: the solutions in closed form, the computed references, and the orders that come out.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -62,7 +62,7 @@ TEST_P(ConservativeProblem, KeepsItsEnergyInClosedForm) {
 INSTANTIATE_TEST_SUITE_P(Study, ConservativeProblem, testing::Values("oscillator", "chain", "net"));
 
 TEST(StudyReference, OfThePendulumKeepsItsEnergyAndAgreesWithItself) {
-    const std::unique_ptr<Subject> pendulum = makePendulum();
+    const std::unique_ptr<Subject> pendulum = makeProblem("pendulum");
     const Grid grid = pendulum->grid(2.0, 2.0);
     const Reference reference = makeReference(*pendulum, grid, grid.samples, 0.2);
     EXPECT_FALSE(reference.isExact);
@@ -127,7 +127,7 @@ TEST(StudyReference, ErrsLessThanItSaysAgainstTheory) {
 // The same of springs that are not linear, by Bulirsch and Stoer's method of Boost.odeint, on the pendulum's equation
 // written here: x'' = -(k/m)(1 - L/|x|) x + g.
 TEST(StudyReference, ErrsLessThanItSaysAgainstOdeint) {
-    const std::unique_ptr<Subject> pendulum = makePendulum();
+    const std::unique_ptr<Subject> pendulum = makeProblem("pendulum");
     const Grid grid = pendulum->grid(2.0, 2.0);
     const Reference reference = makeReference(*pendulum, grid, grid.samples, 0.0);
     using State = std::array<double, 6>;
@@ -190,7 +190,7 @@ TEST(StudyReference, OfContactsIsMadeInShortSteps) {
 }
 
 TEST(StudyReference, ErrorsThatItDoesNotResolveAreMarked) {
-    const std::unique_ptr<Subject> pendulum = makePendulum();
+    const std::unique_ptr<Subject> pendulum = makeProblem("pendulum");
     StudySettings settings;
     settings.halvings = 9;
     settings.seconds = 1.0;
@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Study, Orders,
 
 // Euler's limit on cloth is its dashpots', leap-frog's that of its fastest mode: steps below stay bounded.
 TEST(StudyCloth, StepsWithinTheLimitNeverFail) {
-    const std::unique_ptr<Subject> cloth = makeClothCorners();
+    const std::unique_ptr<Subject> cloth = makeProblem("cloth-corners");
     for (const ode::MethodInfo& method : ode::methods()) {
         const double limit = cloth->stepLimit(method);
         if (limit == 0 || !std::isfinite(limit)) continue;

@@ -26,8 +26,8 @@ SceneThresholds thresholdsOf(const world::SceneSpec& spec, std::vector<std::stri
     return study::findThresholds(spec, "test", settings);
 }
 
-// What stands is within 1 % of what fails; growth from 1e-9 m within 0.4 s, some 250 steps, takes 8 % a step, which
-// leap-frog has 0.1 % above its limit, and RK4, whose roots leave the circle slowly, 1.5 %.
+// The stable step is within 1 % of the failing one; growth from 1e-9 m within 0.4 s, some 250 steps, takes 8 % a step,
+// which leap-frog has 0.1 % above its limit, and RK4, whose roots leave the circle slowly, 1.5 %.
 TEST(Threshold, OfATautRopeIsThatOfTheClosedForm) {
     const SceneThresholds found =
         thresholdsOf(study::referenceNetwork("rope"), {"symplectic-euler", "velocity-verlet", "leapfrog", "rk4"});
@@ -74,7 +74,7 @@ TEST(Threshold, IsNoneWhereAMethodGrowsAtEveryStepOrAtNone) {
     EXPECT_TRUE(std::isinf(implicit.predicted.lanczos));
 }
 
-// All modes of a straight rope along itself stand h < τ, whatever their frequency, and across they are damped by drag
+// All modes of a straight rope along itself stand h < τ at any frequency, and across they are damped by drag
 // alone: there is none, but tension is slight and the run short.
 TEST(Threshold, OfExplicitEulerIsTheDampingTime) {
     world::SceneSpec scene = study::referenceNetwork("rope");

@@ -1,4 +1,4 @@
-// How much a tear in the wind depends on what it should not depend on. It is chaotic: one run says nothing, the mean
+// The spurious dependence of a tear in the wind. It is chaotic: one run says nothing, the mean
 // over gusts does. Small and exact cases are in unit/world_tearing_test.cpp.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// Ropes, knots, islands of several methods and steps, cuts, restarts: bodies that touch, in what else a world does.
+// Ropes, knots, islands of several methods and steps, cuts, restarts: bodies that touch, with other features of a
+// world.
 #include "support/knots.h"
 #include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
@@ -258,7 +259,7 @@ TEST(TouchingFrames, AWagonSeesTheSameMotion) {
     EXPECT_LT(largestDifference(still, meetingOf(dvec3(0.0), turn)), 1e-9);
 }
 
-// Three sheets in a pile, the middle one cut through: what holds is not jerked.
+// Three sheets in a pile, the middle one cut through: the held parts are not jerked.
 TEST(TouchingCut, ThroughAPileJerksNothing) {
     world::SceneSpec spec = scene();
     spec.colliders = {ground(0.0)};
@@ -328,7 +329,7 @@ TEST(TouchingCut, FacesBaredInABlockAreMet) {
 
 // A block cut aslant: the upper piece slides down on the lower one with g (sin a - m cos a), or stops. Pieces that met
 // at the steps of whole cells would be caught in each other. They drop onto each other by some of their thickness at
-// first, and what steps are left is a twentieth of a cell high: that brakes what is pressed on them.
+// first, and the remaining edges are a twentieth of a cell high: they brake the pressed piece.
 TEST(TouchingCut, APieceSlidesOnTheCutAsCoulombSays) {
     const double slope = std::atan(0.5);
     for (const double friction : {0.0, 0.3, 0.8}) {
@@ -412,7 +413,7 @@ TEST(TouchingSpawn, ABodyThatAppearsLandsOnAnother) {
     EXPECT_FALSE(advance(world, 40));
     EXPECT_GT(lowest(positionsOf(world, "cloth.late")), lowest(positionsOf(world, "cloth.lower")));
     EXPECT_GT(lowest(positionsOf(world, "cloth.late")), -0.3);
-    // And what is gone is not met.
+    // And removed bodies have no contact.
     world.destroy(bodyOf(world, "cloth.lower"));
     EXPECT_FALSE(advance(world, 40));
     EXPECT_LT(highest(positionsOf(world, "cloth.late")), -1.0);

@@ -19,7 +19,7 @@ world::BlockSpec block(const std::string& name, double size, const dvec3& positi
     return block;
 }
 
-// What is left after two springy blocks have met at 2 m/s, of the energy before; in steps of 1/128 of a tick.
+// The energy after two springy blocks have met at 2 m/s, over the energy before; in steps of 1/128 of a tick.
 double leftAfterImpact(std::optional<int> detections) {
     world::SceneSpec spec = scene();
     spec.world.gravity = dvec3(0.0);
@@ -36,7 +36,7 @@ double leftAfterImpact(std::optional<int> detections) {
     return world.metrics().energy() / before;
 }
 
-// Impulses act in every step, however seldom it is found what may meet: 0.1 % was seen.
+// Impulses act in every step, however rarely pairs are detected: 0.1 % was seen.
 TEST(TouchingEnergy, OfASpringyImpactDoesNotHangOnTheDetections) {
     const double finest = leftAfterImpact(128);
     EXPECT_LT(finest, 1.0);
@@ -44,7 +44,7 @@ TEST(TouchingEnergy, OfASpringyImpactDoesNotHangOnTheDetections) {
         EXPECT_NEAR(leftAfterImpact(detections), finest, 0.005) << detections.value_or(0);
 }
 
-// Undamped ropes that cross at 12 m/s, in steps of 1/9 of what their springs allow: nothing takes energy, and bounces
+// Undamped ropes that cross at 12 m/s, in steps of 1/9 of the limit of their springs: nothing takes energy, and bounces
 // may not give any. 2e-4 was seen, and twice the energy where the velocity after the kick of a step was given back.
 TEST(TouchingEnergy, OfStiffRopesThatBounceStays) {
     world::SceneSpec spec = scene();
@@ -92,7 +92,7 @@ std::ostream& operator<<(std::ostream& out, const Impact& impact) {
 
 class TouchingImpact : public testing::TestWithParam<Impact> {};
 
-// An impulse in every step takes energy, whatever the step is (contact/solver.h); 1 % is left for the error of the
+// An impulse in every step takes energy at any step (contact/solver.h); 1 % is left for the error of the
 // methods.
 TEST_P(TouchingImpact, AddsNoEnergy) {
     const Impact& impact = GetParam();
@@ -156,7 +156,7 @@ world::SceneSpec laidDown(double degrees, double fps) {
     return spec;
 }
 
-// What a layer of points takes to stop in a step, g h = 0.005 m/s, is no motion, and the picture rate has no say.
+// The speed that stops a layer of points in a step, g h = 0.005 m/s, is no motion, and the picture rate has no say.
 TEST(TouchingRest, OfABlockLaidOnClothIsStill) {
     std::vector<double> heights;
     for (const double fps : {60.0, 240.0}) {
@@ -223,7 +223,7 @@ TEST(TouchingEnergy, OfAStiffBlockOnASoftClothDoesNotRise) {
     EXPECT_EQ(resumed.stateHash(), world.stateHash());
 }
 
-// A second after they fell, and for ten more: the gain is held against what it takes to lift them by the distance that
+// A second after they fell, and for ten more: the gain is compared with the work to lift them by the distance that
 // they keep, of which up to 5e-5 was seen, in strains that friction keeps. A step's fall is 1 mm/s.
 TEST(TouchingEnergy, DoesNotRiseInTenSecondsAtRest) {
     for (const bool areBlocks : {false, true}) {

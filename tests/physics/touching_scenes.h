@@ -1,4 +1,4 @@
-// Bodies that touch: what several tests of them begin with.
+// Scenes of bodies that touch, for several tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ inline double largestDifference(const std::vector<dvec3>& a, const std::vector<d
     return most;
 }
 
-// Of the fastest of their points, by what they do in a tick and not by velocities. [m/s]
+// Of the fastest of their points, by their ways in a tick and not by velocities. [m/s]
 inline double fastest(world::World& world, const std::vector<std::string>& bodies) {
     std::vector<std::vector<dvec3>> before;
     for (const std::string& name : bodies) before.push_back(positionsOf(world, name));

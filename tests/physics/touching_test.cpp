@@ -36,10 +36,10 @@ TEST(TouchingSlope, LetsAClothSlideAsCoulombSays) {
     }
 }
 TEST(TouchingSlope, TellsTwiceTheFriction) {
-    EXPECT_LT(std::abs(slide(30.0, 0.8)), 1e-5);  // what would be 0.19 m with 0.4
+    EXPECT_LT(std::abs(slide(30.0, 0.8)), 1e-5);  // it would be 0.19 m with 0.4
 }
 
-// On a plane that slopes by 20°, tan 20° = 0.36 < 0.5: what lies on top presses the lowest to the ground as well as it
+// On a plane that slopes by 20°, tan 20° = 0.36 < 0.5: the upper sheets press the lowest to the ground as well as it
 // draws it down, so that a pile stays where one sheet does.
 TEST(TouchingSlope, HoldsAPileAsItHoldsOneSheet) {
     for (const int sheets : {1, 2, 3}) {
@@ -51,7 +51,7 @@ TEST(TouchingSlope, HoldsAPileAsItHoldsOneSheet) {
             spec.bodies.add(
                 sheet("sheet" + std::to_string(k), {-0.1, keep * (k + 0.5), -0.1}, {0.2, 0, 0}, {0, 0, 0.2}, 4));
         World world(spec);
-        EXPECT_FALSE(advance(world, 30));  // in which they stretch by what they then bear
+        EXPECT_FALSE(advance(world, 30));  // in which they stretch by their new load
         const double before = meanAlong(positionsOf(world, "cloth.sheet0"), {1, 0, 0});
         EXPECT_FALSE(advance(world, 30));
         EXPECT_LT(std::abs(meanAlong(positionsOf(world, "cloth.sheet0"), {1, 0, 0}) - before), 1e-5) << sheets;
@@ -82,7 +82,7 @@ TEST(TouchingSlide, LosesNothingOnAFlatClothWithoutFriction) {
     EXPECT_LT(world.metrics("net.ball").momentum.x, 1.001 * 0.05);
 }
 
-// However fast it is: what may meet is found no more often than there are steps.
+// At any speed: pairs are detected no more often than there are steps.
 TEST(TouchingSlide, OfStiffOnWhatIsHeldNeedsNoMoreDetectionsThanThereAreSteps) {
     world::SceneSpec spec = scene(0.0);
     world::ClothSpec track = sheet("track", {-0.1, 0.0, -0.05}, {1.0, 0, 0}, {0, 0, 0.1}, 50);
@@ -149,8 +149,8 @@ world::SceneSpec foldingScene(int cells) {
     return spec;
 }
 
-// A cloth falls on its edge, and is lifted by the other: no crossing on the way, and nothing stays stuck. What does not
-// touch itself says how long it would hang in the mean of its swings, and how much it crosses itself without.
+// A cloth falls on its edge, and is lifted by the other: no crossing on the way, and nothing stays stuck. A cloth that
+// does not touch itself says how long it would hang in the mean of its swings, and how much it crosses itself without.
 TEST(TouchingFold, FallsLiftsAndHangsAsIfItHadNot) {
     constexpr int cells = 14;
     std::array<double, 2> lengths{};

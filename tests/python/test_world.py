@@ -82,6 +82,12 @@ class Runs(Case):
         with self.refused("no camera \"back\"", "front"):
             world.render(camera="back")
 
+    def test_a_camera_by_name_follows_as_that_of_the_scene(self):
+        world = taut.loads(CLOTH + 'follow = "cloth.scarf"\nfollow_lag_s = 0.0\n')
+        world.run(until=0.3)
+        of_scene, by_name = (world.render((64, 48), samples=1, camera=name) for name in ("", "front"))
+        self.assertTrue(np.array_equal(of_scene, by_name))
+
     def test_a_process_forked_from_one_that_has_drawn_refuses_to(self):
         world = taut.loads(CLOTH)
         world.render((16, 16), samples=1)

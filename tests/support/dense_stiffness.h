@@ -1,4 +1,4 @@
-// The fastest motion of a small network from the whole stiffness matrix: what bounds and estimates are held against.
+// The fastest motion of a small network from the whole stiffness matrix: the reference for bounds and estimates.
 #pragma once
 
 #include <algorithm>

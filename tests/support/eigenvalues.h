@@ -18,7 +18,7 @@ struct Matrix {
     std::vector<double> entries;
 };
 
-// Ascending. Cyclic Jacobi rotations until what is off the diagonal is rounding; the matrix is taken as symmetric.
+// Ascending. Cyclic Jacobi rotations until the off-diagonal part is rounding; the matrix is taken as symmetric.
 inline std::vector<double> eigenvalues(Matrix a) {
     const std::size_t n = a.n;
     for (int sweep = 0; sweep < 60; ++sweep) {

@@ -30,7 +30,7 @@ inline double knotDeterminant(std::vector<dvec3> rope) {
     const std::size_t n = rope.size();
     struct Under {
         double at;         // in segments from the start
-        double overOther;  // likewise, of what goes over it
+        double overOther;  // the same of the strand over it
     };
     std::vector<Under> unders;
     for (std::size_t i = 0; i < n; ++i)
@@ -64,7 +64,7 @@ inline double knotDeterminant(std::vector<dvec3> rope) {
         m[k][k] -= 1;
         m[k][(k + 1) % count] -= 1;
     }
-    // Determinant of what is left without the last row and column.
+    // Determinant without the last row and column.
     double determinant = 1;
     const std::size_t size = count - 1;
     for (std::size_t k = 0; k < size; ++k) {

@@ -1,4 +1,4 @@
-// What is measured of a method on the damped oscillator: its error against the exact solution, from which its order
+// Measures of a method on the damped oscillator: its error against the exact solution, from which its order
 // follows, and its largest stable step.
 #pragma once
 

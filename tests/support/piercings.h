@@ -1,5 +1,5 @@
 // Edges that go through triangles, counted without anything of the engine's contact: boxes swept along one axis, and
-// signs of volumes. A witness for tests of what bodies may not do.
+// signs of volumes. A witness for tests of crossings.
 #pragma once
 
 #include <algorithm>

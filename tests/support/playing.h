@@ -1,4 +1,4 @@
-// Worlds that are asked, saved and restored while they play: none of it may change what they do. Without GoogleTest.
+// Worlds that answer queries, are saved and restored while they play: none of it may change their motion. Without GoogleTest.
 #pragma once
 
 #include <algorithm>
@@ -73,13 +73,13 @@ struct Playing {
 struct Played {
     std::vector<std::uint64_t> hashes;  // (ticks + 1), fewer where it ended early
     std::string end;                    // why; empty where it went through
-    std::string fault;                  // what must never be: figures that are not numbers; of one that is asked
+    std::string fault;                  // never allowed: figures that are not numbers; of one that is asked
     // The most that energy rose, over the most that ever moved or was stretched; of one that is asked.
     double gain = 0;
     bool hasTouched = false;
 };
 
-// What is learnt from what it is asked.
+// The result of its queries.
 class Observation {
   public:
     void look(world::World& world, Played& played) {
@@ -94,7 +94,7 @@ class Observation {
     double least_ = HUGE_VAL, moved_ = 0;  // [J]
 };
 
-// What a world throws while it plays is its end.
+// An exception of a world ends its play.
 inline Played play(const world::SceneSpec& scene, const Playing& how) {
     const core::InstructionSet before = core::instructionSet();
     core::useInstructionSet(how.instructions.value_or(before));
@@ -128,7 +128,7 @@ inline Played play(const world::SceneSpec& scene, const Playing& how) {
     return played;
 }
 
-// In what two plays of one scene differ; empty where they do not.
+// The difference of two plays of one scene; empty where they do not.
 inline std::string differenceOf(const Played& a, const Played& b) {
     const auto [x, y] = std::mismatch(a.hashes.begin(), a.hashes.end(), b.hashes.begin(), b.hashes.end());
     if (x != a.hashes.end() && y != b.hashes.end())

@@ -1,4 +1,4 @@
-// Scenes written in code: what several tests of the world begin with.
+// Scenes written in code: the start of several tests of the world.
 #pragma once
 
 #include <string>

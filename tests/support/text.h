@@ -1,4 +1,4 @@
-// Looking for words in what a program says.
+// Search for words in the output of a program.
 #pragma once
 
 #include <string>

@@ -54,7 +54,7 @@ TEST(CheckFunctions, SolidsEndWhereTheyAreDrawn) {
     EXPECT_NEAR(valueIn(world, "height(solid.ball)"), 1.5, rounding);
     EXPECT_EQ(placeIn(world, "height(solid.ball)"), "solid.ball at [0, 1.5, 0]");
     EXPECT_NEAR(valueIn(world, "lowest(solid.box)"), 5 - 2 * 0.6 - 1.5 * 0.8, rounding);
-    // Of the rim of a disc, the radius of what is left within the thickness, which is rounded.
+    // Of the rim of a disc, the radius of the rest within the thickness, which is rounded.
     EXPECT_NEAR(valueIn(world, "height(solid.can)"), 9 + 1.99 * 0.8 + 0.99 * 0.6 + 0.01, rounding);
     EXPECT_NEAR(valueIn(world, "lowest(solid.tin)"), 8.0, rounding);
     EXPECT_NEAR(valueIn(world, "height(solid.tin)"), 10.0, rounding);
@@ -196,7 +196,7 @@ std::string lineOf(const std::string& name, const std::string& ends, int segment
     return "[rope." + name + "]\nends = " + ends + "\nsegments = " + std::to_string(segments) + "\n";
 }
 
-// Lines across each other, 0.3 and 0.5 m apart; what is cut of one is not there any more.
+// Lines across each other, 0.3 and 0.5 m apart; the cut part of one is gone.
 TEST(CheckFunctions, GapsAreBetweenTheNearestPartsOfOtherBodies) {
     world::World world(
         sceneOf(weightless + lineOf("x", "[[0, 0, 0], [3, 0, 0]]", 3) +

@@ -215,7 +215,7 @@ bool runs(const world::SceneSpec& spec) {
     watcher.look(world);
     const std::int64_t last = std::min<std::int64_t>(world::Ticks(spec.run).last(), 22);
     for (std::int64_t i = 0; i < last; ++i) {
-        if (world.advance()) return true;  // it diverged, and said so
+        if (world.advance()) return true;  // it diverged, and reported it
         watcher.look(world);
     }
     EXPECT_EQ(watcher.results().size(), spec.checks.size());

@@ -1,4 +1,4 @@
-// What the tests of checks share: small scenes from texts, and what a claim says of them.
+// Common code of the tests of checks: small scenes from texts, and the verdicts of claims about them.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// When a check is looked at, and what is said of one that fails or never had its moment.
+// The moments of a check, and the report of one that fails or never had its moment.
 #include "taut/check/watcher.h"
 #include "unit/check_support.h"
 

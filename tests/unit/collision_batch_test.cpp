@@ -1,4 +1,4 @@
-// Many points at once get what each gets alone: kernels against the code that takes points one by one, and feet
+// Many points at once get the results of each alone: kernels against the code that takes points one by one, and feet
 // that last against feet found anew.
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace taut::collision::collision_batch {
 namespace {
 
-// The same shape without what kernels go by.
+// The same shape without the data of kernels.
 class Plain final : public Form {
   public:
     explicit Plain(std::shared_ptr<const Form> form) : form_(std::move(form)) {}

@@ -45,8 +45,8 @@ TYPED_TEST(CollisionContact, PointComesToRestAtItsThicknessOnEveryShape) {
         Flyer<TypeParam> point({0.02, c.top + 0.05, 0.01});
         point.thickness = 0.01;
         for (int i = 0; i < 2000; ++i) point.step(colliders, h, {0.0, -gravity, 0.0});
-        // Float: the skin of 4.8e-7 a metre, over coordinates that add up to less than 1. Double: what friction undoes
-        // is a way δ along the tangent, which leaves a round surface by δ² / 2R; with δ up to g h² that is 2.4e-10.
+        // Float: the skin of 4.8e-7 a metre, over coordinates that add up to less than 1. Double: friction undoes
+        // a way δ along the tangent, which leaves a round surface by δ² / 2R; with δ up to g h² that is 2.4e-10.
         const double tolerance = isFloat<TypeParam> ? 1e-6 : 2.4e-10;
         EXPECT_NEAR(colliders.distance(point.position()), 0.01, tolerance);
         EXPECT_LT(glm::length(point.velocity()), tolerance);
@@ -87,7 +87,7 @@ TYPED_TEST(CollisionContact, PointSpawnedInsideGoesTheShortestWayOutWithoutSpeed
     }
 }
 
-// What fields add to a speed in two steps; at rest a point arrives with half of it.
+// The speed that fields add in two steps; at rest a point arrives with half of it.
 TYPED_TEST(CollisionContact, BouncesFromTwiceTheSpeedThatAStepOfTheGravityThereGives) {
     Colliders colliders;
     colliders.add(planeShape(), {0.0, 0.5}, {});
@@ -162,7 +162,7 @@ std::vector<Colliders> slopes(double angle, double friction) {
 }
 
 TYPED_TEST(CollisionContact, FrictionHoldsAPointOnASlopeWithoutCreep) {
-    // tan α = 0.577 < μ = 0.6. Ten seconds; what may pass is the landing, of half a float step at most.
+    // tan α = 0.577 < μ = 0.6. Ten seconds; only the landing may pass, of half a float step at most.
     for (const double h : {1e-2, 1e-3, 1e-4}) {
         for (const Colliders& slope : slopes(core::radians(30.0), 0.6)) {
             const glm::dvec3 along(core::cosine(core::radians(30.0)), -0.5, 0.0);

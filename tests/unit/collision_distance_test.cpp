@@ -224,7 +224,7 @@ TEST(CollisionDistance, HullOfARealModelAgreesWithBullet) {
         for (const glm::dvec3& v : shape.vertices) support = std::max(support, glm::dot(near.normal, v));
         ASSERT_NEAR(near.distance, glm::dot(near.normal, p) - support, 1e-11 * size) << i;
     }
-    EXPECT_LT(worst, 1e-6 * size);  // what Bullet's GJK and EPA leave
+    EXPECT_LT(worst, 1e-6 * size);  // the error of Bullet's GJK and EPA
     // Every vertex lies inside or on the surface.
     for (const glm::dvec3& v : shape.vertices) ASSERT_LT(colliders.distance(v), 1e-9 * size);
 }

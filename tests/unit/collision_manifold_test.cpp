@@ -98,7 +98,7 @@ TEST(Manifold, HasThePlacesAndGapsOfGeometry) {
         }
 }
 
-// A plane is no Bullet shape with a supporting face: each corner of what lies on it has its own height.
+// A plane is no Bullet shape with a supporting face: each corner of a body on it has its own height.
 TEST(Manifold, OnAPlaneIsItsCornersHeights) {
     const auto plane = convexOf(planeShape(), 0.0);
     const auto box = convexOf(boxShape(glm::dvec3(0.5)), 0.01);

@@ -1,4 +1,4 @@
-// What of a shape reaches between points: counts and places by geometry.
+// The parts of a shape that reach between points: counts and places by geometry.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Whatever the path, a point that starts outside ends outside: many random paths against every shape.
+// On any path, a point that starts outside ends outside: many random paths against every shape.
 #include <gtest/gtest.h>
 
 #include "collision_support.h"

@@ -1,4 +1,4 @@
-// Shapes, materials and poses that cannot be: each is an error that says what is wrong.
+// Invalid shapes, materials and poses: each is an error that names the fault.
 #include <gtest/gtest.h>
 
 #include "collision_support.h"
@@ -123,7 +123,7 @@ TEST(CollisionShape, CloneMovesOnItsOwn) {
 }
 
 TEST(CollisionShape, RealModelsHoldAPoint) {
-    // What falls on the hull or on the mesh of a model comes to rest on it, at its thickness.
+    // A point that falls on the hull or on the mesh of a model comes to rest on it, at its thickness.
     for (const char* name : {"box.obj", "spider.obj", "WusonOBJ.obj", "regr01.obj"}) {
         for (const std::string kind : {"hull", "mesh"}) {
             const SizedShape shape = readObj(std::string("/usr/share/assimp/models/OBJ/") + name, kind);

@@ -1,4 +1,4 @@
-// What the collision tests share: one point mass flown by leap-frog against colliders, and shapes to throw it at.
+// Common code of the collision tests: one point mass flown by leap-frog against colliders, and shapes to throw it at.
 #pragma once
 
 #include <cmath>

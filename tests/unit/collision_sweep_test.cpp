@@ -156,7 +156,7 @@ TYPED_TEST(CollisionSweep, JumpingColliderDoesNotAccelerate) {
 }
 
 TYPED_TEST(CollisionSweep, NoPointLeavesAColliderFasterThanTheLimit) {
-    // Whatever a collider does, jump, spin or flip, the speed that it gives is at most 100 m/s.
+    // When a collider jumps, spins or flips, the speed that it gives is at most 100 m/s.
     for (const auto& [name, shape] : walls()) {
         Colliders colliders;
         const int wall = colliders.add(shape, {0.8, 1.0}, {});

@@ -67,8 +67,8 @@ TEST(ContactFaces, ATriangleIsStoppedByATipAsItsWholeMass) {
     for (std::size_t i = 3; i < x1.size(); ++i) EXPECT_EQ(x1[i], before[i]);
 }
 
-// Of 2 m/s that it comes down with, μ 2 m/s of what it slides with; μ is the product of the two factors alone, whatever
-// the bodies of the group have between themselves.
+// Of 2 m/s that it comes down with, μ 2 m/s of its sliding speed; μ is the product of the two factors alone, for any
+// friction between the bodies of the group.
 TEST(ContactFaces, ATipHasTheFrictionOfItselfAndTheBody) {
     constexpr double h = 1e-4, speed = 2.0, slide = 3.0;
     Scene scene;

@@ -157,7 +157,7 @@ TEST(ContactCertificate, IsNeverGivenToWhatPassesThroughEachOther) {
     EXPECT_GT(certified, 0.85 * clear);
 }
 
-// What does not approach is certified however fast it goes.
+// A pair that does not approach is certified at any speed.
 TEST(ContactCertificate, IsGivenToWhatMovesAlike) {
     Dice dice(6);
     for (int n = 0; n < 200; ++n) {
@@ -213,7 +213,7 @@ TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
             EXPECT_NEAR(near.due(r).approachBudget[k] + nearShare * pair.thickness, between * L, 1e-15);
             ++listed;
         }
-    EXPECT_GE(listed, 4 + 3);  // those that are up to 2 L apart
+    EXPECT_GE(listed, 4 + 3);  // pairs up to 2 L apart
 }
 
 // So nothing of it is in contact as it was built, however thick it is.
@@ -226,7 +226,7 @@ TEST(ContactDistance, LeavesAThickSheetAsItWasBuilt) {
     EXPECT_EQ(flight.v, before);
 }
 
-// Two faces in a V of which the edge is the bottom, the one rising by an angle of that sine towards what lies above: up
+// Two faces in a V of which the edge is the bottom, the one rising by an angle of that sine towards the body above: up
 // to half of `valley` the edge counts as one that stands out, at `valley` it pushes nothing back, beyond it does not
 // push.
 TEST(ContactGeometry, AnEdgeCountsTheLessTheMoreFacesRiseBesideIt) {

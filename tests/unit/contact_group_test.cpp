@@ -1,5 +1,5 @@
-// What comes out of an instant hangs on that instant alone: not on lists made before, nor on threads. And what is gone
-// is not met.
+// The result of an instant depends on that instant alone: not on lists made before, nor on threads. Removed bodies
+// have no contact.
 #include "contact_support.h"
 #include "taut/core/private/parallel.h"
 
@@ -136,7 +136,7 @@ TEST(ContactGroup, LetsThroughWhereTrianglesAreGone) {
         flight.addBall({-0.15, 0.03, 0.0}, {0.0, -2.0, 0.0}, 0.1, 0.005);
         flight.fly(1e-4);
         if (hasHole) {
-            // Both triangles of the square (2, 2), and what is between them.
+            // Both triangles of the square (2, 2), and the space between them.
             flight.group->elements().setGone(
                 0, [](std::size_t t) { return t / 2 == 2 * 4 + 2; }, [](int a, int b) { return a == 13 && b == 17; });
             flight.group->elements().refresh();

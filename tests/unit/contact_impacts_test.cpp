@@ -1,4 +1,4 @@
-// Impacts of points, edges and sheets that nothing else moves, against what momentum and energy leave over.
+// Impacts of points, edges and sheets that nothing else moves, against the conservation of momentum and energy.
 #include "contact_support.h"
 #include "taut/contact/certificate.h"
 
@@ -18,7 +18,8 @@ void solveOnce(ContactSolver& solver, SolverBlock block, std::span<dvec3> u, std
     solver.end();
 }
 
-// A point of m1 against the middle of a triangle of m2 in three equal corners: what counts of the triangle there is m2.
+// A point of m1 against the middle of a triangle of m2 in three equal corners: the effective mass of the triangle there
+// is m2.
 Flight pointOnTriangle(double m1, double m2, double speed) {
     Flight flight;
     flight.addBall({0.0, 0.02, 0.0}, {0.0, -speed, 0.0}, m1, 0.004);
@@ -108,8 +109,8 @@ TEST(ContactImpact, KeepsLinearMomentum) {
     EXPECT_LT(glm::length(flight.momentum() - before), 1e-13 * scale);
 }
 
-// Along the way between the places that touch an impulse has no moment; only what overlap is taken back has. About the
-// centre of mass.
+// Along the way between the places that touch an impulse has no moment; only the correction of an overlap has. About
+// the centre of mass.
 TEST(ContactImpact, KeepsAngularMomentumWithoutFriction) {
     Flight flight = twoSheets(0.0);
     double mass = 0;
@@ -193,7 +194,7 @@ TEST(ContactImpact, LetsNothingThroughAtAHundredMetresASecond) {
         EXPECT_EQ(countThrough(step, {}, 200), 0) << step;
 }
 
-// What certificates are for: impulses alone go by where the sides were nearest at the start.
+// The reason for certificates: impulses alone go by where the sides were nearest at the start.
 TEST(ContactImpact, LetsSomeThroughWithoutCertificates) {
     ContactOptions options;
     options.certifies = false;
@@ -226,7 +227,7 @@ TEST(ContactImpact, LeavesAloneWhatMisses) {
     }
 }
 
-// A ball at 100 m/s past another, by that share of what they thickness: nearer than 0.95 of it they meet.
+// A ball at 100 m/s past another, by that share of their thickness: nearer than 0.95 of it they meet.
 TEST(ContactImpact, MeetsWhatPassesNearerThanItKeeps) {
     for (const double share : {0.3, 0.5, 0.9, 1.1}) {
         constexpr double thickness = 0.008;
@@ -307,7 +308,7 @@ TEST(ContactImpact, LeavesWhatItCatchesOnTheWayItsSliding) {
     EXPECT_GT(left(true), 1.3 * left(false));
 }
 
-// Of what overlaps at the start: a fifth of it is taken back an instant, and no speed is given.
+// Of an overlap at the start a fifth is taken back an instant, and no speed is given.
 // A ball presses a triangle, and then flies away.
 TEST(ContactImpact, KeepsNoForceOfAContactThatIsOver) {
     Flight flight;
@@ -416,7 +417,7 @@ TEST(ContactImpact, GivesBackWhatItClosesByAsItsStepBegins) {
     }
 }
 
-// Two points on one triangle are one cluster by it, unless nothing moves it.
+// Two points on one triangle are one cluster, unless nothing moves it.
 TEST(ContactImpact, PassesNothingOnThroughWhatIsHeld) {
     const std::vector<ContactConstraint> pairs{restingPair(0, {2, 3, 4}), restingPair(1, {2, 3, 4})};
     for (const bool isHeld : {true, false}) {
@@ -430,7 +431,7 @@ TEST(ContactImpact, PassesNothingOnThroughWhatIsHeld) {
     }
 }
 
-// A collider stops what comes slower than it goes itself, and lets go what is faster.
+// A collider stops points that are slower than itself, and releases faster ones.
 TEST(ContactImpact, ACollidersSupportDoesNotPull) {
     for (const double speed : {-1.0, 0.2, 0.7, 3.0}) {
         Row support;
@@ -447,7 +448,7 @@ TEST(ContactImpact, ACollidersSupportDoesNotPull) {
     }
 }
 
-// A pile of n equal points comes down on what is held, until no velocity changes by a thousandth. Of the slowest mode a
+// A pile of n equal points comes down on a held point, until no velocity changes by a thousandth. Of the slowest mode a
 // sweep alone leaves cos² (π / (2n + 1)), so that sweeps alone are in proportion to n²: 2538 of 40 points. With the
 // steps on between them, as in conjugate gradients, they are in proportion to n.
 TEST(ContactImpact, TakesSweepsInProportionToThePile) {
@@ -506,8 +507,8 @@ TEST(ContactImpact, TurnsNothingAsAWhole) {
     EXPECT_GT(moment(true), 0.05);
 }
 
-// A point on the ground with μ that another presses down by λ while it slides: what the ground gives it by that is μ λ,
-// or all that it slides with.
+// A point on the ground with μ that another presses down by λ while it slides: the ground's impulse by that is μ λ,
+// or all its sliding momentum.
 TEST(ContactFriction, OfTheGroundBearsWhatIsOnTop) {
     for (const double slide : {0.1, 3.0}) {  // [m/s]
         ContactConstraint pair{};
@@ -557,12 +558,12 @@ TEST(ContactFriction, HoldsUpToItsAngleAndSlowsBeyondIt) {
     EXPECT_LT(std::abs(slides(21.0, 0.4)), 1e-6);
     for (const double degrees : {22.5, 30.0})
         EXPECT_NEAR(slides(degrees, 0.4) / theory(degrees, 0.4), 1.0, 0.01) << degrees;  // half a step of 500: 0.2 %
-    // Twice the friction is told from it.
+    // Twice the friction differs.
     EXPECT_LT(std::abs(slides(30.0, 0.8)), 1e-6);
 }
 
 // A point pressed through a triangle that it was hardly away from: both come apart, with the momentum they had, as far
-// as rounding has no say, 0.02 of the 10 mm they keep, and no further. What a collider holds from below stays.
+// as rounding has no say, 0.02 of the 10 mm they keep, and no further. A point that a collider holds from below stays.
 TEST(ContactGuard, SlidesAPinchClearOfRoundingAndNotIntoWhatHoldsIt) {
     const ContactConstraint pair{{0, 1, 2, 3}, {1.0, -0.25, -0.25, -0.5}, {0, 1, 0}, 1e-9, 0.01, 0.0, 0, 0, true, true};
     const std::vector<double> inverseMass(4, 1.0);

@@ -21,7 +21,7 @@ TEST(InstructionSets, AWiderOneHasToGainATwentieth) {
     EXPECT_EQ(fastestOf(std::vector<InstructionSetTime>{{sse2, 1.0}}), sse2);
 }
 
-// The choice is the process's: what is in use before is put back.
+// The choice is the process's: the previous choice is put back.
 TEST(InstructionSets, SayHowTheyWereChosen) {
     const InstructionSet before = instructionSet();
     chooseInstructionSet("sse2", "TAUT_SIMD");

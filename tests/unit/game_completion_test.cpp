@@ -1,4 +1,4 @@
-// What is made from the tree of commands: the manual, and what a shell offers.
+// Texts made from the tree of commands: the manual, and the completions of shells.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -23,7 +23,7 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-// What a command prints that a shell runs in this folder; it has to end well and to say nothing else.
+// The output of a command that a shell runs in this folder; it has to succeed without other output.
 std::string printed(const TemporaryFolder& folder, const std::string& command) {
     writeText(folder / "script", "cd '" + (folder / "here").string() + "'\n" + command);
     const std::string base = folder.path().string();
@@ -33,7 +33,7 @@ std::string printed(const TemporaryFolder& folder, const std::string& command) {
     return contentOf(folder / "out");
 }
 
-// What bash offers in place of the last word.
+// The completions of bash for the last word.
 std::vector<std::string> offered(const TemporaryFolder& folder, const std::string& words) {
     const std::string program = "'" TAUT_PROGRAM "'";
     return linesOf(printed(

@@ -149,7 +149,7 @@ TEST_F(Continuation, ResumingKeepsThePicturesOfAnotherScene) {
     EXPECT_EQ(test::run(never).code, 2);
 }
 
-// As a supervisor repeats it: whatever was killed, also before the first state but that of the start.
+// As a supervisor repeats it: killed at any time, also before the first state but that of the start.
 TEST_F(Continuation, ResumesWhatWasKilledBeforeItsFirstState) {
     const std::filesystem::path frames = folder_ / "frames";
     const std::vector<std::string> command = {"render",
@@ -204,7 +204,7 @@ TEST_F(Continuation, SaysWhatCannotBe) {
     EXPECT_EQ(unwritable.code, 6) << unwritable.err;
 }
 
-// A later scene without what led to the state, in another folder of the same tree. Frame 14 is at tick 14, where the
+// A later scene without the cause of the state, in another folder of the same tree. Frame 14 is at tick 14, where the
 // state was kept.
 TEST_F(Continuation, StartsWhereAnotherRunHasKeptItsState) {
     const std::string kept = (folder_ / "kept.state").string(), later = (folder_ / "later.toml").string();

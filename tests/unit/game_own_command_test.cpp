@@ -1,4 +1,4 @@
-// A command from outside the program: its row, and what the program then says and returns.
+// A command from outside the program: its row, and the program's output and exit code.
 #include <gtest/gtest.h>
 
 #include <cstdio>

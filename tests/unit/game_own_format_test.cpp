@@ -1,4 +1,4 @@
-// A format of geometry from outside the engine: its row, and what `taut export` then offers, writes and says.
+// A format of geometry from outside the engine: its row, and the help, files and messages of `taut export`.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 namespace taut::test::own_format {
 namespace {
 
-// What the last frame shows, as text.
+// The last frame as text.
 class PlyWriter : public geometry::GeometrySink {
   public:
     PlyWriter(std::filesystem::path path, const geometry::GeometryOptions& options)
@@ -115,7 +115,7 @@ TEST(OwnFormat, StandsInTheHelpAndInWhatIsSaidOfOthers) {
     EXPECT_FALSE(has(run({"export", "--help"}).out, "ply"));
 }
 
-// What the program says with its own formats alone, word for word.
+// The program's texts with its own formats alone, word for word.
 TEST(OwnFormat, WithoutItTheOthersAreNamed) {
     const auto said = [](std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {"export", "flag"});

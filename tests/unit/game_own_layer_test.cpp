@@ -131,7 +131,7 @@ TEST(OwnLayer, HasAFlagAsTheOthersHave) {
                     "--own-normals writes files beside frames: add -o out/frame_######.png;"));
 }
 
-// What the program says of its own, word for word.
+// The program's texts about its own layers, word for word.
 TEST(OwnLayer, WithoutItTheOthersAreAsTheyWere) {
     EXPECT_TRUE(has(run({"render", "flag", "-o", "out", "--depth-range", "10"}).err,
                     "--depth-range sets the numbers of --depth: add both"));

@@ -149,7 +149,7 @@ TEST(Program, LayersLieBesideTheirFramesAndTheRecordExplainsThem) {
     const auto layers = nlohmann::json::parse(test::contentOf(folder / "out/run_0-0.json"))["layers"];
     EXPECT_DOUBLE_EQ(layers["depth"]["metres_per_unit"].get<double>(), 0.001);
     EXPECT_EQ(layers["mask"]["net.spring"], "#800000");
-    // The frame itself is not there any more, but what lies beside it is spared too.
+    // The frame itself is not there any more, but the files beside it are spared too.
     std::filesystem::remove(folder / "out/frame_000000.png");
     std::filesystem::remove(folder / "out/run_0-0.json");
     EXPECT_EQ(run({"render", scene, "-o", out, "--frames", "0", "--depth", "-n", "--quiet"}).code, 6);

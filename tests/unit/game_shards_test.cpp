@@ -1,5 +1,5 @@
-// Parts of one run and of one test, drawn and played apart: together they are what one process makes, or it is said
-// what is missing.
+// Parts of one run and of one test, drawn and played apart: together they are the result of one process, or the
+// missing parts are named.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -77,7 +77,7 @@ TEST_F(Shards, JoinedAreTheBytesOfOneRun) {
     EXPECT_EQ(joined.code, 0) << joined.err;
     EXPECT_EQ(contentOf(folder_ / "joined.mp4"), contentOf(folder_ / "one.mp4"));
     EXPECT_EQ(contentOf(folder_ / "joined.metrics.csv"), contentOf(folder_ / "one/metrics.csv"));
-    // What one process has drawn is a run of one part.
+    // The frames of one process are a run of one part.
     EXPECT_EQ(run({"join", path("one")}).out, path("one") + ": frames 0-9 of one run, in 1 part\n");
     EXPECT_EQ(run({"join", path("shards"), "--threads", "1"}).out,
               path("shards") + ": frames 0-9 of one run, in 3 parts\n");
@@ -105,7 +105,7 @@ TEST_F(Shards, MissingFramesAreNamed) {
     EXPECT_EQ(folder_.entryCount(), 2) << "nothing was begun";
     EXPECT_EQ(run({"join", path("nowhere")}).code, 6);
     EXPECT_EQ(run({"join", path("shards/f_###.png")}).code, 6) << "files of other names";
-    // Started again, each does what it lacks, and the one that is whole nothing.
+    // Started again, each draws its missing frames, and the complete one nothing.
     const auto drawn = std::filesystem::last_write_time(folder_ / "shards/frame_000003.png");
     EXPECT_EQ(render({"-o", path("shards"), "--shard", "0/3", "--resume"}).code, 6) << "of which run are its frames?";
     draw({"-o", path("shards"), "--shard", "0/3", "--resume", "-y"});

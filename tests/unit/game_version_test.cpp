@@ -57,7 +57,7 @@ TEST(Version, TellsTheCommitOfItsOwnSourcesOrNone) {
         EXPECT_TRUE(std::regex_match(clean, std::regex("[0-9a-f]{10}"))) << clean;
         writeText(source / "commit.cmake", script + "# changed\n");
         EXPECT_EQ(commitOf(source), clean + "-dirty");
-        // `git archive` writes what .gitattributes asks it to.
+        // `git archive` follows .gitattributes.
         std::filesystem::copy_file(root / ".gitattributes", source / ".gitattributes");
         std::filesystem::create_directory(source / "game");
         writeText(source / "game/commit.cmake", script);

@@ -87,7 +87,7 @@ TEST(Glb, HasAShapeAFrameAndPosesOfWhatIsRigid) {
     const auto first = glb.floats(flag["attributes"]["POSITION"]);
     EXPECT_EQ(first[2], (std::vector<float>{0, 1, 0}));
     EXPECT_EQ(glb.text["accessors"][flag["attributes"]["POSITION"].get<std::size_t>()]["max"], json({1.0, 1.0, 0.0}));
-    // What does not change from a frame to the next has no shape of its own.
+    // A surface that does not change from a frame to the next has no shape of its own.
     ASSERT_EQ(flag["targets"].size(), 2U);
     EXPECT_TRUE(flag["targets"][0].contains("NORMAL"));
 
@@ -224,6 +224,8 @@ TEST(Glb, TextureCoordinatesAreOfWhatTheyChange) {
     EXPECT_FALSE(has([](view::Finish&) {}));
     EXPECT_TRUE(has([](view::Finish& finish) { finish.pattern = view::Pattern::tartan; }));
     EXPECT_TRUE(has([](view::Finish& finish) { finish.weave = 0.5F; }));
+    EXPECT_TRUE(has([](view::Finish& finish) { finish.slub = 0.5F; }));
+    EXPECT_TRUE(has([](view::Finish& finish) { finish.fuzz = 0.5F; }));
     EXPECT_TRUE(has([](view::Finish& finish) { finish.anisotropy = 0.5F; }));
 }
 

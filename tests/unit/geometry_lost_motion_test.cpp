@@ -28,7 +28,7 @@ TEST(LostMotion, OfAParabolaIsWhatTheChordLeaves) {
     EXPECT_EQ(lost.worstName, "cloth.flag");
 }
 
-// What is spawned, and what tears, has no way from one kept frame to the next.
+// A spawned or torn body has no way from one kept frame to the next.
 TEST(LostMotion, OfWhatChangesItsTrianglesIsNotMeasuredButNamed) {
     test::Film film;
     Frames kept;

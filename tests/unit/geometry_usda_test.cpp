@@ -60,7 +60,7 @@ TEST(Usda, SamplesWhatChangesWhereItChanges) {
     EXPECT_NE(text.find("normal3f[] normals (\n            interpolation = \"vertex\"\n        )\n"
                         "        normal3f[] normals.timeSamples = {\n"),
               std::string::npos);
-    // What is rigid has one shape and moves.
+    // A rigid body has one shape and moves.
     EXPECT_EQ(attribute(text, "collider_ball", "point3f[] points"), "point3f[] points = [(0,0,0),(1,0,0),(0,1,0)]\n");
     EXPECT_NE(attribute(text, "collider_ball", "matrix4d xformOp:transform")
                   .find("6: ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (6, 0, 0, 1)),\n"),

@@ -1,5 +1,5 @@
 // Radiance pictures, written here byte by byte as Ward's description of the format has them ("Real Pixels", Graphics
-// Gems II). What four bytes mean comes from there too: m · 2^(e - 136).
+// Gems II). The meaning of the four bytes comes from there too: m · 2^(e - 136).
 #include "taut/image/private/light_image.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using core::ErrorKind;
 using test::messageOf;
 using test::TemporaryFolder;
 
-// Takes bytes above 127 as what they are.
+// Takes bytes above 127 as unsigned.
 std::string bytes(std::initializer_list<int> values) {
     std::string text;
     for (const int value : values) text += static_cast<char>(value);
@@ -46,7 +46,7 @@ TEST(LightImage, ReadsEachWayToWriteALineOfRadiance) {
     const LightImage picture = readBack(head + size8 + planes + pixels);
     ASSERT_EQ(picture.width, 8);
     ASSERT_EQ(picture.height, 2);
-    std::vector<float> expected;  // half of what is written, for the exposure
+    std::vector<float> expected;  // half of the written value, for the exposure
     for (int i = 0; i < 8; ++i) expected.insert(expected.end(), {0.25F, 0.0F, static_cast<float>(i) / 256.0F});
     for (int i = 0; i < 4; ++i) expected.insert(expected.end(), {128.0F, 0.0F, 32.0F});
     expected.insert(expected.end(), {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, brightest, brightest, brightest});

@@ -153,7 +153,7 @@ TEST(Jpeg, WithoutATableThatItsScanNamesIsRefused) {
     }
 }
 
-// In coded data FF FF 00 is what FF 00 is, no segment with a length: what follows is not passed over.
+// In coded data FF FF 00 equals FF 00, no segment with a length: the bytes after it are not skipped.
 TEST(Jpeg, BehindBytesThatFillUpNoTableIsOverlooked) {
     const TemporaryFolder folder;
     const std::string hidden = std::string("\xFF\xFF\x00\x01\x27", 5) + impossibleTable();

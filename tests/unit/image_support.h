@@ -1,4 +1,5 @@
-// What the tests of pictures and files share: folders that vanish, pictures with something in them, messages of errors.
+// Common code of the tests of pictures and files: folders that vanish, pictures with something in them, messages of
+// errors.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -16,7 +16,7 @@ using core::ErrorKind;
 using test::messageOf;
 using test::TemporaryFolder;
 
-// What ffprobe says about the first stream of a file: "width,height,pixels,rate,frames".
+// ffprobe's facts about the first stream of a file: "width,height,pixels,rate,frames".
 std::string streamOf(const std::filesystem::path& path) {
     const std::string command =
         "ffprobe -v error -count_frames -select_streams v:0 -show_entries "

@@ -14,8 +14,8 @@ using glm::dvec3;
 
 // Two bodies of 1 kg, each with two pins on an axle. Those of the one are `off` further apart and aslant by so many
 // radians: no motion makes up for the distance. Six rows would have a response along the axle of the square of the
-// slant, and impulses that go after it would move the bodies by off / slant². They move by some times what the pins are
-// off, no more.
+// slant, and impulses that go after it would move the bodies by off / slant². They move by some times the offset of the
+// pins and no more.
 TEST(JoinedBodies, DoNotAskInVainForWhatTwoPinsAlongAnAxleCannotGive) {
     for (const auto& [off, slant] : std::vector<std::pair<double, double>>{
              {1e-9, 0.0}, {1e-9, 1e-5}, {1e-9, 3e-4}, {1e-5, 1e-3}, {1e-5, 1e-2}, {1e-4, 0.1}}) {

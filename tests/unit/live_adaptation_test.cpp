@@ -10,8 +10,8 @@ namespace {
 constexpr double goal = 1.0 / 30.0;
 const std::vector<double> costs = {6.0, 9.0, 12.0, 16.0, 20.0, 28.0};
 
-// A machine that takes that many milliseconds for a unit of cost, 15 % more or less from picture to picture, while what
-// goes on beside the pictures takes `other` [s] of a turn.
+// A machine that takes that many milliseconds for a unit of cost, 15 % more or less from picture to picture, while the
+// work beside the pictures takes `other` [s] of a turn.
 struct Machine {
     Adaptation adaptation{costs, 4, goal};
     int turns = 0, changes = 0;
@@ -54,7 +54,7 @@ TEST(Adaptation, GoesUpAgainWhereThereIsTime) {
     EXPECT_EQ(machine.adaptation.level(), 5);
 }
 
-// A level up looks possible, by its cost, but what it takes from what goes on beside makes turns too long.
+// A level up looks possible, by its cost, but by its effect on the work beside it turns become too long.
 TEST(Adaptation, RevertedLevelsAreTriedEverLessOften) {
     Machine machine;
     const auto other = [&] { return machine.adaptation.level() > 2 ? 0.036 : 0.02; };

@@ -39,7 +39,7 @@ TEST(Picking, TheRayThroughTheMiddleLooksAhead) {
     EXPECT_NEAR(ray.along.z, -1.0, 1e-7);
 }
 
-// tan of half the angle, times the distance, is half the height of what is seen.
+// tan of half the angle, times the distance, is half the visible height.
 TEST(Picking, TheUpperEdgeIsHalfTheAngleOfView) {
     const Ray ray = rayThrough(ahead(), {0.5, 0.0}, 16.0 / 9.0);
     EXPECT_NEAR(ray.along.y / -ray.along.z, std::tan(0.35), 1e-6);  // 0.7 rad, a float
@@ -58,7 +58,7 @@ TEST(Picking, APlaceIsSeenWhereTheRayThroughItGoes) {
     }
 }
 
-// What 16:9 shows at its left and right edge is at the edges of an upright picture too, as drawing has it.
+// The left and right edges of 16:9 are at the edges of an upright picture too, as drawing has it.
 TEST(Picking, UprightPicturesAreAsWideAs16To9) {
     const view::Camera camera = ahead();
     for (const double x : {0.001, 0.5, 0.999}) {

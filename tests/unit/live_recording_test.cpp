@@ -17,7 +17,7 @@ TEST(Recording, OverridesBecomeLinesOfTheFile) {
     EXPECT_EQ(overrideLine("camera.main.keys.0.eye=[0,0,0]"), "");  // no file can say it of one element
 }
 
-// Every kind of action: the text of what was read is what it was read from.
+// Every kind of action: the text of an action read from a text is that text.
 TEST(Recording, ActionsAreReadAsTheyWereWritten) {
     const std::vector<std::string> lines = {
         R"({ t = 0.1, do = "grab", id = "a", target = "cloth.flag@#12", radius = 0.08, strength_N_per_m = 150, damping_ratio = 0.25 })",

@@ -119,7 +119,7 @@ springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 1000.0, rest_length_m =
     EXPECT_NE(scenarioText(recording).find("max_force_N = 39.24"), std::string::npos);
 }
 
-// What the whole of this folder is for: the file does what the hand did.
+// The purpose of this folder: the file repeats the hand's actions.
 TEST(Session, TheRecordingPlaysToTheSameState) {
     Session session(scene(), 1);
     advance(session, 5);

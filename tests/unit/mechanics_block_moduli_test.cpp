@@ -1,4 +1,4 @@
-// What a block is like as a material: pulled and bent at rest, by the products of its springs and cells.
+// The material properties of a block: pulled and bent at rest, by the products of its springs and cells.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ class RestingBlock {
         return u;
     }
 
-    // Shares out what acts on the right face by the area around its points: half at its edges, a quarter at its
+    // Distributes the force on the right face by the area around its points: half at its edges, a quarter at its
     // corners.
     void spread(const dvec3& whole, Vectors& onPoints) const {
         const std::vector<int>& face = model_.groups.at("right");

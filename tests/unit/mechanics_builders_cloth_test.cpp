@@ -44,7 +44,7 @@ TEST(ClothBuilder, WeightedMassesAreAQuarterAndAHalfOnTheBoundary) {
     EXPECT_NEAR(model.masses[8], cell, clothRounding);
 }
 
-// C11 = C22 = ks + kd, C12 = C66 = kd, whatever the resolution.
+// C11 = C22 = ks + kd, C12 = C66 = kd, at any resolution.
 TEST(ClothBuilder, SquareCellsHaveTheMaterialsStiffnessAtEveryResolution) {
     for (int fineness : {1, 2, 4}) {
         ClothShape shape = flag(6 * fineness, 4 * fineness);
@@ -84,7 +84,7 @@ TEST(ClothBuilder, LongCellsKeepStretchAndShearPerMetre) {
 }
 
 // Under a uniform strain the cloth is in balance inside, and each boundary point bears the stress times its share
-// of the boundary: what halved springs are for.
+// of the boundary: the reason for halved springs.
 TEST(ClothBuilder, UniformStrainLoadsOnlyTheBoundaryAndEachPointByItsShare) {
     ClothShape shape = flag(6, 4);
     shape.material.stretch = 900.0;

@@ -1,4 +1,4 @@
-// The names of points that scenes are checked against before anything is built are those that the builders give.
+// The names of points that scenes are checked against before anything is built are the names that the builders give.
 #include <gtest/gtest.h>
 
 #include <algorithm>

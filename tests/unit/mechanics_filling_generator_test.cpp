@@ -146,7 +146,7 @@ TEST(Filling, PressesAsItsLawSays) {
     }
 }
 
-// A tenth of the volume is left at 0.46 of the lengths; below, a pump draws in proportion to what is left, and where
+// A tenth of the volume is left at 0.46 of the lengths; below, a pump draws in proportion to the rest, and where
 // the surface is inside out not at all. The forces along the arms are -dE/ds.
 TEST(Filling, SucksNothingInsideOut) {
     const Octahedron solid;
@@ -200,7 +200,7 @@ TEST(Filling, ForcesAreTheSlopeOfTheEnergyAndProductsThatOfTheForces) {
     }
 }
 
-// What implicit methods take of K is its part -dΔp/dV g gᵀ: at Δp = 0 that is all of it.
+// Implicit methods use of K the part -dΔp/dV g gᵀ: at Δp = 0 that is all of it.
 TEST(Filling, ImplicitMethodsGetTheWholeStiffnessWhereNothingPresses) {
     const Octahedron solid;
     for (const FillingLaw& law : {laws[1], laws[2]}) {

@@ -87,7 +87,7 @@ TEST(GridBending, IsTheSameWhereverThePointsAreAndForEveryInstructionSet) {
 }
 
 // A cylinder about an axis at an angle to the threads, of such a curvature: its energy is ½ B(φ) κ² an area, with
-// B(φ) = B_u c⁴ + B_v s⁴ + (2 B_1 + 4 D_k) c² s² = what was asked for at 0°, 90° and 45°.
+// B(φ) = B_u c⁴ + B_v s⁴ + (2 B_1 + 4 D_k) c² s² = the given values at 0°, 90° and 45°.
 TEST(GridBending, ASheetBentToACylinderHasTheRigidityThatWasMeasured) {
     constexpr int n = 41;
     constexpr double cell = 0.005, curvature = 0.5, side = cell * (n - 1);

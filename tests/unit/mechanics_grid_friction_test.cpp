@@ -44,9 +44,9 @@ PlanarState<double> rubbingSheet() {
     return {x, std::vector<double>(x.size(), 1.0)};
 }
 
-// Between two slides the force has a potential, which it shows where nothing slips: what slips pulls on and stores no
-// more. Where points are moved by a cell some normals hardly exist. Directions are held at an edge, and inside on each
-// side of a point.
+// Between two slides the force has a potential, which it shows where nothing slips: a slipping thread pulls and stores
+// no more. Where points are moved by a cell some normals hardly exist. Directions are held at an edge, and inside on
+// each side of a point.
 TEST(GridFriction, ForcesAreTheSlopeOfWhatStuckFoldsStore) {
     BendingFriction friction = rubbing();
     friction.yield = 1e6;
@@ -188,7 +188,7 @@ struct CreasedStrip {
     }
 };
 
-// Bent to 150 /m, let go in thick air: B κ is what friction holds. A slider that were kept in space would have turned
+// Bent to 150 /m, released in thick air: B κ is held by friction. A slider that were kept in space would have turned
 // it.
 TEST(GridFriction, AStripKeepsItsCreaseAlsoIfItIsTurnedByAQuarterBeforeItIsLetGo) {
     constexpr double step = 2e-6;  // [s]
@@ -203,7 +203,7 @@ TEST(GridFriction, AStripKeepsItsCreaseAlsoIfItIsTurnedByAQuarterBeforeItIsLetGo
             });
         strip.run(100000, step);  // seven times as long as its slowest motion takes
         kept.push_back(strip.curvature());
-        // Folds of an angle θ have 2 sin(θ/2)/a = κ in equilibrium, whatever θ.
+        // Folds of an angle θ have 2 sin(θ/2)/a = κ in equilibrium, for any θ.
         EXPECT_NEAR(kept.back(), CreasedStrip::crease, 0.002 * CreasedStrip::crease) << (turns ? "turned" : "as bent");
     }
     EXPECT_NEAR(kept[1], kept[0], 1e-9 * kept[0]);  // rounding alone tells them apart

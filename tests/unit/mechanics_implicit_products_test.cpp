@@ -147,7 +147,7 @@ TEST(ImplicitProducts, AreTheDerivativesOfTheDragOfAClothBroadsideToTheWind) {
         EXPECT_NEAR(is[i], (minus[i] - plus[i]) / (2 * e), 1e-7 * norm(is)) << i;  // as above
 }
 
-// Crumpled, squashed, blown at from anywhere: W is symmetric and never negative, its diagonal what products say.
+// Crumpled, squashed, blown at from anywhere: W is symmetric and never negative, its diagonal that of the products.
 TEST(ImplicitProducts, AreSymmetricAndNeverNegative) {
     const Model block = buildBlock({.cells = {3, 3, 3}, .young = 1e4, .bulk = 3e4, .dampingTime = 1e-3});
     const auto system = systemOf(block);

@@ -1,4 +1,4 @@
-// What a network of springs is like as a material, asked by the tests of the builders.
+// The material properties of a network of springs, for the tests of the builders.
 #pragma once
 
 #include <algorithm>

@@ -38,7 +38,7 @@ struct Island {
     }
 };
 
-// Keeps what it is given; on request spoils what it was given the right to overwrite.
+// Keeps its input; on request overwrites the planes that it may overwrite.
 template <class Real>
 struct Keeper : ode::AccelerationSink<Real> {
     Keeper(Island<Real>& of, bool spoils) : island(of), spoil(spoils), a(of.x.size()), times(of.x.size()) {}

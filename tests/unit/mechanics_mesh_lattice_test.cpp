@@ -1,4 +1,4 @@
-// Blocks of what a mesh fills: cells by their share, and a bar that lies askew in them as stiff as one that does not.
+// Blocks that fill a mesh: cells by their share, and a bar that lies askew in them as stiff as one that does not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ double filled(const Lattice& lattice) {
 }
 
 // A bar of 1 × 0.2 × 0.2 m from the origin on along the first of some axes is held by its first 0.1 m under its own
-// weight: how much it is bent (across) or stretched between places at 0.3, 0.6 and 0.9 m. What hangs from there does
+// weight: how much it is bent (across) or stretched between places at 0.3, 0.6 and 0.9 m. The hanging part bends
 // it, however the bar is held.
 struct Hanging {
     double bent, stretched;
@@ -110,7 +110,7 @@ BlockShape shapeIn(const Lattice& lattice) {
     return shape;
 }
 
-// Measured 0.965 and 0.992 bent, 1.000 and 1.011 stretched; were what a cell has in its middle, it would be 1.19
+// Measured 0.965 and 0.992 bent, 1.000 and 1.011 stretched; with the mass of a cell in its middle it would be 1.19
 // stiffer where the outer cells are half full.
 TEST(MeshLattice, ABarThatLiesAskewIsAsStiffAsABlock) {
     BlockShape shape{.centre = {0.5, 0, 0}, .size = {1.0, 0.2, 0.2}, .cells = {20, 4, 4}, .density = 1.0, .young = 1.0};
@@ -149,8 +149,8 @@ TEST(MeshLattice, ABoxThatFillsItsCellsIsTheBlock) {
     EXPECT_EQ(meshed.cells.back().bulkModulus, block.cells.back().bulkModulus);
 }
 
-// Two boxes apart from each other, of which one is hollow, turned, in cells of which none is full. What a corner has at
-// least moves the centre by less than a hundredth of a cell.
+// Two boxes apart from each other, of which one is hollow, turned, in cells of which none is full. The least mass of a
+// corner moves the centre by less than a hundredth of a cell.
 TEST(MeshLattice, WeighsWhatIsInsideOfTheMesh) {
     Mesh mesh;
     addBox(mesh, {0, 0, 0}, {1.0, 0.7, 0.7});

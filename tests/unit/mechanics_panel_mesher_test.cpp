@@ -80,7 +80,7 @@ TEST(PanelMesher, TakesSidesOnOneLineForApart) {
     }
 }
 
-// V - E + F = 1 less one for each hole; and what is only at one triangle is the way round the rings, in their order.
+// V - E + F = 1 less one for each hole; and edges of only one triangle are the way round the rings, in their order.
 TEST(PanelMesher, HasTheOutlineAsItsOnlyBorder) {
     for (const PanelShape& shape : shapes()) {
         const PanelMesh mesh = meshPanel(shape);

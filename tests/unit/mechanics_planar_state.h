@@ -52,7 +52,7 @@ class PlanarState {
         return {count, stride, t, x.data(), v.data(), mass.data(), inverseMass.data()};
     }
 
-    // (points) what a generator adds to no force [N].
+    // (points) force of a generator [N].
     std::vector<glm::dvec3> forces(const ForceGenerator<Real>& generator, double t = 0.0) {
         std::fill(f.begin(), f.end(), Real(0));
         generator.addForces(motion(t), 0, count, f.data());

@@ -175,7 +175,7 @@ TEST(Rigid, TurnsOverAsTheFreeTopDoes) {
     ASSERT_GT(turns.size(), 100U);
     EXPECT_NEAR((turns.back() - turns.front()) / static_cast<double>(turns.size() - 1) / period, 1.0, 0.01);
     EXPECT_LT(high / low, 1.004);  // it swings by O(h²), and does not drift
-    // Σ m from × x / h is what the step keeps.
+    // Σ m from × x / h is conserved by the step.
     std::vector<dvec3> to = x;
     for (std::size_t i = 0; i < x.size(); ++i) to[i] += h * v[i];
     dvec3 kept(0.0);

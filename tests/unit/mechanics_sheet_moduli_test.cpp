@@ -22,7 +22,7 @@ double energy(const Model& model, double area, double uu, double vv, double uv) 
     return sum / area;
 }
 
-// Young's modulus and Poisson's ratio of a strip at an angle, by the least energy over what it is free to do aside.
+// Young's modulus and Poisson's ratio of a strip at an angle, by the least energy over its free transverse strains.
 StripModuli byLeastEnergy(const Model& model, double area, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     const auto at = [&](double along, double aside, double shear) {

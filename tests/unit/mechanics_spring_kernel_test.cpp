@@ -38,7 +38,7 @@ glm::dvec3 force(const std::vector<Real>& x, const std::vector<Real>& v, int a, 
     return (k * (glm::length(d) - L) + k * tau * glm::dot(u, n)) * n;
 }
 
-// A bundle of runs that begin at point 0, n springs each, with stiffnesses from `k` on: what springKernels takes.
+// A bundle of runs that begin at point 0, n springs each, with stiffnesses from `k` on: the input of springKernels.
 template <class Real>
 std::vector<SpringRun<Real>> bundleOf(int n, const std::vector<int>& offsets, double rest, double tau) {
     std::vector<SpringRun<Real>> runs;

@@ -216,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(All, SpringNetworks,
 TEST(SpringNetwork, OfAClothIsAlmostAllRunsWithFewTables) {
     const Case cloth = clothCase(100);
     const Network network = networkOf(cloth);
-    // Six kinds of spring a row; what is left over are row ends: far below one in a hundred.
+    // Six kinds of spring a row; the rest are row ends: far below one in a hundred.
     EXPECT_LT(network.singles.size(), network.springCount / 100);
     // All six in one sweep, but for the last rows, from which less goes on.
     const auto isOfSix = [](const SpringRun<double>& run) { return run.together == 6; };

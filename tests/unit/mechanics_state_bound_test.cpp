@@ -57,7 +57,7 @@ void expectBothAlike(const Model& model, double tolerance) {
                                        40),
                                    2);
     EXPECT_GE(now.damping, model.cells.empty() ? damping * (1 - tolerance) : lowest * (1 - tolerance));
-    // Springs alike in τ are bounded with what their tension adds across.
+    // Springs alike in τ are bounded with the transverse effect of their tension.
     EXPECT_LE(now.damping, damping * (isUniform ? 1.5 : 1 + 2e-4 + tolerance));
 }
 

@@ -1,4 +1,4 @@
-// Conjugate gradients against matrices that are known, and what implicit methods say of their solver.
+// Conjugate gradients against known matrices, and the reports of implicit methods about their solver.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -98,7 +98,7 @@ TEST(ImplicitEuler, RefusesASystemWithoutDerivatives) {
     run.step(10);
 }
 
-// The work of a method is what the system saw.
+// The work of a method equals the calls of the system.
 TEST(EveryMethod, CountsItsEvaluations) {
     for (const ode::MethodInfo& info : ode::methods()) {
         SCOPED_TRACE(info.name);

@@ -48,7 +48,7 @@ double integrated(ode::System<double>& system, const char* name, double from, do
 }
 
 TEST(FirstOrderMethod, GrowsByItsOwnPolynomialEachStep) {
-    // 1 + h, 1 + h + h²/2, … + h⁴/24: what is left of e^h at each order. Rounding of ten steps.
+    // 1 + h, 1 + h + h²/2, … + h⁴/24: e^h to each order. Rounding of ten steps.
     constexpr double h = 0.1;
     const double factors[] = {1 + h, 1 + h + h * h / 2, 1 + h + h * h / 2,
                               1 + h + h * h / 2 + h * h * h / 6 + h * h * h * h / 24};

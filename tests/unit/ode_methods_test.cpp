@@ -1,4 +1,4 @@
-// What every method promises: its place in the table, its evaluations, its state as a checkpoint, its manners with
+// The promises of every method: its place in the table, its evaluations, its state as a checkpoint, its manners with
 // arrays.
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(EveryMethod, LeavesTheStateAsItIsWhenItSynchronises) {
         Oscillator one(damped), two(damped);
         Integration<double> run = integrate(one, info.name, 0.01, {1.0, 0.0});
         Integration<double> watched = integrate(two, info.name, 0.01, {1.0, 0.0});
-        // At the start it is what was given, but for rounding: half a step back and forth again.
+        // At the start it is the given one, but for rounding: half a step back and forth again.
         EXPECT_NEAR(watched.synchronisedVelocities()[0], 0.0, 1e-16) << info.name;
         for (int i = 0; i < 20; ++i) {
             run.step();

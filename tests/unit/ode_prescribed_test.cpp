@@ -81,7 +81,7 @@ TEST(PrescribedPoint, IsWhereItIsLedAndPullsTheRestAtTheOrderOfTheMethod) {
             Led led;
             led.isLedAtItsTime = method.name != "implicit-euler";
             const int steps = (method.order == 4 ? 75 : 1200) << i;  // order 4: clear of rounding
-            const std::vector<double> x{7.0, 1.0}, v{-3.0, 0.0};     // what it is given is overwritten at once
+            const std::vector<double> x{7.0, 1.0}, v{-3.0, 0.0};     // its input is overwritten at once
             Integration<double> run(led, method.name, 3.0 / steps, x, v);
             for (int n = 0; n < steps; ++n) {
                 run.step();

@@ -34,7 +34,7 @@ TYPED_TEST(UpdateKernelsOf, LeapfrogIsItsFormulaToTheBitOnEveryInstructionSet) {
         if (!core::isSupported(set)) continue;
         core::useInstructionSet(set);
         for (const int n : {1, 2, 3, 4, 7, 8, 9, 15, 16, 17, 31, 32, 33, 100, 257}) {
-            const std::size_t room = static_cast<std::size_t>(n) + 5;  // what lies behind must stay
+            const std::size_t room = static_cast<std::size_t>(n) + 5;  // data behind it must stay
             const auto a = randomValues<Real>(room, 1), keep = randomValues<Real>(room, 2),
                        gain = randomValues<Real>(room, 3), x0 = randomValues<Real>(room, 4),
                        v0 = randomValues<Real>(room, 5), w0 = randomValues<Real>(room, 6);

@@ -116,7 +116,7 @@ void expectSame(const FrameRecord& back, const FrameRecord& record) {
     EXPECT_EQ(back.metrics->work.iterations, record.metrics->work.iterations);
 }
 
-// Whatever rows there are: every number that a row is made of has a value of its own here.
+// For any rows: every number of a row has a value of its own here.
 TEST(RecordLog, KeepsWhatEveryMetricIsMadeOf) {
     FrameRecord record;
     double next = 0.0;
@@ -197,7 +197,7 @@ TEST(Checkpoint, GivesBackWhatItWasGiven) {
     EXPECT_EQ(back.records, example(3, 9).records);
 }
 
-// What a checkpoint takes does not grow with the frames before it: a run's stay linear in its length.
+// The size of a checkpoint does not grow with the frames before it: a run's stay linear in its length.
 TEST(Checkpoint, TakesNoMoreLaterInTheRun) {
     const std::filesystem::path folder = emptyFolder("linear");
     writeCheckpoint(folder / "early.taut", example(1, 9));

@@ -26,7 +26,7 @@ TEST(SelfTest, BothLibrariesPass) {
         EXPECT_EQ(workingRenderer(optionsWith(shaders), {backend})->info().backend, nameOf(backend));
 }
 
-// Why there is no renderer with a surface shader that throws every fragment away: what a broken driver would show.
+// Why there is no renderer with a surface shader that throws every fragment away, as with a broken driver.
 std::string messageOfBlankPicture() {
     const test::TemporaryFolder folder;
     std::filesystem::copy(shaders, folder.path(), std::filesystem::copy_options::recursive);

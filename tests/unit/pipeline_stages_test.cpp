@@ -102,7 +102,7 @@ TEST(Stages, DrawingStaysOnTheCallingThread) {
                [&](const auto&, const auto&) { EXPECT_NE(std::this_thread::get_id(), caller); }});
 }
 
-// Frame 0 is drawn only when the others that fit beside it are; what comes out is in order all the same.
+// Frame 0 is drawn only when the others that fit beside it are; the output is in order all the same.
 TEST(Stages, SeveralDrawAtOnceAndFramesStayInOrder) {
     Events events;
     const auto draw = [&](const view::FrameView& view) {

@@ -1,4 +1,4 @@
-// Runs the program within the test, and keeps what it said.
+// Runs the program within the test, and keeps its output.
 #pragma once
 
 #include <gtest/gtest.h>

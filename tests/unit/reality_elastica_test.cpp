@@ -42,7 +42,7 @@ TEST(Elastica, BendsUnderALoadAsBisshoppAndDruckerHaveIt) {
 
 TEST(Elastica, AnUprightStripBucklesWhereGreenhillHasIt) {
     EXPECT_NEAR(standingWeight(), 7.83735, 1e-5);  // (9/4) j², j the first zero of J₋⅓
-    // It leaves the upright there as the root of what is beyond.
+    // It leaves the upright there as the root of the excess.
     const double lean = hangingStrip(7.85, 0, M_PI).out, more = hangingStrip(7.8754, 0, M_PI).out;
     EXPECT_NEAR(more / lean, std::sqrt((7.8754 - 7.83735) / (7.85 - 7.83735)), 0.01);
 }

@@ -10,6 +10,7 @@
 #include "taut/bodies/cloth.h"
 #include "taut/core/private/child_process.h"
 #include "taut/image/png.h"
+#include "taut/pipeline/run_parts.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/mutants.h"
 #include "taut/regression/playing.h"
@@ -96,7 +97,7 @@ TEST(Calibration, RefusesThresholdsLessThanTwiceTheNoise) {
                 static_cast<std::uint8_t>(picture.rgb[i] < 128 ? picture.rgb[i] + 10 : picture.rgb[i] - 10);
         EXPECT_EQ(golden.frame, 4);
         image::writePng(png, picture);
-        return hexadecimal(played.pictures.front().stateHash);
+        return pipeline::hexadecimal(played.pictures.front().stateHash);
     };
     const auto rows = calibrate({scenario(folder)}, noisy, goOn);
     for (const char* process : {"1 thread", "4 threads", "SSE2", "SSE4.1", "AVX"}) {
@@ -118,7 +119,7 @@ TEST(Calibration, AProcessOfItsOwnDrawsAsAnOlderProcessorDoes) {
     EXPECT_TRUE(test::has(test::contentOf(folder / "out/run_0-0.json"), "128 bits"));
 }
 
-// What a mutant changes, and that it leaves a scene alone that has nothing of the kind.
+// The changes of a mutant, and that it leaves a scene alone that has nothing of the kind.
 TEST(Mutants, ChangeWhatTheySay) {
     const std::vector<Mutant> all = mutants();
     ASSERT_EQ(all.size(), 10U);

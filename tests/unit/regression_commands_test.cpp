@@ -1,4 +1,4 @@
-// `taut test`, `taut record` and `taut replay` as a person calls them: exit codes and what is said.
+// `taut test`, `taut record` and `taut replay` as a person calls them: exit codes and messages.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -66,7 +66,7 @@ TEST(TestCommand, GoldensOfScenariosThatAreElsewhereAreOneLine) {
     EXPECT_TRUE(has(part.err, ": a, b\n")) << part.err;
 }
 
-// What an update that was broken off has left is finished by the next one; what others lay there is not followed.
+// The next update finishes an interrupted one; links that others placed there are not followed.
 TEST(TestCommand, ATestOnlyReadsGoldensAndFollowsNoLinkWhenConfined) {
     const TemporaryFolder folder;
     test::writeText(folder / "spring.toml", springText("100.0", goldenText));
@@ -114,7 +114,7 @@ TEST(TestCommand, AChangedStateFailsWithTickAndBody) {
     EXPECT_TRUE(has(changed.out, "net.spring differs first")) << changed.out;
 }
 
-// The text is kept with the goldens: what was changed in it, and in what it builds on, stands in the report.
+// The text is kept with the goldens: the report shows its changes, and those of its base.
 TEST(TestCommand, TheReportShowsWhatChangedInTheText) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "base");
@@ -287,7 +287,7 @@ TEST(Replay, NamesWhatDiffersFromAnotherTapeOrScene) {
     const Outcome noTape = run({"replay", a, "--verify", other});
     EXPECT_EQ(noTape.code, 2);
     EXPECT_TRUE(has(noTape.err, "a scene is played by --verify --scene " + other)) << noTape.err;
-    // The tape keeps the text that it played: a change of the file is said and does not count.
+    // The tape keeps the text that it played: a change of the file is reported and does not count.
     test::writeText(scene, springText("99.0"));
     const Outcome changed = run({"replay", a, "--verify", "--quiet"});
     EXPECT_EQ(changed.code, 0) << changed.out;

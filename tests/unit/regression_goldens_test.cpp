@@ -1,4 +1,4 @@
-// What an update changes and what it leaves, and which test notices what.
+// The changes of an update, and the test that notices each.
 #include "taut/regression/goldens.h"
 
 #include <gtest/gtest.h>
@@ -123,7 +123,7 @@ TEST(Goldens, OfAnotherRendererAreHeldAgainstTheToleranceForThat) {
         << outcome.err;
 }
 
-// A run of other bits than the goldens: their differences are none, and what the scenario itself says still counts.
+// A run of other bits than the goldens: differences do not count, and the scenario's own checks still do.
 TEST(Goldens, OfOtherBitsFailNothing) {
     const TemporaryFolder folder;
     begin(folder, restartText);

@@ -8,7 +8,7 @@
 
 namespace taut::test {
 
-// Stiffness [N/m] of the bob's spring; what follows goes to the end of the file.
+// Stiffness [N/m] of the bob's spring; the rest goes to the end of the file.
 inline std::string springText(const std::string& stiffness = "100.0", const std::string& more = "") {
     return R"(schema = 1
 [run]

@@ -1,4 +1,4 @@
-// Tapes: what they keep, where two of them differ first, and what is refused. The differences are made by hand or by a
+// Tapes: their content, the first difference of two, and refused files. The differences are made by hand or by a
 // change of the scene whose effect is known: points that a spring's force has not reached yet agree.
 #include "taut/regression/tape.h"
 

@@ -35,8 +35,8 @@ int samplesWith(const CoveredTile& covered, std::int32_t mark) {
 }
 
 TEST(EdgeCoverage, AFanAroundAPointCoversEachSampleOnce) {
-    // Eight triangles around places on the raster of corners, so that sides go through samples: what one leaves out the
-    // other must have. Drawn from the far to the near, a sample that two cover would be missing from the first.
+    // Eight triangles around places on the raster of corners, so that sides go through samples: a sample that one omits
+    // the other must have. Drawn from the far to the near, a sample that two cover would be missing from the first.
     std::mt19937 random(7);
     std::uniform_int_distribution<int> step(-6 * 256, 6 * 256);
     for (int trial = 0; trial < 50; ++trial) {

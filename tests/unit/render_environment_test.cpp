@@ -68,7 +68,7 @@ TEST(Environment, LevelsAreBlurredEvenlyInAngle) {
         EXPECT_NEAR(mean, 1.0, 1e-5);
     }
     // A texel of the second level's first row stands for 1 / sin(π / 32) = 10.2 of its 32. The one left of where the
-    // light begins takes in what lies up to 4.6 to the right of there, the one beside it 5.6.
+    // light begins takes in the light up to 4.6 to the right of there, the one beside it 5.6.
     const double width = 1.0 / std::sin(std::numbers::pi / 32.0);
     EXPECT_NEAR(levels[1].rgb[3 * 15], 2.0 * (0.5 * width - 0.5) / width, 1e-5);
     EXPECT_NEAR(levels[1].rgb[3 * 16], 2.0 * (0.5 * width + 0.5) / width, 1e-5);

@@ -57,7 +57,7 @@ TEST(RenderHem, IsNotWhereTwoEdgesAreOne) {
         EXPECT_EQ(pixelOf(hemmed, view.camera, {x, 0.0F, 0.0F}), pixelOf(plain, view.camera, {x, 0.0F, 0.0F})) << x;
 }
 
-// Bytes of the ground beside the cloth are what they are without a rim.
+// Bytes of the ground beside the cloth are the same without a rim.
 TEST(RenderHem, ShadowsAreThrownWithoutIt) {
     view::FrameView view = floorView();
     view.surfaces = {edgeView(0.1F).surfaces[0]};

@@ -1,4 +1,4 @@
-// Text in pictures: where it stands, that it can be read on anything, and what happens without a font.
+// Text in pictures: where it stands, that it can be read on anything, and the behaviour without a font.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -202,7 +202,7 @@ TEST(Text, CharactersThatTheFontLacksAreBoxes) {
     EXPECT_GT(std::count_if(box.letters.begin(), box.letters.end(), [](int ink) { return ink > 128; }), 20);
 }
 
-// Unicode 15, table 3-7: what is well formed. Each byte that is not becomes one replacement character.
+// Unicode 15, table 3-7, well-formed sequences. Each byte that is not becomes one replacement character.
 TEST(Text, Utf8IsReadAndFaultyBytesAreReplaced) {
     EXPECT_EQ(charactersOf("aé€\U0001F600"), U"aé€\U0001F600");
     EXPECT_EQ(charactersOf("a\xC3"), U"a\uFFFD");

@@ -1,4 +1,4 @@
-// What several lights do together, and what the size of one does, from the theory of light alone.
+// The effect of several lights together, and of the size of one, from the theory of light alone.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// What pictures have besides colours: alpha, depth, a mask. Expected numbers follow from the geometry, or from pictures
-// that have none of it.
+// The layers of pictures besides colours: alpha, depth, a mask. Expected numbers follow from the geometry, or from
+// pictures that have none of it.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -221,7 +221,7 @@ double over(int colour, int alpha, int below) {
 }
 
 TEST(RenderLayers, WhereAlphaIsOneTheColoursAreThoseOfThePictureWithoutAndBetweenNothingBrightens) {
-    // Sky alone behind: what is neither opaque nor clear is an edge, and lies between thing and background.
+    // Sky alone behind: a pixel neither opaque nor clear is an edge, and lies between thing and background.
     RendererOptions options = smallOptions();
     view::FrameView view = boxView();
     view.surfaces[0].transform = glm::rotate(glm::mat4(1.0F), 0.5F, {0.3F, 1.0F, 0.2F});

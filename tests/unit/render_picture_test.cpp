@@ -1,4 +1,4 @@
-// What pictures show, drawn with the real GL library.
+// The content of pictures, drawn with the real GL library.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -79,7 +79,7 @@ TEST(RenderPicture, CameraMayLookStraightDown) {
     EXPECT_NEAR(pixel[1], srgb(filmic(0.4F * (0.8F + 0.1F))), ditherStep + 0.5);
 }
 
-// From 250 m away the ground 60 m from the target is as it is near, and what lies 300 m off is not cut away.
+// From 250 m away the ground 60 m from the target is as it is near, and a thing 300 m off is not cut away.
 TEST(RenderPicture, TheGroundOfALargeSceneFadesFurtherAway) {
     view::FrameView view = floorView();
     view.camera.eye = {0.0F, 150.0F, 200.0F};
@@ -112,6 +112,26 @@ TEST(RenderPicture, ShadowLiesWhereTheLightSaysItDoes) {
     for (const float x : {0.09F, 0.91F}) EXPECT_NEAR(floorAt(x, 0.0F), lit, 12) << x;
     for (const float z : {-0.36F, 0.36F}) EXPECT_NEAR(floorAt(0.5F, z), lit, 12) << z;
     for (const float z : {-0.24F, 0.24F}) EXPECT_NEAR(floorAt(0.5F, z), dark, 12) << z;
+}
+
+// Within the reach of shaders/nearby.frag, 0.3 m, and in the picture.
+TEST(RenderPicture, WallTakesSkyFromASurfaceBesideIt) {
+    view::FrameView view = floorView();
+    view.light.colour = glm::vec3(0.0F);
+    static const view::Mesh slab = view::boxMesh({1.0F, 0.1F, 1.0F}, 0.0F),
+                            wall = view::boxMesh({1.0F, 0.3F, 0.05F}, 0.0F);
+    view.surfaces.push_back(surface(slab, {0.0F, 0.1F, 0.0F}, glm::vec3(0.8F)));
+    view.surfaces.push_back(surface(wall, {0.0F, 0.5F, -0.3F}, glm::vec3(0.8F)));
+    RendererOptions options = smallOptions();
+    const image::Image with = pictureOf(view, options);
+    options.occlusion = false;
+    const image::Image without = pictureOf(view, options);
+    const auto shareLeft = [&](glm::vec3 place) {
+        return lightOf(pixelOf(with, view.camera, place)[1]) / lightOf(pixelOf(without, view.camera, place)[1]);
+    };
+    EXPECT_LT(shareLeft({0.0F, 0.2F, -0.2F}), 0.9F);
+    EXPECT_GT(shareLeft({0.0F, 0.2F, -0.2F}), 0.4F);
+    EXPECT_NEAR(shareLeft({0.0F, 0.2F, 0.5F}), 1.0F, 0.02F);  // a byte
 }
 
 TEST(RenderPicture, SurfaceInShadowIsDarkerThanTheSameInLight) {

@@ -1,4 +1,4 @@
-// How the renderer behaves as an object: repeatable, on either library, on any thread, clear about what fails.
+// How the renderer behaves as an object: repeatable, on either library, on any thread, clear about failures.
 #include "taut/render/renderer.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(RenderRenderer, ChangedItDrawsAsOneMadeSo) {
     RendererOptions options = smallOptions();
     Renderer renderer(options);
     const view::FrameView view = someView();
-    for (int i = 0; i < 3; ++i) (void)renderer.draw(view);  // what is still is kept
+    for (int i = 0; i < 3; ++i) (void)renderer.draw(view);  // resting things are kept
     const image::Image first = renderer.draw(view);
     options.width = 160;
     options.height = 90;

@@ -1,4 +1,4 @@
-// The depth of what the light meets: geometry without GL.
+// The depth of lit surfaces: geometry without GL.
 #include "taut/render/private/shadow_map.h"
 
 #include <gtest/gtest.h>

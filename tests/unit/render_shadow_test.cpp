@@ -1,4 +1,4 @@
-// What must not be in shadow, and what must not be lit, whatever the size of the shadow map.
+// Places that must be lit, and places that must be in shadow, at any size of the shadow map.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -39,7 +39,7 @@ view::Surface wavySheet(float height, float waves) {
     return sheet;
 }
 
-// Waves that are less steep than the light throw no shadow: each pixel is what it is without shadows. The light falls
+// Waves that are less steep than the light throw no shadow: each pixel is the same as without shadows. The light falls
 // from 17 degrees above the horizon, the slopes are at most 0.8 of its; triangles beside each other differ by 7
 // degrees.
 TEST(RenderShadow, WavesLessSteepThanTheLightAreLitAllOver) {

@@ -1,4 +1,4 @@
-// What is kept from picture to picture changes nothing: the same bytes as with everything drawn anew.
+// Data kept from picture to picture changes nothing: the same bytes as with everything drawn anew.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -27,8 +27,8 @@ view::FrameView stillFrame(int number) {
     return view;
 }
 
-// Expects the same of a renderer that keeps and one that does not, for frames that `change` changes; some of what is
-// kept is kept from the tenth on.
+// Expects the same of a renderer that keeps and one that does not, for frames that `change` changes; some data is
+// kept from the tenth on.
 void expectSameBytes(const std::function<void(int, view::FrameView&)>& change) {
     RendererOptions options = smallOptions();
     Renderer keeping(options);

@@ -130,7 +130,7 @@ TEST(ReportGnuplot, WordsOfAChartAreNeverCommands) {
     EXPECT_FALSE(std::filesystem::exists(folder / "touched"));
 }
 
-// What an error says that comes with another PATH; empty without one.
+// The message of an error with another PATH; empty without one.
 std::string withPath(const std::filesystem::path& folder, const std::function<void()>& action) {
     const char* path = std::getenv("PATH");
     const std::string before = path == nullptr ? "" : path;

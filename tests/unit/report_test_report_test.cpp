@@ -83,11 +83,12 @@ TEST(TestReportJunit, EscapesWhatXmlDoesNotAllow) {
 // Nothing of it was compared: it is no failure of its own, but no success of the run either.
 TEST(TestReport, AsBytesAndBackIsTheSamePage) {
     const TestReport report = mixedReport();
-    const std::vector<std::byte> saved = bytesOf(report);
-    EXPECT_EQ(testPage(reportIn(saved)), testPage(report));
-    EXPECT_EQ(bytesOf(reportIn(saved)), saved);
+    const std::vector<std::byte> saved = core::bytesOf(report);
+    EXPECT_EQ(testPage(core::valueIn<TestReport>(saved)), testPage(report));
+    EXPECT_EQ(core::bytesOf(core::valueIn<TestReport>(saved)), saved);
     for (std::size_t length = 0; length < saved.size(); length += 7)
-        taut::test::messageOf(core::ErrorKind::badContent, [&] { (void)reportIn(std::span(saved).first(length)); });
+        taut::test::messageOf(core::ErrorKind::badContent,
+                              [&] { (void)core::valueIn<TestReport>(std::span(saved).first(length)); });
 }
 
 TEST(TestReport, OutdatedGoldensAreSkippedAndReportedOnceForAll) {

@@ -40,7 +40,8 @@ TEST(ActionReader, ReadsWhatATimelineMaySay) {
     EXPECT_EQ(change.field->read(loaded.spec), (std::vector<double>{1, 0, 0}));
 }
 
-// Only what has a value to begin from, by the words of the file: this scene has no collider and gives its rope no EI.
+// Only keys that have a value to begin from, by the words of the file: this scene has no collider and gives its rope no
+// EI.
 TEST(ActionReader, ListsWhatRampsMayChange) {
     const AssetFolder folder;
     const Loaded loaded = folder.load(text);

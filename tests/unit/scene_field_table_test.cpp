@@ -47,7 +47,7 @@ void collectPaths(const Node& node, const std::string& path, bool isNamed, std::
     }
 }
 
-// What every body has is tried out on a cloth there, and on the others by SceneFields.
+// The common keys of bodies are tried on a cloth there, and on the others by SceneFields.
 std::string standIn(const std::string& path) {
     for (const std::string_view part : {"collider.parts.finish", "solid.parts.finish"})
         if (path.starts_with(part)) return "cloth.finish" + path.substr(part.size());
@@ -79,8 +79,8 @@ TEST(SceneFieldTable, EveryFieldHasAHelpAndAnUnambiguousKey) {
     });
 }
 
-// A struct filled from the table's defaults is the fresh struct: reading is the inverse of writing, and what
-// schema and manual state is what a scene gets. One rounding of a degree is allowed.
+// A struct filled from the table's defaults is the fresh struct: reading is the inverse of writing, and
+// schema and manual state the defaults of a scene. One rounding of a degree is allowed.
 void expectDefaultsRestore(const Section& section, void* fresh, const std::string& path) {
     for (const Field& field : section.fields) {
         const std::string here = path + "." + field.key;

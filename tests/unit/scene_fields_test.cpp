@@ -136,7 +136,10 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
     EXPECT_EQ(body.finish.pattern, view::Pattern::image);
     EXPECT_EQ(body.finish.repeat, 0.3);
     EXPECT_EQ(body.finish.weave, 0.4);
+    EXPECT_EQ(body.finish.binding, view::Binding::satin);
     EXPECT_EQ(body.finish.thread, 0.02);
+    EXPECT_EQ(body.finish.slub, 0.15);
+    EXPECT_EQ(body.finish.fuzz, 0.25);
     EXPECT_EQ(body.finish.roughness, 0.5);
     EXPECT_EQ(body.finish.sheen, 0.6);
     EXPECT_EQ(body.finish.anisotropy, 0.45);

@@ -171,7 +171,7 @@ TEST(SceneFiles, AKeptStateIsReadWhereARunStarts) {
     std::vector<std::string> files;
     for (const UsedFile& file : usedFiles(loaded.spec)) files.push_back(file.path);
     EXPECT_EQ(files, (std::vector<std::string>{(folder / "s.toml").string(), run.start}));
-    // What it holds is part of all states of the scene, its name is not.
+    // Its content is part of all states of the scene, its name is not.
     folder.write("other.state", "");
     const std::string other = "schema = 1\n[run]\nstart = \"other.state\"\n";
     options.stateIn = [](const auto&) { return world::StartState{61, {std::byte{7}}}; };
@@ -237,7 +237,7 @@ TEST(SceneFiles, BodiesAreSortedByNameAndTiesKeepTheirOrder) {
     EXPECT_EQ(scene.masses[1].target, "rope.a@end");
 }
 
-// Also by a link that lies where it may: what counts is where the file is.
+// Also by a link that lies where it may: the place of the file counts.
 TEST(SceneFiles, AConfinedSceneReadsNothingElsewhere) {
     const AssetFolder folder, elsewhere;
     elsewhere.write("secret.toml", "the secret of somebody else\n");
@@ -294,7 +294,7 @@ TEST(SceneFiles, TheShippedScenesAndScenariosLoad) {
     }
 }
 
-// A part has its own finish, in pictures and in what is exported, which are made of the same surfaces.
+// A part has its own finish, in pictures and exported geometry, which are made of the same surfaces.
 TEST(SceneFiles, APartOfACompoundMayHaveAFinishOfItsOwn) {
     const AssetFolder folder;
     const world::SceneSpec scene =

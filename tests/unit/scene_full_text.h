@@ -96,7 +96,7 @@ restitution = 0.6
 thickness = 0.01
 collide = false
 touch = "others"
-finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, thread_m = 0.02, roughness = 0.5, sheen = 0.6, translucency = 0.35, anisotropy = 0.45, hem_m = 0.004, smooth = 2, skin = "square.obj", texture = "square.png" }
+finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, binding = "satin", thread_m = 0.02, slub = 0.15, fuzz = 0.25, roughness = 0.5, sheen = 0.6, translucency = 0.35, anisotropy = 0.45, hem_m = 0.004, smooth = 2, skin = "square.obj", texture = "square.png" }
 solver = { integrator = "euler", dt = 2e-4, safety = 0.7, newton_steps = 5, cg_tolerance = 1e-8, cg_iterations = 400 }
 array = { count = [2, 3, 4], step_x = [1, 0, 0], step_y = [0, 2, 0], step_z = [0, 0, 3] }
 [cloth.shirt]

@@ -1,4 +1,4 @@
-// What things have from [defaults.SECTION] and from what they are like.
+// Keys from [defaults.SECTION] and from `like`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,8 +44,8 @@ TEST(SceneInheritance, TablesAreLaidOverEachOtherKeyByKey) {
     EXPECT_EQ(rope(scene, 0).finish.roughness, 0.25);
 }
 
-// A cloth's own keys, then those of the cloth that it is like, then its material's, then the defaults. Of those that no
-// cloth takes for this, a warning tells.
+// A cloth's own keys, then those of the cloth that it is like, then its material's, then the defaults. A warning names
+// keys that no cloth takes.
 TEST(SceneInheritance, AMaterialHasKeysForItsCloth) {
     const Loaded scene = loaded(
         "[defaults.cloth]\nthickness = 0.01\nfriction = 0.1\njitter_m = 0.001\n"

@@ -1,4 +1,4 @@
-// Labels and freezing in scene files: what is accepted, and the exact messages for what is not.
+// Labels and freezing in scene files: accepted texts, and the exact messages for the others.
 #include "unit/scene_support.h"
 
 namespace taut::scene {

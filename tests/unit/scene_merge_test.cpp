@@ -1,4 +1,4 @@
-// A scenario that builds on a scene: what is merged, and which file a message names.
+// A scenario that builds on a scene: the merged keys, and which file a message names.
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
 #include "unit/scene_support.h"
@@ -215,7 +215,7 @@ TEST(SceneMerge, TheSceneCannotBeSet) {
               "--set scene: error: the scene that a file builds on cannot be set");
 }
 
-// A scenario can be looked at for a second: what lies past an end that was set by hand is left out, not wrong.
+// A scenario can be looked at for a second: times past an end set by hand are left out, not wrong.
 TEST(Merge, AnOverriddenLengthMakesNothingLate) {
     const std::string text = R"(schema = 1
 run = { seconds = 4.0 }

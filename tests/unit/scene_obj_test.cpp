@@ -70,7 +70,7 @@ TEST(SceneObj, ReadsWindowsLineEndsCommentsJoinedLinesAndNoLastLineEnd) {
 }
 
 TEST(SceneObj, GroupsOfLinesAloneNameTheirVertices) {
-    // Pieces that lie criss-cross, as modellers write them; what is at no face; what has faces.
+    // Pieces that lie criss-cross, as modellers write them; points at no face; points with faces.
     const world::MeshData mesh = objMeshText(
         corners + "v 9 9 9\ng seam\nl 3 2\nl 1 3\ng loose\nl 1 5\ng sheet\nl 2 1\nf 1 2 3\nf 1 3 4\n", "m.obj");
     using Groups = std::map<std::string, std::vector<int>>;
@@ -96,7 +96,7 @@ TEST(SceneObj, AGroupIsASelectionOfPoints) {
     world::World world(folder.load(text).spec);
     EXPECT_EQ(world.points("cloth.c@collar").x.size(), 3U);
     EXPECT_EQ(world.points("cloth.c@hem").x.size(), 3U);
-    EXPECT_EQ(world.points("cloth.c@left").x.size(), 2U);  // taut's own names stay what they are
+    EXPECT_EQ(world.points("cloth.c@left").x.size(), 2U);  // taut's own names stay
     EXPECT_EQ(world.islands().front().heldPoints, 3);
     EXPECT_NE(folder.messageOf(text + "[[mass]]\ntarget = \"cloth.c@colar\"\nmass_kg = 1\n").find("\"collar\"?"),
               std::string::npos);

@@ -55,7 +55,7 @@ TEST(SceneOverrides, AStarStandsForAnyLettersOfAName) {
     for (const world::RopeSpec& rope : scene.bodies.of<world::RopeSpec>()) segments.push_back(rope.segments);
     EXPECT_EQ(segments, (std::vector<int>{9, 9, 7}));  // r, rig, sag
     EXPECT_EQ(scene.masses[0].mass, 3.0);
-    options.overrides = {"rope.*.segments=0"};  // said once
+    options.overrides = {"rope.*.segments=0"};  // reported once
     EXPECT_EQ(folder.messageOf(text, options),
               "--set rope.*.segments: error: segments must be between 1 and 1e+09, not 0");
 }

@@ -76,7 +76,7 @@ struct Row {
     const char* fault;
     const char* around;
     const char* text;
-    // A line for each message: LINE:COLUMN: what is wrong ^ remedy.
+    // A line for each message: LINE:COLUMN: fault ^ remedy.
     const char* messages;
     // The output after the messages.
     const char* more = "";
@@ -703,7 +703,7 @@ that = "time < 1 é"
 [rope.r]
 ends = [[0, 0, 0], [1, 0, 0]])",
      R"(3:18: "é" stands where a comparison is expected ^ use < <= > >= == or !=)"},
-    // Claims about what is not there.
+    // Claims about missing things.
     {"an unknown body", claim, "time > 3 * speed(rope.rr)", R"(5:26: there is no rope.rr ^ did you mean "rope.r"?)"},
     {"an unknown selector", claim, "speed(rope.r@ent) < 1",
      R"(5:15: rope.r has no points "ent" ^ did you mean "end"?)"},
@@ -775,7 +775,7 @@ std::string sceneOf(const Row& row) {
     return scene.replace(scene.find(gap), gap.size(), row.text);
 }
 
-// The messages as the loader writes them, in which the line of the scene and a caret below it follow what is wrong.
+// The messages as the loader writes them, in which the line of the scene and a caret below it follow the fault.
 std::vector<std::string> messagesOf(const Row& row, const std::string& severity) {
     std::vector<std::string> lines;
     std::istringstream scene(sceneOf(row));

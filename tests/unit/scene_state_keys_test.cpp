@@ -1,4 +1,4 @@
-// What makes two stored states the same: all that reaches the state, and nothing else.
+// The identity of two stored states: all that reaches the state, and nothing else.
 #include "taut/scene/state_keys.h"
 
 #include <gtest/gtest.h>

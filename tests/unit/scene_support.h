@@ -1,4 +1,4 @@
-// What the tests of the scene loader share: a folder with a few assets, and the message that a text leads to.
+// Common code of the tests of the scene loader: a folder with a few assets, and the message that a text leads to.
 #pragma once
 
 #include <gtest/gtest.h>

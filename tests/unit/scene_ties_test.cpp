@@ -1,4 +1,4 @@
-// What is tied to colliders, as a file says it: what is read, and what is wrong with it.
+// Ties to colliders in scene files: the values read, and the errors.
 #include "taut/spec/actions.h"
 #include "taut/world/world.h"
 #include "unit/scene_support.h"

@@ -70,7 +70,7 @@ TEST(Atlas, PredictsAndMeasuresTheBoundariesOfTheTheory) {
 }
 
 TEST(Atlas, MeasuresTheEigenvalueOfAStep) {
-    // 1e-9: what swings of the amplitude leave in a slope over some hundred steps.
+    // 1e-9: the effect of swings of the amplitude on a slope over some hundred steps.
     for (const double z : {0.1, 1.0, 3.0}) {
         EXPECT_NEAR(measuredGrowth("euler", 0, Damping::drag, z, 400) / std::sqrt(1 + z * z), 1, 1e-9);
         EXPECT_NEAR(measuredGrowth("implicit-euler", 0, Damping::drag, z, 400) * std::sqrt(1 + z * z), 1, 1e-9);

@@ -43,7 +43,7 @@ std::filesystem::path sceneWith(const TemporaryFolder& folder, const std::string
     return path;
 }
 
-// y = ((v + g/c)(1 - exp(-c t)) - g t) / c of what is thrown up with 8 m/s and has drag c.
+// y = ((v + g/c)(1 - exp(-c t)) - g t) / c of a point thrown up with 8 m/s and drag c.
 double heightAt(double c, double t) {
     return ((8 + 9.81 / c) * (1 - std::exp(-c * t)) - 9.81 * t) / c;
 }

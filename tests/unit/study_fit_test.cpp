@@ -1,4 +1,4 @@
-// Numbers that are known by theory, found again from what theory says was measured.
+// Numbers known by theory, found again from measurements made by theory.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -153,7 +153,7 @@ high = 1e-2
 
 // A short strip of width 1 under a weight w that comes and goes, all rotations small: the moment at s from the free end
 // is M = w s²/2 at most. Its threads take min(k κ, H) of it, with H = 2HB/2 and k = H over the curvature at which they
-// slip. Then κ(M) = M/(B + k), or (M - H)/B where they slip, and what stays without weight is what they hold against B:
+// slip. Then κ(M) = M/(B + k), or (M - H)/B where they slip, and the curvature without weight is held against B:
 // min(H/B, (k κ - H)/(B + k)) where they slipped, else nothing. The free end has moved by ∫ κ s ds.
 struct Loaded {
     double full = 0, after = 0;  // [m]

@@ -1,4 +1,4 @@
-// How long a motion can be predicted depends on what is asked of it, and where nothing moves there is nothing to ask.
+// How long a motion can be predicted depends on the question, and a resting scene has none.
 #include "taut/study/horizon.h"
 
 #include <gtest/gtest.h>

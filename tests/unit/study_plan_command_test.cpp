@@ -74,7 +74,7 @@ TEST(PlanCommand, WritesTheChangedValuesOnly) {
     EXPECT_TRUE(has(written, "segments = " + segments + "     # too many\n")) << written;
     EXPECT_TRUE(written.starts_with(rope.substr(0, rope.find("segments")))) << written;
 
-    // What was planned once is as it should be.
+    // A scene that was planned once needs no change.
     const Outcome again = run({"plan", path.string(), "--quiet", "--write"});
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(run({"check", path.string()}).code, 0);

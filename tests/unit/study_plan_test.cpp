@@ -1,4 +1,4 @@
-// What a plan takes for the need, for a model and for a change of the file: without a run.
+// The need, the model and the changes of the file of a plan, without a run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -193,7 +193,7 @@ TEST(PlanRuns, CountSpringsTimesEvaluations) {
     const world::SceneSpec model = modelOf(scene, resolution, candidate);
     const StepFacts facts = stepFacts(model);
     const PlanRun run = play(model, resolution, grid);
-    ASSERT_TRUE(run.isWhole());
+    ASSERT_TRUE(run.hasEnded());
     // RK4 evaluates four times a step.
     EXPECT_EQ(run.cost, facts.cost * 4 * facts.leastSubsteps * 3);
 }

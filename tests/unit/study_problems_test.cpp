@@ -42,7 +42,7 @@ TEST(StudyProblems, StartWhereTheirSolutionsStart) {
 }
 
 TEST(StudyProblems, StepsHitTheSampleTimes) {
-    const std::unique_ptr<Subject> problem = makeUndamped();
+    const std::unique_ptr<Subject> problem = makeProblem("oscillator");
     const Grid grid = problem->grid(5.0, 5.0);
     const long long each = stepsPerSample(*problem, grid, 0.013);
     EXPECT_LE(grid.spacing / static_cast<double>(each), 0.013);
@@ -51,14 +51,14 @@ TEST(StudyProblems, StepsHitTheSampleTimes) {
 }
 
 TEST(StudyProblems, AHeldPointAndAFreeOneCountAsOne) {
-    const std::unique_ptr<Subject> problem = makeUndamped();
+    const std::unique_ptr<Subject> problem = makeProblem("oscillator");
     RunPlan plan;
     plan.method = "leapfrog";
     plan.grid = {0.1, 10};
     EXPECT_EQ(problem->begin(plan)->observe().values.size(), 3U);
 }
 
-// Two masses on strings, let go from above the horizontal: the text-book chaos.
+// Two masses on strings, released from above the horizontal: the text-book chaos.
 std::unique_ptr<Subject> doublePendulum() {
     MechanicalProblem problem;
     problem.name = "double-pendulum";
@@ -74,7 +74,7 @@ std::unique_ptr<Subject> doublePendulum() {
 }
 
 TEST(StudyHorizon, ChaosEndsItAndCalmDoesNot) {
-    const std::unique_ptr<Subject> chaos = doublePendulum(), calm = makeUndamped();
+    const std::unique_ptr<Subject> chaos = doublePendulum(), calm = makeProblem("oscillator");
     const Horizon wild = findHorizon(*chaos, 8.0), still = findHorizon(*calm, 8.0);
     EXPECT_TRUE(wild.isReached);
     EXPECT_LT(wild.seconds, 8.0);
@@ -108,7 +108,8 @@ world::SceneSpec oscillatorScene() {
 }
 
 TEST(StudyScene, IsIntegratedAsTheSameSystemIs) {
-    const std::unique_ptr<Subject> scene = makeSceneSubject(oscillatorScene(), "scene"), direct = makeUndamped();
+    const std::unique_ptr<Subject> scene = makeSceneSubject(oscillatorScene(), "scene"),
+                                   direct = makeProblem("oscillator");
     for (const ode::MethodInfo& method : ode::methods()) {
         RunPlan plan;
         plan.method = method.name;
@@ -148,8 +149,8 @@ TEST(StudyScene, PerturbationMovesEveryCoordinateALittle) {
 TEST(StudyScene, TellsTheLimitOfEachMethod) {
     const std::unique_ptr<Subject> scene = makeSceneSubject(oscillatorScene(), "scene");
     EXPECT_NEAR(scene->stepLimit(*ode::findMethod("leapfrog")), 2.0 / omega, 1e-12);
-    EXPECT_NEAR(makeUndamped()->stepLimit(*ode::findMethod("rk4")), 2.0 * std::sqrt(2.0) / omega, 1e-6);
-    EXPECT_EQ(makeUndamped()->stepLimit(*ode::findMethod("euler")), 0.0);
+    EXPECT_NEAR(makeProblem("oscillator")->stepLimit(*ode::findMethod("rk4")), 2.0 * std::sqrt(2.0) / omega, 1e-6);
+    EXPECT_EQ(makeProblem("oscillator")->stepLimit(*ode::findMethod("euler")), 0.0);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace taut::study {
 namespace {
 
-// What one step of length h multiplies y by, less one: the Taylor sum of e^h up to the method's order.
+// The factor of one step of length h, less one: the Taylor sum of e^h up to the method's order.
 long double growth(int order, long double h) {
     long double term = 1, sum = 0;
     for (int k = 1; k <= order; ++k) sum += term *= h / static_cast<long double>(k);
@@ -40,7 +40,7 @@ long long exactSteps(int order, long double tolerance) {
 // 1e-5 instead of the slides' 1e-6 keeps Euler short; a step more or less changes its error by 7e-11, while rounding
 // adds up to about 1e-13, so that the count is exact.
 TEST(StepsTable, StepsForAToleranceAreThoseOfTheFormulas) {
-    const std::vector<StepsRow> rows = stepsTable(*makeGrowth(), 1e-5);
+    const std::vector<StepsRow> rows = stepsTable(*makeProblem("growth"), 1e-5);
     ASSERT_EQ(rows.size(), orders.size());
     for (const StepsRow& row : rows) {
         ASSERT_TRUE(orders.contains(row.method)) << row.method;
@@ -52,23 +52,23 @@ TEST(StepsTable, StepsForAToleranceAreThoseOfTheFormulas) {
 
 TEST(StepsTable, HasRowsForTheMethodsAskedForAlone) {
     const std::vector<StepsRow> rows =
-        stepsTable(*makeGrowth(), 1e-2, {"rk4", "leapfrog"});  // leap-frog does not integrate y' = y
+        stepsTable(*makeProblem("growth"), 1e-2, {"rk4", "leapfrog"});  // leap-frog does not integrate y' = y
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(rows[0].method, "rk4");
 }
 
 TEST(StepsTable, TheSlidesOwnToleranceForHigherOrders) {
-    EXPECT_GE(endError(*makeGrowth(), "rk4", exactSteps(4, 1e-6L) - 1), 1e-6);
-    EXPECT_LT(endError(*makeGrowth(), "rk4", exactSteps(4, 1e-6L)), 1e-6);
-    EXPECT_GE(endError(*makeGrowth(), "midpoint", exactSteps(2, 1e-6L) - 1), 1e-6);
-    EXPECT_LT(endError(*makeGrowth(), "midpoint", exactSteps(2, 1e-6L)), 1e-6);
+    EXPECT_GE(endError(*makeProblem("growth"), "rk4", exactSteps(4, 1e-6L) - 1), 1e-6);
+    EXPECT_LT(endError(*makeProblem("growth"), "rk4", exactSteps(4, 1e-6L)), 1e-6);
+    EXPECT_GE(endError(*makeProblem("growth"), "midpoint", exactSteps(2, 1e-6L) - 1), 1e-6);
+    EXPECT_LT(endError(*makeProblem("growth"), "midpoint", exactSteps(2, 1e-6L)), 1e-6);
 }
 
 // One step of RK4 against two of the second order and four of Euler: 65/24, (13/8)² and (5/4)⁴ instead of e.
 TEST(StepsTable, FourEvaluationsBuyWhatTheFormulasSay) {
     const std::map<std::string, double> results = {
         {"euler", 625.0 / 256.0}, {"heun", 169.0 / 64.0}, {"midpoint", 169.0 / 64.0}, {"rk4", 65.0 / 24.0}};
-    for (const StepsRow& row : stepsTable(*makeGrowth(), 1e-2)) {
+    for (const StepsRow& row : stepsTable(*makeProblem("growth"), 1e-2)) {
         EXPECT_EQ(row.stepsForFour * orders.at(row.method), 4) << row.method;
         // A few roundings of numbers below 3.
         EXPECT_NEAR(row.errorForFour, std::numbers::e - results.at(row.method), 4e-15) << row.method;
@@ -78,7 +78,7 @@ TEST(StepsTable, FourEvaluationsBuyWhatTheFormulasSay) {
 // Euler's y_n = 3 (1 - h)/(x_n - h) - 2 x_n errs by 3/4 / (n - 1/2) at x = 2: less than 1e-5 from 75001 steps on, less
 // than the slides' 1e-6 from 750001. Heun and RK4 integrate this equation exactly; 531 of the midpoint is the slides'.
 TEST(StepsTable, OfTheQuotientAreThoseOfTheSlides) {
-    const std::unique_ptr<Subject> quotient = makeQuotient();
+    const std::unique_ptr<Subject> quotient = makeProblem("quotient");
     for (const StepsRow& row : stepsTable(*quotient, 1e-5)) {
         if (row.method == "euler") {
             EXPECT_EQ(row.steps, 75001);

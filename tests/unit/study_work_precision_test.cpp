@@ -27,7 +27,7 @@ StudySettings fixed(int halvings, std::vector<Precision> precisions = {Precision
 }
 
 const WorkPrecision& oscillatorStudy() {
-    static const WorkPrecision study = studyWorkPrecision(*makeUndamped(), fixed(5));
+    static const WorkPrecision study = studyWorkPrecision(*makeProblem("oscillator"), fixed(5));
     return study;
 }
 
@@ -106,7 +106,7 @@ TEST(StudyWorkPrecision, EveryMethodOfTheTableAppears) {
 TEST(StudyWorkPrecision, SolvesSetNoFloor) {
     StudySettings settings = fixed(8);
     settings.methods = {"sdirk2"};
-    const WorkPrecision study = studyWorkPrecision(*makeClothCorners(), settings);
+    const WorkPrecision study = studyWorkPrecision(*makeProblem("cloth-corners"), settings);
     EXPECT_NEAR(measuredOrder(study, "sdirk2", Precision::double_), 2.0, 0.1);
 }
 
@@ -114,7 +114,7 @@ TEST(StudyWorkPrecision, SolvesSetNoFloor) {
 TEST(StudyWorkPrecision, AFloorOfRoundingIsMarkedAndTheOrderIsOfWhatLiesAbove) {
     StudySettings settings = fixed(12, {Precision::single_, Precision::double_});
     settings.methods = {"velocity-verlet"};
-    const WorkPrecision study = studyWorkPrecision(*makeUndamped(), settings);
+    const WorkPrecision study = studyWorkPrecision(*makeProblem("oscillator"), settings);
     bool isBelow = false;
     for (const RunPoint& point : study.points) {
         if (point.precision == Precision::double_) {
@@ -132,19 +132,19 @@ TEST(StudyWorkPrecision, AFloorOfRoundingIsMarkedAndTheOrderIsOfWhatLiesAbove) {
 }
 
 TEST(StudyWorkPrecision, AnEquationOfFirstOrderTakesTheMethodsThatCan) {
-    const WorkPrecision study = studyWorkPrecision(*makeGrowth(), fixed(2));
+    const WorkPrecision study = studyWorkPrecision(*makeProblem("growth"), fixed(2));
     for (const MethodFacts& method : study.methods) EXPECT_TRUE(ode::findMethod(method.name)->isFirstOrder());
     EXPECT_GE(study.methods.size(), 1U);
     StudySettings settings = fixed(2);
     settings.methods = {"leapfrog"};
-    EXPECT_THROW(studyWorkPrecision(*makeGrowth(), settings), core::Error);
+    EXPECT_THROW(studyWorkPrecision(*makeProblem("growth"), settings), core::Error);
     settings.methods = {"no such"};
-    EXPECT_THROW(studyWorkPrecision(*makeGrowth(), settings), core::Error);
+    EXPECT_THROW(studyWorkPrecision(*makeProblem("growth"), settings), core::Error);
 }
 
 // Heun and RK4 integrate y' + y/x = -4 from y = 3/x - 2x exactly, Euler does not.
 TEST(StudyWorkPrecision, HeunAndRungeKuttaSolveTheQuotientToRounding) {
-    const WorkPrecision study = studyWorkPrecision(*makeQuotient(), fixed(3));
+    const WorkPrecision study = studyWorkPrecision(*makeProblem("quotient"), fixed(3));
     for (const RunPoint& point : study.points) {
         if (point.method == "heun" || point.method == "rk4")
             EXPECT_LT(point.rmsError, 1e-14) << point.method;  // some 80 roundings of numbers below 4
@@ -211,7 +211,7 @@ TEST(StudyWorkPrecision, FailedRunsAreMarkedInEveryChart) {
 TEST(StudyWorkPrecision, JsonHoldsTheMachineAndEveryRun) {
     const WorkPrecision& study = oscillatorStudy();
     const auto json = nlohmann::json::parse(
-        workPrecisionJson(study, stepsTable(*makeGrowth(), 1e-2), {{"processor", "a \"fast\" one"}}));
+        workPrecisionJson(study, stepsTable(*makeProblem("growth"), 1e-2), {{"processor", "a \"fast\" one"}}));
     EXPECT_EQ(json["machine"]["processor"], "a \"fast\" one");
     EXPECT_EQ(json["runs"].size(), study.points.size());
     EXPECT_EQ(json["reference"]["kind"], "exact");
@@ -223,7 +223,7 @@ TEST(StudyWorkPrecision, StopsWhenAsked) {
     const std::atomic<bool> stop(true);
     StudySettings settings = fixed(3);
     settings.listener.stop = &stop;
-    const WorkPrecision study = studyWorkPrecision(*makeGrowth(), settings);
+    const WorkPrecision study = studyWorkPrecision(*makeProblem("growth"), settings);
     EXPECT_TRUE(study.isInterrupted);
     EXPECT_TRUE(study.points.empty());
     EXPECT_FALSE(study.remarks.empty());

@@ -1,4 +1,4 @@
-// What every drawn mesh must satisfy, asked by the tests of the shapes and of the tube.
+// The facts that every drawn mesh must satisfy, for the tests of the shapes and of the tube.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,4 @@
-// Every action by a small scene with a known answer, and what is said of one that finds nothing to act on.
+// Every action by a small scene with a known answer, and the message of one that finds nothing to act on.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodActs,
                                          "leapfrog", "blanes-moan", "implicit-euler", "sdirk2"),
                          nameOfMethod);
 
-// What a system does to a body at the start of a tick is what an action of that tick does.
+// A change by a system at the start of a tick equals an action of that tick.
 TEST_P(EveryMethodActs, APushFromASystemIsThatOfAnAction) {
     SceneSpec scene = loneMass(std::string(GetParam()));
     scene.solver.dt = 1.0 / 240;

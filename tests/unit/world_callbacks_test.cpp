@@ -108,7 +108,7 @@ TEST(CallbackForce, ThatIsNotFiniteIsNamedWithItsPointAndMoment) {
 }
 
 // A scene in which everything happens that can, and a force or a system that throws in every tick, from the first call
-// on or a later one. What is tried again when it does not is what would have been.
+// on or a later one. A repeated tick without the exception has the same result as an undisturbed one.
 class Undoing : public testing::TestWithParam<bool> {};
 
 TEST_P(Undoing, ATickThatThrowsHasNotHappenedWhateverItHasDone) {

@@ -19,7 +19,7 @@ namespace {
 
 using support::run;
 
-// A component that only this test knows: it turns what it is on about the vertical.
+// A component that only this test knows: it turns its body about the vertical.
 struct Spinner {
     double rate;  // [rad/s]
 };
@@ -119,7 +119,7 @@ TEST(Components, ASpawnedBodyIsHeldAndMovesAsItsSpecSays) {
     spec.hold = {"start"};
     spec.velocity = {0, 0, 3};
     const ecs::Entity rope = world.spawn(spec);
-    EXPECT_GT(world.metrics().momentum.z, 2.0);  // 1 kg at 3 m/s, less the held point and what its spring took
+    EXPECT_GT(world.metrics().momentum.z, 2.0);  // 1 kg at 3 m/s, less the held point and the energy of its spring
     run(world, 6);
     EXPECT_EQ(world.positions(rope)[0], dvec3(0, 3, 0));
     EXPECT_NEAR(world.positions(rope)[10].z, 0.3, 0.03);  // a tenth of a second at 3 m/s, before the rope turns it much

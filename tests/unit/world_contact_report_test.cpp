@@ -1,4 +1,4 @@
-// What is told of bodies that touch: contacts, crossings, and since when.
+// The report of bodies that touch: contacts, crossings, and since when.
 #include <gtest/gtest.h>
 
 #include "support/timelines.h"
@@ -112,7 +112,7 @@ TEST(ContactReport, KnowsWhatCrossesItself) {
                                         "being drawn apart"}));
 }
 
-// Springs of the line and the floor, besides the marks of what is between them.
+// Springs of the line and the floor, besides the marks of the contacts between them.
 TEST(ContactReport, TheDebugViewMarksContactsAndCrossings) {
     World through(scene(true)), beside(scene(false));
     support::run(beside, 1);

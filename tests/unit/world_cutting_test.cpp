@@ -1,4 +1,4 @@
-// Cuts, tears and yielding: what holds no more, what is drawn, and what stays.
+// Cuts, tears and yielding: severed springs, drawn surfaces, and remaining parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(Cutting, NoForceCrossesACut) {
     EXPECT_NEAR(glm::length(right - dvec3(0.05, 0.01, 0)), 0, 1e-12);
 }
 
-// Held at the top and cut across: what is below falls freely, what is above stays held.
+// Held at the top and cut across: the lower part falls freely, the upper part stays held.
 TEST(Cutting, CutPartsFallFreely) {
     SceneSpec scene = sheet();
     scene.bodies.of<ClothSpec>()[0].hold = {"top"};
@@ -143,7 +143,7 @@ TEST(Cutting, ACutRopeIsTwoRopes) {
         momentum += now.mass[i] * now.v[i].y;
         mass += now.mass[i];
     }
-    EXPECT_NEAR(momentum / mass, v - g * 0.5, 2e-2);  // its own swinging is what v tells of the end alone
+    EXPECT_NEAR(momentum / mass, v - g * 0.5, 2e-2);  // v of the end alone shows its own swinging
     EXPECT_LT(std::abs(now.v[0].y), 1e-12);
 }
 
@@ -187,7 +187,7 @@ TEST(Cutting, ARowOfPointsIsLeft) {
 }
 
 // A rope of EA = 100 N pulled by a hand: it tears once (l - L)/L is over the break strain, and nowhere else before.
-// A cut through what is rigid takes nothing of it, and says so.
+// A cut through a rigid body removes nothing, and is reported.
 TEST(Cutting, RigidBodiesStayComplete) {
     SceneSpec scene;
     SolidSpec crate;
@@ -255,7 +255,7 @@ TEST(Tearing, AClothTearsOnWhereACutHasBegun) {
     EXPECT_GT(world.metrics().brokenSprings, cut + 10);
 }
 
-// A bar clamped at one end, its other end led aside and back and let go: below yield it returns, above it stays bent.
+// A bar clamped at one end, its other end led aside and back and released: below yield it returns, above it stays bent.
 double offsetAfterBending(std::optional<double> yieldStrain) {
     SceneSpec scene;
     scene.world.gravity = dvec3(0.0);

@@ -1,4 +1,4 @@
-// What is drawn in place of a body's own triangles: a finer surface, kept out of colliders, or a mesh from a file.
+// Surfaces drawn in place of a body's own triangles: a finer surface, kept out of colliders, or a mesh from a file.
 #include <gtest/gtest.h>
 
 #include <algorithm>

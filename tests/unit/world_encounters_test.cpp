@@ -1,4 +1,4 @@
-// Which bodies are said to come into each other's way, and which are not.
+// Bodies reported to come into each other's way, and other bodies.
 #include "taut/advice/private/encounters.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Corners and edges of colliders against what lies between the points of bodies.
+// Corners and edges of colliders against the surface between the points of bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using core::pi;
 using support::run;
 
 constexpr double gap = 0.01;
-constexpr double gapBetween = 0.8 * gap;  // what edges and faces keep from colliders
+constexpr double gapBetween = 0.8 * gap;  // distance of edges and faces from colliders
 
 // A box of the edge a that stands on a corner; the opposite one at `top`.
 ColliderSpec onCorner(const dvec3& top, double a = 0.3) {
@@ -112,7 +112,7 @@ TEST(Faces, ACornerAtFiveMetresASecondDoesNotGoThroughAHangingCloth) {
         run(world, 1);
         EXPECT_EQ(world.metrics().facePenetration, 0.0);
     }
-    // What hung in its way is ahead of it.
+    // The cloth that hung in its way is ahead of it.
     double furthest = -1;
     for (const dvec3& x : world.positions(entityOf(world, "cloth"))) furthest = std::max(furthest, x.z);
     EXPECT_GT(furthest, 0.3);
@@ -178,7 +178,7 @@ TEST(Faces, TheStateIsTheSameWithAnyNumberOfThreadsAndFromAnyTickOn) {
         saved.push_back(through.save());
         run(through, 1);
         hashes.push_back(through.stateHash());
-        if (i % 3 == 0) (void)through.metrics();  // what is asked changes nothing
+        if (i % 3 == 0) (void)through.metrics();  // queries change nothing
     }
     for (const int threads : {2, 7}) {
         World world(scene, {.threads = threads});
@@ -195,7 +195,7 @@ TEST(Faces, TheStateIsTheSameWithAnyNumberOfThreadsAndFromAnyTickOn) {
     }
 }
 
-// Faster than 100 m/s it has no way: what lies between does not feel it.
+// Faster than 100 m/s it has no way: bodies between do not feel it.
 TEST(Faces, AColliderThatJumpsPassesWhatLiesBetween) {
     ClothSpec cloth = sheetAt(0);
     cloth.origin = {-0.3, 1, 0};

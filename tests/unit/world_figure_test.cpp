@@ -98,7 +98,7 @@ TEST(Figure, PointsSqueezedByTwoPartsAreLetThroughAndComeFree) {
         squeezed = std::max(squeezed, world.metrics().squeezed);
     }
     EXPECT_GT(squeezed, 10);
-    EXPECT_LT(fastest, 2.0);  // nothing is thrown out; the boxes move at 0.5 m/s
+    EXPECT_LT(fastest, 2.5);  // nothing is thrown out; the boxes move at 0.5 m/s, and a fall by 0.3 m gives 2.4 m/s
     run(world, 60);
     EXPECT_EQ(world.metrics().squeezed, 0);
     EXPECT_EQ(world.metrics().crossings, 0);
@@ -131,13 +131,15 @@ TEST(Figure, ASavedStateGoesOnWithTheSameBits) {
     figure::Figure belt = boxes({{0, -0.1, 0}}, {2, 0.2, 0.6}, 5);
     animate(belt, 0, Path::translation, {0, 0.2, 0.5}, {0, 0, 0, 0, 0.1, 0, 0.3, 0, 0});
     const SceneSpec scene = sceneOf(looseSheet(0.03), belt);
-    World world(scene);
-    run(world, 15);
-    World other(scene);
-    other.restore(world.save());
-    run(world, 15);
-    run(other, 15);
-    EXPECT_EQ(world.stateHash(), other.stateHash());
+    for (const int stop : {15, 30}) {  // as it moves, and as it stops
+        World world(scene);
+        run(world, stop);
+        World other(scene);
+        other.restore(world.save());
+        run(world, 15);
+        run(other, 15);
+        EXPECT_EQ(world.stateHash(), other.stateHash()) << stop;
+    }
 }
 
 TEST(Figure, WakesWhatSleepsInItsWay) {

@@ -14,7 +14,7 @@ namespace taut::world {
 namespace {
 
 // A box of 0.5 × 0.5 × 0.4 m whose upper face is a piston: rods keep it as it is, all else gives way at once. The
-// diagonals of its sides run to and fro, so that what presses on them does not turn the piston.
+// diagonals of its sides run to and fro, so that the pressure on them does not turn the piston.
 const char* const cubeObj = R"(v 0 0 0
 v 0.5 0 0
 v 0.5 0 0.5
@@ -87,7 +87,7 @@ class Fillings : public ::testing::Test {
 double heightOf(const World& world) {
     return world.points("cloth.box@#4").x.front().y;
 }
-// [Pa] by which the piston presses on what is in the box.
+// [Pa] by which the piston presses on the filling.
 double weightOf(const World& world) {
     double mass = 0;
     for (const double m : world.points("cloth.box@top").mass) mass += m;

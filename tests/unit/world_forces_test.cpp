@@ -1,4 +1,4 @@
-// A force that this file adds to a world: what applies to the engine's own applies to it.
+// A force that this file adds to a world behaves as the engine's own.
 #include "taut/bodies/net.h"
 #include "taut/forces/force.h"
 

@@ -62,7 +62,7 @@ TEST(Freeze, TheOthersGoOnAsIfTheyWereAlone) {
     EXPECT_EQ(placesOfKind(with, "rope"), placesOfKind(without, "rope"));
 }
 
-// The rest state is 1/10 m a cell: what is kept is a cloth still, torn but not scattered.
+// The rest state is 1/10 m a cell: the kept state is still a cloth, torn but not scattered.
 TEST(Freeze, KeptPlacesAreWithinTheStrainThatWasSet) {
     for (const double strain : {0.3, 1.0, 2.0}) {
         SceneSpec scene = calmAndWild();

@@ -67,7 +67,7 @@ TEST(Hands, TheRadiusTakesWhatIsNearAndNearTakesTheNearest) {
     SceneSpec scene;
     scene.world.gravity = dvec3(0.0);
     scene.bodies.add(support::cloth("sheet", 4));  // a point every 25 cm
-    // A push moves all points but those that a rigid hand has.
+    // A push moves all points but the ones that a rigid hand has.
     const auto takenBy = [&](GrabAction grab) {
         grab.rigid = true;
         World world(scene);
@@ -152,7 +152,7 @@ TEST(Hands, PointsInATurningHandGoRoundAsOftenAsItTurns) {
         const std::vector<dvec3> end = world.points("cloth.sheet").x;
         const double tolerance = isRigid ? 1e-14 : 1e-9;
         for (std::size_t p = 0; p < start.size(); ++p) EXPECT_NEAR(glm::length(end[p] - start[p]), 0, tolerance);
-        EXPECT_NEAR(turned, 8 * core::pi, isRigid ? 0.01 : 0.1);  // less the first tick, and what springs lag behind
+        EXPECT_NEAR(turned, 8 * core::pi, isRigid ? 0.01 : 0.1);  // less the first tick, and the lag of springs
     }
 }
 
@@ -225,7 +225,7 @@ TEST_P(EveryMethodLetsGo, PointsReleasedByARigidHandFlyOnWithTheirSpeed) {
     EXPECT_NEAR(world.points("net.ball@m").v[0].x, 3.0, 1e-12);
     run(world, 30);
     const PointsNow now = world.points("net.ball@m");
-    EXPECT_NEAR(now.v[0].x, 3.0, 1e-8);  // but for what the spring of 1e-9 N/m does
+    EXPECT_NEAR(now.v[0].x, 3.0, 1e-8);  // but for the spring of 1e-9 N/m
     EXPECT_NEAR(now.x[0].x, 3.0, 1e-8);
     EXPECT_EQ(world.handPlace("hand"), std::nullopt);
 }

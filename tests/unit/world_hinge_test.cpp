@@ -60,7 +60,7 @@ double ellipticK(double k) {
 }
 
 // A box of w, h, w that swings about its upper end has I = m (w² + h²)/12 + m h²/4, and a period of
-// 4 sqrt(I / (m g h/2)) K(sin(θ0/2)). Let go at 60° it is back there after one period.
+// 4 sqrt(I / (m g h/2)) K(sin(θ0/2)). Released at 60° it is back there after one period.
 TEST(Hinge, APendulumHasThePeriodOfTheEllipticIntegral) {
     const double period =
         4 * std::sqrt((0.02 * 0.02 + 1) / 12 + 0.25) / std::sqrt(0.5 * g) * ellipticK(std::sin(pi / 6));
@@ -178,6 +178,36 @@ TEST(Hinge, ALidClosesOnItsChestIfTheyTouch) {
         }
 }
 
+// A bar that falls on two stands, bounces by half and comes to rest, alone and with a load of a hundred times its mass
+// that hangs from a ball joint below its middle. Contact and joint are met at once, so the load changes nothing.
+TEST(Hinge, ALoadOnAJointChangesNoBounceAndNoRest) {
+    const auto worldOf = [](const std::string& more) {
+        return World(
+            sceneOf(head("[0, -9.81, 0]") +
+                    "[collider]\nleft = { shape = \"box\", size = [0.2, 1, 0.4], position = [-0.25, 0.5, 0], "
+                    "restitution = 1 }\n"
+                    "right = { shape = \"box\", size = [0.2, 1, 0.4], position = [0.25, 0.5, 0], restitution = 1 }\n"
+                    "[solid.bar]\nshape = \"box\"\nsize = [0.6, 0.04, 0.1]\nposition = [0, 1.07, 0]\n"
+                    "mass_kg = 0.1\nrestitution = 0.5\ndrag_per_s = 0\n" +
+                    more));
+    };
+    World alone = worldOf(""),
+          loaded = worldOf(
+              "[solid.load]\nshape = \"box\"\nsize = [0.1, 0.4, 0.1]\nposition = [0, 0.85, 0]\nmass_kg = 10\n"
+              "drag_per_s = 0\n[[joint]]\na = \"solid.bar\"\nb = \"solid.load\"\nkind = \"ball\"\n"
+              "place = [0, -0.02, 0]\n");
+    double furthest = 0, bounced = 0;  // [m]
+    for (int i = 0; i < 150; ++i) {
+        run(alone, 1);
+        run(loaded, 1);
+        const double own = middle(alone, "solid.bar@bottom").y;
+        furthest = std::max(furthest, std::abs(middle(loaded, "solid.bar@bottom").y - own));
+        if (i > 12) bounced = std::max(bounced, own);
+    }
+    EXPECT_GT(bounced, 1.01);
+    EXPECT_LT(furthest, 1e-5);
+}
+
 // Wheels that a name with * stands for are hinged each at its own centre.
 TEST(Hinge, SeveralBodiesHaveOneEachAtThePlaceInTheirOwnAxes) {
     for (const std::string holder : {"solid.cart", "collider.cart"}) {
@@ -246,7 +276,7 @@ TEST(Hinge, FrictionDampingAndMotorAreTheirTorques) {
     EXPECT_NEAR(middle(world, "solid.bob@bottom").y, 2.0, 1e-3);
 }
 
-// Its pins, limit, friction and motor are all in a state; let go, both bodies move freely.
+// Its pins, limit, friction and motor are all in a state; released, both bodies move freely.
 TEST(Hinge, GoesOnWithTheSameBitsAndIsLetGo) {
     const std::string more =
         "place = [0, 0.5, 0]\naxis = [0, 0, 1]\nlimits_deg = [-100, 50]\nfriction_N_m = 0.1\n"
@@ -269,7 +299,7 @@ TEST(Hinge, GoesOnWithTheSameBitsAndIsLetGo) {
     EXPECT_LT(middle(world, "solid.bob@top").y, 1.7);
 }
 
-// A link of 0.2 kg that is let go at 90° has ω² = 3 g/L at the lowest place, and pulls with 5/2 m g = 4.9 N there.
+// A link of 0.2 kg that is released at 90° has ω² = 3 g/L at the lowest place, and pulls with 5/2 m g = 4.9 N there.
 TEST(Hinge, BreaksAtItsForce) {
     for (const auto& [most, left] : {std::pair{"5.4", 1}, {"4.4", 0}}) {
         World world(sceneOf(head("[0, -9.81, 0]") + post + link("bob", 90) +
@@ -364,7 +394,7 @@ TEST(Hinge, JointedSolidsThatStayFallAsleepTogether) {
                           300),
               0);
 
-    // Asleep, it goes on with the same bits after a restart. Let go, both wake.
+    // Asleep, it goes on with the same bits after a restart. Released, both wake.
     const SceneSpec scene =
         sceneOf(head("[0, -9.81, 0]", solver) + ground + chest + lid + onChest +
                 "[[at]]\nt = 3.05\ndo = \"push\"\ntarget = \"solid.lid@front\"\nimpulse_Ns = [0, 2, 0]\n");
@@ -403,7 +433,7 @@ TEST(Places, ASpringBearsAPlankThere) {
 }
 
 // Two boxes in free flight that a spring draws at places between their points: it adds neither momentum nor angular
-// momentum beyond what solids by themselves drift by, 1e-9, and keeps the energy to 5e-6, as between points.
+// momentum beyond the drift of solids by themselves, 1e-9, and keeps the energy to 5e-6, as between points.
 TEST(Places, ASpringBetweenSolidsKeepsMomentaAndEnergy) {
     World world(sceneOf(head("[0, 0, 0]") +
                         "[solid.a]\nshape = \"box\"\nsize = [0.2, 0.4, 0.6]\ntouch = \"nothing\"\n"

@@ -1,4 +1,4 @@
-// Points that begin inside a collider: said with names and depth, and out at a walk.
+// Points that begin inside a collider: reported with names and depth, and out at a walk.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST(Inside, PointsComeOutNoFasterThanAWalk) {
         most = std::max(most, fastest(world, "block.cube"));
         EXPECT_LE(lowest(world, "block.cube"), -0.3 + (i + 1) / 60.0 + 1e-5);  // no further than 1 m/s takes it
     }
-    EXPECT_LT(most, 2.5);  // what its springs make of it; shot out it would have 13 m/s
+    EXPECT_LT(most, 2.5);  // by its springs; shot out it would have 13 m/s
     EXPECT_GE(lowest(world, "block.cube"), -1e-6);
 }
 

@@ -1,4 +1,4 @@
-// Joints that let go: by a name, by a force, by a cut; and pins, which keep points in one place until then.
+// Joints that are released: by a name, by a force, by a cut; and pins, which keep points in one place until then.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST(Pins, MoveAsPointsThatAreMerged) {
         run(pinned, 1);
         const auto a = merged.points("cloth.*").x, b = pinned.points("cloth.*").x;
         for (std::size_t i = 0; i < a.size(); ++i)
-            // 100 steps of springs of 30 /s; what rounding leaves grows no faster than with them.
+            // 100 steps of springs of 30 /s; the effect of rounding grows no faster than with them.
             EXPECT_LT(lengthOf(a[i] - b[i]), 1e-11) << tick << " " << i;
     }
     const auto edge = pinned.points("cloth.a@right").x, other = pinned.points("cloth.b@left").x;
@@ -91,8 +91,8 @@ std::string hanging(const std::string& joint) {
 }
 const std::string ball = "[collider.k]\nshape = \"sphere\"\nradius = 0.1\nposition = [0, ";
 
-// At rest each bears the weight of all that hangs on it, whatever the method; a collider does not push what it carries,
-// here from within it.
+// At rest each bears the weight of all that hangs on it, with any method; a collider does not push the points it
+// carries, here from within it.
 TEST(LettingGo, AJointBreaksAtTheWeightThatItBears) {
     for (const char* method : {"leapfrog", "velocity-verlet", "rk4"})
         for (const std::string& joint :

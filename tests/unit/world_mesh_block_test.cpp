@@ -1,4 +1,4 @@
-// Blocks of what a mesh fills, in a world.
+// Blocks that fill a mesh, in a world.
 #include <gtest/gtest.h>
 
 #include "mechanics_box_mesh.h"

@@ -66,7 +66,7 @@ const std::string shaken =
     "at = [\n  { t = 0.1, do = \"shake\", target = \"net.ball@m\", impulse_Ns = [0, 0.6, 0], "
     "over_s = 0.25 },\n]\n";
 
-// The ball, and what happens to it.
+// The ball, and its actions.
 SceneSpec sceneOf(const std::string& at) {
     std::string text = ball;
     return scene::loadSceneText(text.insert(text.find("[world]"), at), "s.toml", {.kinds = withShake()}).spec;

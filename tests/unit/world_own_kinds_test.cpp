@@ -1,5 +1,5 @@
-// A kind of body and a kind of force that this file adds: scenes name them, and what applies to the engine's own
-// applies to them.
+// A kind of body and a kind of force that this file adds: scenes name them, and they behave as
+// the engine's own.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -120,7 +120,7 @@ TEST(OwnKinds, StandInAScene) {
     EXPECT_NEAR(world.points("ring.hoop@p0").x[0].y, 0.0, 1e-5);
     run(world, 30);
     EXPECT_NEAR(world.points("ring.hoop").x[3].y, 0.5 * 9.81 * 0.25, 1e-4);
-    // 0.6 kg at 1 m/s; what falling up gives, the potential of gravity and lift together takes.
+    // 0.6 kg at 1 m/s; the kinetic energy comes from the potential of gravity and lift together.
     const Metrics metrics = world.metrics("ring.*");
     EXPECT_NEAR(metrics.kinetic, 0.3 * (1.0 + std::pow(9.81 * 0.5, 2)), 1e-3);
     EXPECT_NEAR(metrics.energy(), 0.3, 1e-3);

@@ -1,4 +1,4 @@
-// Cloth with an outline: where it lies, and what its edges are called.
+// Cloth with an outline: its place, and the names of its edges.
 #include <gtest/gtest.h>
 
 #include "taut/bodies/cloth.h"
@@ -37,7 +37,7 @@ TEST(Panels, HaveEdgesInTheOrderOfTheirCorners) {
               placesOf(model, "side2").size() + placesOf(model, "side3").size() + placesOf(model, "side0").size() - 2);
     EXPECT_EQ(round.front(), dvec3(0.4, 0, 0));
     EXPECT_EQ(round.back(), dvec3(-0.4, 0, 0));
-    // What no edge names are the points furthest out, as of all meshes.
+    // Points without a named edge are the ones furthest out, as of all meshes.
     EXPECT_EQ(placesOf(model, "bottom").size(), 9U);
 }
 

@@ -1,4 +1,4 @@
-// What is said before the first tick of a timeline that its run will refuse, and of steps that will diverge.
+// Warnings before the first tick of a timeline that its run will refuse, and of steps that will diverge.
 #include "taut/advice/rehearsal.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include "support/timelines.h"
 #include "taut/advice/bending_cells.h"
 #include "taut/bodies/net.h"
+#include "taut/bodies/solid.h"
 
 namespace taut::world {
 namespace {
@@ -140,6 +141,20 @@ TEST(Rehearsal, WarnsOfEnergyThatComesFromNowhere) {
     }
 }
 
+// A cube half in the ground rises by 0.25 m.
+TEST(Rehearsal, HasNothingToSayOfTheEnergyOfABodyThatIsPushedOutOfTheGround) {
+    SceneSpec scene;
+    scene.run.seconds = 1;
+    scene.colliders = {support::ground()};
+    SolidSpec cube;
+    cube.name = "cube";
+    cube.touch = Touch::others;
+    scene.bodies.add(cube);
+    const std::vector<std::string> all = printed(rehearse(scene).warnings);
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_TRUE(all[0].starts_with("solid.cube starts 0.25 m deep in collider.ground")) << all[0];
+}
+
 // It falls by 4.9 m, and the picture is 2 m high where it is.
 TEST(Rehearsal, WarnsOfABodyThatLeavesThePictureInTheFirstSecond) {
     SceneSpec scene = heldRope();
@@ -181,7 +196,7 @@ TEST(Rehearsal, RefusesAStepThatIsBoundToDiverge) {
     bool diverges = false;
     for (int i = 0; i < 60 && !diverges; ++i) diverges = world.advance().has_value();
     EXPECT_TRUE(diverges);
-    // Where what diverges is kept as it was the run goes on.
+    // Where a diverging island is frozen the run goes on.
     scene.solver.onDivergence = OnDivergence::freeze;
     const Rehearsal kept = rehearse(scene);
     EXPECT_TRUE(kept.faults.empty());

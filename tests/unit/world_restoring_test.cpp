@@ -1,5 +1,5 @@
-// A world that is saved and restored before every tick, with other threads, goes on as one that is not: what a tick
-// needs to know is in the bytes.
+// A world that is saved and restored before every tick, with other threads, goes on as one that is not: the input of a
+// tick is in the bytes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Rods against theory: pendulums, what a free pair keeps, chains and trusses, places on colliders, contact.
+// Rods against theory: pendulums, invariants of a free pair, chains and trusses, places on colliders, contact.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -45,7 +45,7 @@ bool isAsleep(World& world) {
 // m a = F and I a/r = l m g - F r, so a ball slows by a = g l/r / (1 + 2/5), and stops after v²/(2 a).
 TEST(Rolling, ABallStopsAfterTheDistanceOfTheory) {
     constexpr double length = 0.001, v = 0.5, a = g * length / radius / 1.4;
-    for (const bool isOfBall : {true, false}) {  // the lengths of both sides count alike
+    for (const bool isOfBall : {true, false}) {  // the lengths of the two sides count alike
         const std::string key = "rolling_friction = 0.001\n",
                           moves = "velocity = [0.5, 0, 0]\nspin_rad_per_s = [0, 0, -10]\n";
         World world(ballOn(0, isOfBall ? "" : key, moves + (isOfBall ? key : "")));

@@ -1,4 +1,4 @@
-// A world as bytes: what is restored goes on bit for bit, and damaged bytes are refused.
+// A world as bytes: a restored one goes on bit for bit, and damaged bytes are refused.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(EveryMethod, Saving,
                                           testing::Bool()),
                          nameOfCase);
 
-// The work of contact is watched on what a tear has left of the cells.
+// The work of contact is watched on the cells that a tear has left.
 TEST(SavingWhole, ABlockThatTearsWhereItBouncesGoesOnTheSame) {
     SceneSpec scene;
     BlockSpec block;
@@ -200,7 +200,7 @@ impulse_Ns = [0.4, 0.3, 0]
 }
 
 // A ball drives a block apart: triangles of its surface go in other ticks than tetrahedra do, and lay bare faces of
-// those that are whole.
+// the complete ones.
 TEST(SavingWhole, ABlockThatTearsAroundAColliderMeetsItTheSame) {
     SceneSpec scene;
     scene.run.fps = 1000;
@@ -280,7 +280,7 @@ TEST(SavingWhole, AFrozenBodyStaysFrozenWithItsDiagnosis) {
     expectSameWorld(through, restored);
 }
 
-// What is still to come may be another story, as long as the steps are the same.
+// The rest of the timeline may be another, as long as the steps are the same.
 TEST(SavingWhole, LaterActionsMayDiffer) {
     const SceneSpec scene = support::everythingHappens();
     SceneSpec other = scene;
@@ -373,7 +373,7 @@ TEST(SavingWhole, DamagedBytesAreRefusedOrRestoredAndNeverMore) {
             bytes.resize(random() % bytes.size());
         } else {
             for (unsigned i = 0; i < 1 + random() % 3; ++i) {
-                // Every other time near the start, where what is not numbers of the state is.
+                // Every other time near the start, where the parts other than numbers are.
                 const std::size_t reach = round % 2 == 0 ? bytes.size() : std::min<std::size_t>(1500, bytes.size());
                 bytes[random() % reach] = static_cast<std::byte>(random());
             }
@@ -451,7 +451,7 @@ TEST(SavingRamps, ThreadsThatRubGoOnBitForBitFromWhereTheySlip) {
     }
 }
 
-// With steps a little too long the sheet diverges late in its first tick. What threads slipped till then is undone.
+// With steps a little too long the sheet diverges late in its first tick. The slip of threads till then is undone.
 TEST(SavingWhole, SlipOfThreadsIsUndoneWithATick) {
     const SceneSpec scene =
         scene::loadSceneText(

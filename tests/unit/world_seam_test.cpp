@@ -1,4 +1,4 @@
-// Seams: which points they pair, how they close, what keeps off what then, how they come apart, what is refused.
+// Seams: which points they pair, how they close, which surfaces then have contact, how they come apart, refused seams.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ Pairs paired(const std::vector<dvec3>& a, const std::vector<dvec3>& b) {
     return pairedByLength(edgeOf(a), edgeOf(b));
 }
 
-// "0-5 0.6*0+0.4*1-4": pairs of places, and of what lies between two.
+// "0-5 0.6*0+0.4*1-4": pairs of places, and of places between two.
 std::string textOf(const Pairs& pairs) {
     const auto spot = [](const Spot& end) {
         std::vector<Spot::Share> shares(end.shares().begin(), end.shares().end());
@@ -398,7 +398,7 @@ TEST(Seams, ImpossibleSeamsAreRefused) {
 
 }  // namespace
 // Two panels sewn round a post that is too thick for them: they press on it, and nothing moves. Each pulls at the seam
-// along itself, and only what is left of both pulls presses.
+// along itself, and only the rest of the two pulls presses.
 TEST(Seams, ATautSeamRoundAPostHasNoVelocity) {
     const std::string more = "cells = [6, 2]\nmaterial = \"m\"\nthickness = 0.004\n";
     World world(sceneOf(

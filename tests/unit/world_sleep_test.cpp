@@ -1,4 +1,5 @@
-// Sleep: what rests is not computed, stays within the error of the run that never sleeps, and wakes when it has to.
+// Sleep: a resting island is not computed, stays within the error of the run that never sleeps, and wakes when it has
+// to.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -251,7 +252,7 @@ TEST(Sleep, AGustKeepsAwakeAndASteadyWindDoesNot) {
     }
 }
 
-// What wakes the curtain does so before the tick moves it. Each is given to a world that sleeps.
+// Each cause wakes the curtain before the tick moves it. Each is given to a world that sleeps.
 TEST(Sleep, AHandAPushARampAndAColliderWakeWithinTheTick) {
     SceneSpec scene = curtain();
     scene.colliders.push_back(support::ball("ball", {0.2, 0.8, 2.0}, 0.1));
@@ -374,7 +375,8 @@ TEST(Sleep, WithoutAnErrorNothingSleepsAndWithKeptStepsNeither) {
     EXPECT_EQ(untilAsleep(none, 6.0), -1);
 }
 
-// 1e5 times: random pushes, asleep, awake. What pushes gave is what falling asleep has taken, to rounding.
+// 1e5 times: random pushes, asleep, awake. The energy of the pushes equals the energy taken by falling asleep, to
+// rounding.
 TEST(Sleep, BooksTheMomentumAndTheEnergyThatItTakes) {
     SceneSpec scene = sleepy();
     scene.world.gravity = dvec3(0.0);

@@ -1,4 +1,4 @@
-// Rigid bodies in a world: what else a body does besides moving (tests/physics/solid_test.cpp).
+// Rigid bodies in a world: features besides motion (tests/physics/solid_test.cpp).
 #include <gtest/gtest.h>
 
 #include <string>
@@ -156,7 +156,7 @@ a = "rope.line@start"
     }
 }
 
-// Sixty rods where six hold the cone: what they ask for in vain moves nothing, and gives no energy.
+// Sixty rods where six hold the cone: their impossible demands move nothing, and gives no energy.
 TEST_F(Solids, HangOnMoreRodsThanHoldThem) {
     World world = load(R"([world]
 gravity = [0, 0, 0]

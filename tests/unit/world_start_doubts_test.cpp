@@ -1,4 +1,4 @@
-// What is said before the first tick of what a scene hardly means.
+// Warnings before the first tick about probably unintended settings.
 #include "taut/advice/private/start_doubts.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(StartDoubts, AreOfBodiesInOnePlaceThatTouch) {
     EXPECT_EQ(doubtsOf(scene),
               (Doubts{"cloth.a and cloth.b start in the same place, by 50 points: their sides are undetermined, and "
                       "separation takes long; start them 0.01 m apart"}));
-    scene.bodies.of<ClothSpec>()[1].origin.z += 0.001;  // a tenth of what they keep
+    scene.bodies.of<ClothSpec>()[1].origin.z += 0.001;  // a tenth of their distance
     EXPECT_EQ(doubtsOf(scene), Doubts());
     scene.bodies.of<ClothSpec>()[1].origin = {0.7, 2, 0};  // in one plane, a part of each in the other
     EXPECT_EQ(doubtsOf(scene).size(), 1U);

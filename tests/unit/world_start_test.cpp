@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kept = 10;
 
-// A cloth that is let go at tick 4, over a ball.
+// A cloth that is released at tick 4, over a ball.
 SceneSpec dressing() {
     SceneSpec scene;
     ClothSpec cloth;
@@ -40,7 +40,7 @@ World after(const SceneSpec& scene, int number) {
     return world;
 }
 
-// Without what led to the state.
+// Without the cause of the state.
 SceneSpec later() {
     SceneSpec scene = dressing();
     scene.actions = {};

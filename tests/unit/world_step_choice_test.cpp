@@ -41,7 +41,7 @@ TEST(StepChoice, TheBoundOfARopeIsTwiceTheRootOfKOverM) {
     EXPECT_NE(island.limitingSpring.find("of rope.a"), std::string::npos);
 }
 
-// With inner masses of 0.1 kg a straight chain has the bound 2√(k/m) for the k of now, whatever a ramp will make of it.
+// With inner masses of 0.1 kg a straight chain has the bound 2√(k/m) for the present k, before any ramp.
 TEST(StepChoice, TheBoundOfNowIsThatOfTheStateAsItIs) {
     SceneSpec scene = oneRope();
     scene.world.gravity = dvec3(0.0);
@@ -93,7 +93,7 @@ TEST(StepChoice, DampingThatSetsTheStepIsNamedWithTheStepThatLessWouldGive) {
     EXPECT_EQ(inSeconds(ropeDampedBy(1e-4, Dashpots::extrapolated).step), "0.000725 s");
 }
 
-// Split off, the dashpots of a chain are solved for at once, whatever they damp: the step is 0.98 · 0.9 of 1 ms.
+// Split off, the dashpots of a chain are solved for at once, at any damping: the step is 0.98 · 0.9 of 1 ms.
 TEST(StepChoice, DampingThatDoesNotSetTheStepIsNotNamed) {
     const IslandInfo split = ropeDampedBy(0.01, Dashpots::automatic);
     EXPECT_TRUE(split.splitsDashpots);

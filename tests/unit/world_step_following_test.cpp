@@ -29,7 +29,7 @@ TEST(StepFollowing, LengthensAfterASecondOfFifteenPerCentAndNoSooner) {
     for (int tick = 0; tick < 59; ++tick) following.lengthenIfCalm(tick == 30 ? 84 : 80);
     EXPECT_EQ(following.substeps(), 100);
     following.lengthenIfCalm(80);
-    EXPECT_EQ(following.substeps(), 84);  // what the second needed most
+    EXPECT_EQ(following.substeps(), 84);  // the most that the second needed
     for (int tick = 0; tick < 600; ++tick) following.lengthenIfCalm(80);
     EXPECT_EQ(following.substeps(), 84);  // 5 % are not worth it
 }
@@ -67,7 +67,7 @@ TEST(StepFollowing, RepeatsATickThatLeftItsStepBehindAndSaysSo) {
     EXPECT_TRUE(kept.islands()[0].stepChanges.empty());
 }
 
-// Pulled so hard that it stiffens within a tick, beyond what the step at its start bears.
+// Pulled so hard that it stiffens within a tick, beyond the limit of the step at its start.
 TEST(StepFollowing, RepeatsATickThatDiverges) {
     SceneSpec scene;
     scene.bodies.add(support::stiffBlock("b"));

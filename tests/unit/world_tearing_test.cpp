@@ -1,4 +1,4 @@
-// Tearing and yielding: what they do not depend on.
+// Tearing and yielding: independence of cells and steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ struct Pulled {
 TEST(Tearing, TheLoadAtWhichANotchRunsHardlyDependsOnTheCells) {
     const double coarse = Pulled{.cells = 6}.load(), middle = Pulled{.cells = 12}.load(),
                  fine = Pulled{.cells = 24}.load();
-    // The notch of broken springs is longer than it by up to half a cell: 25 % are what is promised.
+    // The notch of broken springs is longer than it by up to half a cell: 25 % are promised.
     EXPECT_LT(std::max({coarse, middle, fine}), 1.25 * std::min({coarse, middle, fine}));
     // And it is the notch that makes it tear: without, at the strain to break.
     const double whole = Pulled{.cells = 12, .notch = 0}.load();
@@ -74,7 +74,7 @@ TEST(Tearing, TheLoadDependsNeitherOnTheTicksNorOnTheStep) {
     EXPECT_NEAR((Pulled{.safety = 0.3}.load()), load, 1.0 / 6);
 }
 
-// What lies along the edges of a tear is not at its tip.
+// Points along the edges of a tear are not at its tip.
 TEST(Tearing, ASheetCutAlongItsLoadBearsWhatItBore) {
     SceneSpec scene;
     scene.world.gravity = dvec3(0.0);
@@ -145,7 +145,7 @@ TEST(Tearing, AnUndoneTickTakesBackWhatToreAndGaveWay) {
     EXPECT_EQ(alone.metrics("net.lands").contacts, 2);
     EXPECT_EQ(alone.metrics("net.tears").brokenSprings, 1);
     EXPECT_NEAR(alone.metrics("net.yields").maxStrain, 0.2, 1e-3);
-    // As fast as may be said; its spring makes one of its ends faster still.
+    // As fast as allowed; its spring makes one of its ends faster still.
     NetSpec flies = pair("flies", 2, 1e-3, {mechanics::speedLimit, 0, 0});
     flies.springs[0].stiffness = 1e6;
     scene.bodies.add(flies);
@@ -158,7 +158,7 @@ TEST(Tearing, AnUndoneTickTakesBackWhatToreAndGaveWay) {
     EXPECT_NEAR(world.metrics("net.lands").kinetic, 0.5 * 20 * 25, 1e-3);  // drag of a tick that did not count
 }
 
-// A block pulled so hard that a tick diverges and is repeated in shorter steps: what tore on the wrong way has not.
+// A block pulled so hard that a tick diverges and is repeated in shorter steps: tears of the discarded tick are undone.
 TEST(Tearing, ARepeatedTickKnowsNothingOfTheOneBefore) {
     SceneSpec scene;
     scene.bodies.add(support::stiffBlock("b"));
@@ -178,7 +178,7 @@ TEST(Tearing, ARepeatedTickKnowsNothingOfTheOneBefore) {
     EXPECT_EQ(world.stateHash(), whole.stateHash());
 }
 
-// The bar of `Yielding` bent slowly: what stays of it hardly depends on how often it is looked at.
+// The bar of `Yielding` bent slowly: the rest of the bend hardly depends on the number of ticks.
 TEST(Yielding, LastingStrainDoesNotDependOnTheTicks) {
     const auto offset = [](double fps) {
         SceneSpec scene;

@@ -1,4 +1,4 @@
-// Points tied to colliders: where they are carried, what that does to the rest, and how they are let go.
+// Points tied to colliders: where they are carried, the effect on the rest, and their release.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +72,7 @@ TEST(Ties, PointsDescribeTheCircleOfTheirCollider) {
     EXPECT_NEAR(speed, pi, pi * angle * angle / 24);  // ω r
 }
 
-// Whatever moves it: keys, an action, a system.
+// Moved by keys, an action, or a system.
 TEST(Ties, PointsKeepTheirPlaceOnAColliderThatAnActionOrASystemMoves) {
     SceneSpec scene = pair();
     scene.colliders = {support::ball("box", {0.2, -0.1, 0}, 0.01)};
@@ -123,7 +123,7 @@ dvec3 placeOnTheSwing(const std::string& method, bool isRigid, int substeps) {
     return world.points("net.n@m").x[0];
 }
 
-// Against Runge-Kutta 4 at steps so short that it is exact to about 1e-11. What hangs on the point sees it where it is
+// Against Runge-Kutta 4 at steps so short that it is exact to about 1e-11. The hanging points see it where it is
 // at every stage.
 TEST_P(OrderThroughTies, IsThatOfTheMethod) {
     const auto [method, isRigid] = GetParam();

@@ -1,4 +1,4 @@
-// What a world tells contact of its bodies: what is cut, where colliders go, what is frozen.
+// The input of contact from a world: cuts, ways of colliders, frozen islands.
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "taut/bodies/cloth.h"
+#include "taut/core/private/contains.h"
 #include "taut/mechanics/bending.h"
 #include "taut/spec/spec.h"
 
@@ -52,7 +53,7 @@ std::vector<std::string> coarseCells(const SceneSpec& scene) {
         const Along u{cloth.size.x, cloth.size.x / cloth.cells.x, lengthAt(cloth.grain)};
         const Along v{cloth.size.y, cloth.size.y / cloth.cells.y, lengthAt(0.5 * std::numbers::pi - cloth.grain)};
         const double error = std::max(droopError(u.cell, u.bendingLength), droopError(v.cell, v.bendingLength));
-        const bool isReported = std::find(reported.begin(), reported.end(), cloth.material) != reported.end();
+        const bool isReported = core::contains(reported, cloth.material);
         if (!(error > most) || isReported) continue;
         reported.push_back(cloth.material);
         notes.push_back(

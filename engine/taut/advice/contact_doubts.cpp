@@ -106,6 +106,15 @@ void doubtSwallowed(const std::vector<PlacedSolid>& solids, std::vector<core::Fi
         }
 }
 
+// The first doubts of one sort, and the number of further ones.
+template <class Pairs, class TextOf>
+void addFirst(std::vector<core::Finding>& doubts, const Pairs& pairs, const char* further, const TextOf& textOf) {
+    for (std::size_t count = 0; const auto& pair : pairs)
+        if (++count <= mostDoubts) doubts.push_back(warningAt({}) + textOf(pair));
+    if (pairs.size() > mostDoubts)
+        doubts.push_back(warningAt({}) + fmt::format("{} more pairs of {}", pairs.size() - mostDoubts, further));
+}
+
 // Convex solids.
 void doubtOverlaps(ContactStage& stage, std::vector<core::Finding>& doubts) {
     std::map<std::pair<std::string, std::string>, double> pairs;
@@ -114,16 +123,10 @@ void doubtOverlaps(ContactStage& stage, std::vector<core::Finding>& doubts) {
         double& depth = pairs[std::minmax(first, second)];
         depth = std::max(depth, -touch.gap);
     }
-    std::size_t count = 0;
-    for (const auto& [names, depth] : pairs)
-        if (++count <= mostDoubts)
-            doubts.push_back(warningAt({}) +
-                             fmt::format("{} and {} start in each other: they will be pushed apart, start them {} "
-                                         "further off",
-                                         names.first, names.second, inLength(depth)));
-    if (pairs.size() > mostDoubts)
-        doubts.push_back(warningAt({}) +
-                         fmt::format("{} more pairs of solids start in each other", pairs.size() - mostDoubts));
+    addFirst(doubts, pairs, "solids start in each other", [](const auto& pair) {
+        return fmt::format("{} and {} start in each other: they will be pushed apart, start them {} further off",
+                           pair.first.first, pair.first.second, inLength(pair.second));
+    });
 }
 
 // Of solids, whose points no island brings out.
@@ -176,23 +179,18 @@ void doubtCrossings(WorldImpl& world, std::vector<core::Finding>& doubts) {
         }
     }
     doubtOverlaps(stage, doubts);
-    std::size_t count = 0;
-    for (const auto& [names, pair] : pairs) {
-        if (++count > mostDoubts) break;
+    addFirst(doubts, pairs, "bodies go through each other", [](const auto& found) {
+        const auto& [names, pair] = found;
         const bool isOne = names.first == names.second;
         const dvec3 x = pair.place;
-        doubts.push_back(
-            warningAt({}) +
-            fmt::format("{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
-                        "start {} further off",
-                        isOne ? names.first + " goes through itself"
-                              : names.first + " and " + names.second + " go through each other",
-                        isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
-                        inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
-    }
-    if (pairs.size() > mostDoubts)
-        doubts.push_back(warningAt({}) +
-                         fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));
+        return fmt::format(
+            "{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
+            "start {} further off",
+            isOne ? names.first + " goes through itself"
+                  : names.first + " and " + names.second + " go through each other",
+            isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
+            inLength(pair.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them");
+    });
 }
 
 void doubtPlaces(const ContactStage& stage, std::vector<core::Finding>& doubts) {
@@ -202,18 +200,14 @@ void doubtPlaces(const ContactStage& stage, std::vector<core::Finding>& doubts) 
         const auto [a, b] = entry.first;
         return stage.bodyOf(a).spec->isRigid() && stage.bodyOf(b).spec->isRigid();
     });
-    std::size_t count = 0;
-    for (const auto& [surfaces, points] : found) {
-        if (++count > mostDoubts) break;
+    addFirst(doubts, found, "bodies start in the same place", [&](const auto& pair) {
+        const auto& [surfaces, points] = pair;
         const Body &a = stage.bodyOf(surfaces.first), &b = stage.bodyOf(surfaces.second);
-        doubts.push_back(warningAt({}) + fmt::format("{} and {} start in the same place, by {} points: their sides are "
-                                                     "undetermined, and separation takes long; start them {} apart",
-                                                     a.fullName(), b.fullName(), points.size(),
-                                                     inLength(a.spec->thickness + b.spec->thickness)));
-    }
-    if (found.size() > mostDoubts)
-        doubts.push_back(warningAt({}) +
-                         fmt::format("{} more pairs of bodies start in the same place", found.size() - mostDoubts));
+        return fmt::format(
+            "{} and {} start in the same place, by {} points: their sides are "
+            "undetermined, and separation takes long; start them {} apart",
+            a.fullName(), b.fullName(), points.size(), inLength(a.spec->thickness + b.spec->thickness));
+    });
 }
 
 }  // namespace

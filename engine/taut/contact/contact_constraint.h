@@ -35,6 +35,9 @@ struct ContactConstraint {
     std::optional<std::array<dvec3, 2>> places{};
     double slack = 0.0;     // [m] by which the gap is wider where the sides are expected, as one turns past the other
     double softness = 0.0;  // share of the effective mass's impulse by which the pair yields, see gauss_seidel.h
+    // A joint of a solid at two places, along the normal. Impulses of contacts do not change the speed of its sides; of
+    // a leash, which holds one way, they change it as far as the gap allows.
+    enum class Kind { contact, joint, leash } kind = Kind::contact;
     int firstSide() const { return isPoint ? 1 : 2; }        // points of the first side
     double gap() const { return distance - thickness; }      // [m]
     bool hasSides() const { return distance > noDistance; }  // else they touch, and there is no side to keep

@@ -60,6 +60,7 @@ void putInto(Pack& pack, int lane, const Row& row, double gap, int number) {
     pack.closing.of[lane] = row.closing;
     pack.friction.of[lane] = row.friction;
     pack.softness.of[lane] = row.softness;
+    pack.least.of[lane] = row.least;
     pack.largestGain.of[lane] = row.largestGain;
     pack.gap.of[lane] = gap;
     pack.base.of[lane] = row.closing;

@@ -84,6 +84,7 @@ struct Row {
     double closing = 0;      // [m/s] at which it may close in this step; below 0: at which it has to part
     double friction = 0;     // Coulomb's μ [-]
     double softness = 0;     // [m/s] by which it may close further for each impulse of 1
+    double least = 0;        // [N s] of the impulse along the normal: below 0 of a joint, which also pulls
     double largestGain = 0;  // [1/kg]
     int slots[4]{};          // of the velocities
     Range turns, shares;     // of the levers
@@ -104,7 +105,7 @@ struct Pack {
     Four normal[3]{};
     Four impulse[4]{}, change[4]{}, direction[4]{};  // [N s]
     Four weights[4]{}, gains[4]{};
-    Four mass{}, grip{}, closing{}, friction{}, softness{}, largestGain{};
+    Four mass{}, grip{}, closing{}, friction{}, softness{}, least{}, largestGain{};
     Four gap{}, base{};  // [m], [m/s] closing without it: see Sweeps::gone
     int slots[4][4]{};   // lane, velocity
     bool hasLevers = false;

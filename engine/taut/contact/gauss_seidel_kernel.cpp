@@ -178,7 +178,7 @@ inline void visit(Pack& pack, const Sweeps& batch) {
                              load(pack.impulse[3])};
     const Lanes parting = dot(normal, velocity);
     const Lanes wanted = before[3] - mass * (parting + load(pack.closing) + load(pack.softness) * before[3]);
-    const Lanes pressing = wanted > none ? wanted : none;
+    const Lanes least = load(pack.least), pressing = wanted > least ? wanted : least;
     // Coulomb's friction: in the disk around 0.
     Vectors next{before[0] - grip * (velocity.x - parting * normal.x),
                  before[1] - grip * (velocity.y - parting * normal.y),

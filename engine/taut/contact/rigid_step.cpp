@@ -219,7 +219,13 @@ class RigidStep {
             }
         equation.softness = softness / row.mass;
         equation.now = vectorOf(row.impulse) + row.impulse.of[3] * normal;
-        equations_.push_back(equation);
+        if (row.least < 0) equation.weight[0][0] = 1.0 / equation.softness;
+        (row.least < 0 ? joints_ : equations_).push_back(equation);
+    }
+    template <class Each>
+    void forEach(const Each& each) {
+        std::for_each(equations_.begin(), equations_.end(), each);
+        std::for_each(joints_.begin(), joints_.end(), each);
     }
 
     // Cuthill and McKee: from a solid with fewest neighbours on, those that come next to each other stand so. Returns
@@ -227,12 +233,12 @@ class RigidStep {
     bool order() {
         const std::size_t n = solids_.size();
         std::vector<std::vector<std::size_t>> neighbours(n);
-        for (const Equation& equation : equations_) {
+        forEach([&](const Equation& equation) {
             const auto [a, b] = equation.solids;
-            if (b == none) continue;
+            if (b == none) return;
             neighbours[a].push_back(b);
             neighbours[b].push_back(a);
-        }
+        });
         for (auto& own : neighbours) {
             std::sort(own.begin(), own.end());
             own.erase(std::unique(own.begin(), own.end()), own.end());
@@ -313,17 +319,17 @@ class RigidStep {
     void begin() {
         total_.assign(solids_.size(), Six{});
         step_.assign(solids_.size(), Six{});
-        for (const Equation& equation : equations_) give(equation, -equation.now);
+        forEach([&](const Equation& equation) { give(equation, -equation.now); });
         double fastest = tolerance_;
-        for (Equation& equation : equations_) {
+        forEach([&](Equation& equation) {
             const dvec3 velocity = wrong(equation);
             const double mu = equation.row->friction;
             equation.offset = {glm::dot(velocity, equation.axes[0]), mu * glm::dot(velocity, equation.axes[1]),
                                mu * glm::dot(velocity, equation.axes[2])};
             fastest = std::max(fastest, std::sqrt(glm::dot(equation.offset, equation.offset)));
-        }
+        });
+        forEach([&](const Equation& equation) { give(equation, equation.now); });
         for (Equation& equation : equations_) {
-            give(equation, equation.now);
             equation.s = {fastest, 0.0, 0.0};
             equation.z = {equation.row->mass * fastest, 0.0, 0.0};
         }
@@ -341,6 +347,7 @@ class RigidStep {
     void solve(Envelope& matrix, const Aim& aim) {
         std::fill(step_.begin(), step_.end(), Six{});
         subtractMomentum(total_, step_);
+        for (const Equation& joint : joints_) addPush(joint, pullOf(joint), step_);
         for (Equation& equation : equations_) {
             const Scaling& scaling = equation.scaling;
             const dvec3 missing =
@@ -364,7 +371,12 @@ class RigidStep {
         return most;
     }
 
-    void assemble(Envelope& matrix) const {
+    // [N s] The impulse of a joint, a stiff spring between velocities.
+    dvec3 pullOf(const Equation& joint) const {
+        return {-(joint.offset.x + seen(joint, total_).x) / joint.softness, 0.0, 0.0};
+    }
+
+    void assemble(Envelope& matrix) {
         matrix.clear();
         for (std::size_t k = 0; k < solids_.size(); ++k) {
             Block& own = matrix.at(place_[k], place_[k]);
@@ -374,7 +386,7 @@ class RigidStep {
                     own[3 + j][3 + i] = solids_[k].inertia[static_cast<int>(j)][static_cast<int>(i)];
             }
         }
-        for (const Equation& equation : equations_) {
+        forEach([&](const Equation& equation) {
             for (std::size_t a = 0; a < 2 && equation.solids[a] != none; ++a) {
                 std::array<Six, 3> weighted{};
                 for (std::size_t p = 0; p < 3; ++p)
@@ -393,7 +405,7 @@ class RigidStep {
                                 own[j][i] += weighted[p][i] * equation.gradients[b][p][j];
                 }
             }
-        }
+        });
     }
 
     // A step of Mehrotra's method. Returns whether to go on.
@@ -427,37 +439,38 @@ class RigidStep {
     }
 
     // (change of λ) · (u + closing n), summed: the slope of the energy of the motion along the change.
-    double slope() const {
+    double slope() {
         double sum = 0;
-        for (const Equation& equation : equations_) sum += glm::dot(equation.next - equation.now, wrong(equation));
+        forEach([&](const Equation& equation) { sum += glm::dot(equation.next - equation.now, wrong(equation)); });
         return sum;
     }
     void giveAll(double share) {
-        for (const Equation& equation : equations_) give(equation, share * (equation.next - equation.now));
+        forEach([&](const Equation& equation) { give(equation, share * (equation.next - equation.now)); });
     }
 
     // Takes the impulses as far as the energy of the motion falls.
     void apply() {
         for (Equation& equation : equations_) equation.next = equation.impulse();
+        for (Equation& joint : joints_) joint.next = pullOf(joint).x * joint.axes[0];
         const double before = slope();
         giveAll(1.0);
         const double rise = slope() - before;
         const double share = before < 0 && rise > 0 ? std::min(-before / rise, 1.0) : 0.0;
         giveAll(share - 1.0);
-        for (const Equation& equation : equations_) {
+        forEach([&](const Equation& equation) {
             const dvec3& normal = equation.axes[0];
             const dvec3 impulse = equation.now + share * (equation.next - equation.now);
-            const double pressing = std::max(glm::dot(impulse, normal), 0.0);
+            const double pressing = std::max(glm::dot(impulse, normal), equation.row->least);
             const dvec3 friction = impulse - glm::dot(impulse, normal) * normal;
             equation.row->impulse = {{friction.x, friction.y, friction.z, pressing}};
-        }
+        });
     }
 
     std::span<const RigidSlots> solids_;
     const Levers& levers_;
     double tolerance_;  // [m/s]
     std::span<Four> velocities_;
-    std::vector<Equation> equations_;
+    std::vector<Equation> equations_, joints_;
     std::vector<std::size_t> place_;  // (solids) in the matrix
     std::vector<std::size_t> first_;  // (rows of blocks) see Envelope
     std::vector<Six> total_, step_;   // (places) [m/s, rad/s] change of the velocities without impulses, and by a step

@@ -9,6 +9,8 @@
 // "The CVXOPT linear and quadratic cone program solvers"): some twelve steps, whatever the pile. Each is one Cholesky
 // factorisation of M + Jᵀ W⁻² J, which has six unknowns a solid, ordered after Cuthill and McKee 1969.
 //
+// Joints are stiff springs between velocities there.
+//
 // In it what slides at a speed parts at μ times that speed, so it is for what is near rest; the sweeps that follow
 // put that right. Of the whole change that share is applied for which the energy of the motion is least (solver.h),
 // so that a step lowers it or does nothing, as sweeps do. It knows nothing of points that are no solid's: rows with

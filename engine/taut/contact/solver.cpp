@@ -84,10 +84,29 @@ bool ContactSolver::isLikePair(const Row& row) const {
     return source < pairCount || block_.kinematic[source - pairCount].isWhole;
 }
 
+ContactConstraint::Kind ContactSolver::kindOf(const Row& row) const {
+    const auto source = static_cast<std::size_t>(row.source);
+    return source < block_.pairs.size() ? block_.pairs[source].kind : ContactConstraint::Kind::contact;
+}
+
+// [m/s] With it the row of a joint is content with these velocities.
+double ContactSolver::closingOfJoint(const Row& row, std::span<const Four> velocities) const {
+    const double kept = -glm::dot(vectorOf(row.normal), relativeVelocity(row, velocities, levers()));
+    if (kindOf(row) == ContactConstraint::Kind::joint) return kept;
+    return std::max(kept, gapNow(static_cast<std::size_t>(&row - rows_.data())) / block_.h);
+}
+
+void ContactSolver::keepJoints() {
+    for (const Cluster& cluster : clusters_)
+        for (std::size_t r = cluster.first; cluster.hasJoints && r < cluster.last; ++r)
+            if (isJoint(rows_[r])) rows_[r].closing = closingOfJoint(rows_[r], u_);
+}
+
 bool ContactSolver::isNearRest(const Cluster& cluster) const {
     const double most = nearRest * block_.options.restSpeed;
     return std::none_of(rows_.begin() + static_cast<std::ptrdiff_t>(cluster.first),
                         rows_.begin() + static_cast<std::ptrdiff_t>(cluster.last), [&](const Row& row) {
+                            if (isJoint(row)) return false;
                             const dvec3 velocity = relativeVelocity(row, u_, levers());
                             return !(glm::dot(velocity, velocity) <= most * most);
                         });
@@ -296,6 +315,7 @@ void ContactSolver::addRow(int source) {
         key = keyOf(pair);
         row.normal = four(pair.normal);
         row.friction = pair.friction;
+        if (pair.kind == ContactConstraint::Kind::joint) row.least = -1e300;
         turnFriction = pair.turnFriction;
         softness = pair.softness;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -374,11 +394,12 @@ void ContactSolver::sweepSolids(const Cluster& cluster) {
     const std::span<Row> rows = rowsOf(cluster);
     for (std::size_t r = cluster.first; r < cluster.last; ++r) {
         Row& row = rows_[r];
+        if (isJoint(row)) continue;
         row.closing = bases_[r];
         if (isLikePair(row)) row.closing += openGap(r) / block_.h;
     }
     // Sweeps are good enough for what moves, and for one alone. What sweeps leave of a pile at rest, it creeps by.
-    const bool isPile = cluster.solids.size() > 1 && isNearRest(cluster);
+    const bool isPile = (cluster.solids.size() > 1 || cluster.hasJoints) && isNearRest(cluster);
     const double tolerance = (isPile ? settledNearRest : 1.0) * cluster.tolerance;
     const int first = projectedGaussSeidel(rows, isPile ? fewSweeps : sweepsOfSolids, tolerance, u_, levers());
     if (!isPile || first < fewSweeps) return;
@@ -395,7 +416,7 @@ void ContactSolver::correctPositions(const Cluster& cluster) {
     for (std::size_t r = cluster.first; r < cluster.last; ++r) {
         const Row& row = rows_[r];
         double target = 0;
-        if (isLikePair(row)) {
+        if (isLikePair(row) && !isJoint(row)) {
             const auto source = static_cast<std::size_t>(row.source), pairCount = block_.pairs.size();
             const bool isPair = source < pairCount;
             const double thickness =
@@ -436,7 +457,7 @@ void ContactSolver::end() {
         return impulse;
     };
     for (std::size_t r = 0; r < rows_.size(); ++r)
-        if (const Row& row = rows_[r]; row.impulse.of[3] > 0)
+        if (const Row& row = rows_[r]; row.impulse.of[3] > 0 || (row.least < 0 && row.impulse.of[3] != 0))
             last_.push_back({keys_[r], forceOf(row.impulse),
                              row.roll >= 0 ? forceOf(rolls_[static_cast<std::size_t>(row.roll)].impulse) : Four{}});
     std::sort(last_.begin(), last_.end(), [](const KeptForce& a, const KeptForce& b) { return a.key < b.key; });
@@ -449,6 +470,7 @@ void ContactSolver::tellImpulses() const {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const Row& row = rows_[r];
         const auto source = static_cast<std::size_t>(row.source);
+        if (isJoint(row)) continue;
         impulses_[source] += bounces_[r];
         if (!(row.impulse.of[3] > 0)) continue;
         impulses_[source] += row.impulse.of[3];
@@ -459,7 +481,7 @@ void ContactSolver::tellImpulses() const {
 int ContactSolver::countImpulses() const {
     int count = 0;
     for (std::size_t r = 0; r < rows_.size(); ++r)
-        count += isLikePair(rows_[r]) && rows_[r].impulse.of[3] + bounces_[r] > 0 ? 1 : 0;
+        count += isLikePair(rows_[r]) && !isJoint(rows_[r]) && rows_[r].impulse.of[3] + bounces_[r] > 0 ? 1 : 0;
     return count;
 }
 
@@ -489,6 +511,7 @@ void ContactSolver::step(std::span<const dvec3> x, std::span<const dvec3> start,
         start_ = u_;
     }
     load(x, u, v);
+    keepJoints();
     bounces_.assign(rows_.size(), 0.0);
     if (anyBounces_) forEachCluster([&](Cluster& cluster) { bounce(cluster); });
     before_ = u_;

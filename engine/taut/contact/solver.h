@@ -31,6 +31,10 @@
 // meet, a thickness off the points, so that balls roll. Its points move with the body. Gaps through which one would
 // fall from rest in a block count as closed, so that a pile rests on the same places in every block.
 //
+// Joints of solids are rows too, of all clusters that have contacts. The island has made the motion of the step such
+// that joints hold, so their rows keep the speeds that they find. Without them a heavy load on the joints of a light
+// solid would sink by g h M/m in each step.
+//
 // Carried points have no velocity of their own: rows know those of their movers, of which one may be in several places.
 //
 // A collider that holds a point is one more row, between the point and a velocity that nothing changes. So is each
@@ -179,6 +183,7 @@ class ContactSolver {
         double tolerance;                // [m/s] smaller changes end the sweeps
         std::vector<RigidSlots> solids;  // ascending by slot
         RowPacks* packs = nullptr;       // of one without solids
+        bool hasJoints = false;
     };
     const Solid* solidOf(int point) const;  // that moves; null: none
     bool isTouched(const Solid& solid) const;
@@ -194,6 +199,10 @@ class ContactSolver {
     void joinPoints();
     void findClusters();
     bool isLikePair(const Row& row) const;
+    ContactConstraint::Kind kindOf(const Row& row) const;
+    bool isJoint(const Row& row) const { return kindOf(row) != ContactConstraint::Kind::contact; }
+    double closingOfJoint(const Row& row, std::span<const Four> velocities) const;
+    void keepJoints();
     bool isNearRest(const Cluster& cluster) const;
     void colour(std::span<int> sources);
     void addRow(int source);

@@ -106,7 +106,13 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
     const auto closes = [&](const Bouncing& own) {
         return own.closing > block_.options.restSpeed && own.gap < (1 + rounding) * own.closing * block_.h;
     };
-    std::vector<Row> impact;
+    std::vector<Row> impact, joints;
+    for (const Row& row : rows) {
+        if (!isJoint(row)) continue;
+        joints.push_back(row);
+        joints.back().closing = closingOfJoint(row, velocities);
+        joints.back().impulse = {};
+    }
     std::vector<const Row*> own;
     for (std::size_t left = mostEach * rows.size(); left > 0; --left) {
         const Bouncing* fastest = nullptr;
@@ -124,8 +130,9 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
             row.friction = 0;
             row.roll = -1;
         }
+        impact.insert(impact.end(), joints.begin(), joints.end());
         projectedGaussSeidel(impact, mostSweeps, exactly * fastest->closing, velocities, levers());
-        for (std::size_t k = 0; k < impact.size(); ++k) {
+        for (std::size_t k = 0; k < own.size(); ++k) {
             const Row& row = *own[k];
             const double size = impact[k].impulse.of[3];
             const dvec3 normal = vectorOf(row.normal), velocity = relativeVelocity(row, velocities, levers());
@@ -135,12 +142,13 @@ void ContactSolver::bounceIn(std::span<Four> velocities, std::vector<Bouncing>& 
             if (!sizes.empty()) sizes[static_cast<std::size_t>(&row - rows.data())] += size;
             forEachSlot(row, [&](std::size_t slot) { isOther[slot] = true; });
         }
+        for (const Row& row : joints) forEachSlot(row, [&](std::size_t slot) { isOther[slot] = true; });
         for (Bouncing& one : all) {
             bool isAny = false;
             forEachSlot(*one.row, [&](std::size_t slot) { isAny = isAny || isOther[slot]; });
             if (isAny) measure(one);
         }
-        for (const Row* row : own) forEachSlot(*row, [&](std::size_t slot) { isOther[slot] = false; });
+        for (const Row& row : impact) forEachSlot(row, [&](std::size_t slot) { isOther[slot] = false; });
     }
 }
 

@@ -105,13 +105,21 @@ void ContactSolver::findClusters() {
         Cluster cluster{rows_.size(), 0, 1e300, {}, {}};
         sources.clear();
         std::size_t next = k;
+        bool hasContacts = false;
         for (; next < order_.size() && order_[next].first == order_[k].first; ++next) {
             const int source = order_[next].second;
             sources.push_back(source);
+            const bool isJoint = source < pairCount && block_.pairs[static_cast<std::size_t>(source)].kind !=
+                                                           ContactConstraint::Kind::contact;
+            (isJoint ? cluster.hasJoints : hasContacts) = true;
             const double thickness = source < pairCount
                                          ? block_.pairs[static_cast<std::size_t>(source)].thickness
                                          : block_.kinematic[static_cast<std::size_t>(source - pairCount)].thickness;
             if (thickness > 0) cluster.tolerance = std::min(cluster.tolerance, thickness);
+        }
+        if (!hasContacts) {  // joints hold by themselves
+            k = next;
+            continue;
         }
         cluster.tolerance *= block_.options.settled / block_.h;
         colour(sources);
@@ -124,6 +132,7 @@ void ContactSolver::findClusters() {
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         if (!isTouched(solids_[s])) continue;
         const auto at = std::lower_bound(roots.begin(), roots.end(), root(solids_[s].points.front()));
+        if (at == roots.end() || *at != root(solids_[s].points.front())) continue;
         const core::RigidMotion& own = bodies_[s].start;
         clusters_[static_cast<std::size_t>(at - roots.begin())].solids.push_back(
             {bodies_[s].slot, own.mass, glm::inverse(own.inverseInertia)});

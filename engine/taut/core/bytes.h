@@ -1,11 +1,14 @@
-// Numbers and texts as bytes and back: little-endian, in the order of writing, the same on every machine. Independent
-// of files and of the meaning of the numbers.
+// Numbers and texts as bytes and back: little-endian, in the order of writing, the same on every machine. A struct
+// lists its members once for both. Independent of files and of the meaning of the numbers.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -90,5 +93,131 @@ class ByteReader {
     }
     std::span<const std::byte> bytes_;
 };
+
+// Writes or reads by the same code. `bytes(a, b)` passes members: numbers, texts, lists of these, and structs for which
+// there is a function visit(Bytes&, Struct&). Writing changes nothing. Reading throws Error(badContent) for bytes that
+// end too early.
+class Bytes {
+  public:
+    explicit Bytes(ByteWriter& writer) : writer_(&writer) {}
+    explicit Bytes(ByteReader& reader) : reader_(&reader) {}
+
+    bool isReading() const { return reader_ != nullptr; }
+    // Nothing is left to read. False while writing.
+    bool isAtEnd() const { return isReading() && reader_->isAtEnd(); }
+    // Checks a condition on the values read. Does nothing while writing.
+    void require(bool condition) const {
+        if (isReading() && !condition) ByteReader::fail();
+    }
+
+    template <class... Members>
+    void operator()(Members&... members) {
+        (member(members), ...);
+    }
+
+    // Any number, also infinite or NaN.
+    template <class Number>
+    void raw(Number& number) {
+        if (isReading())
+            number = reader_->number<Number>();
+        else
+            writer_->add(number);
+    }
+    void text(std::string& text) {
+        if (isReading())
+            text = reader_->text();
+        else
+            writer_->add(text);
+    }
+    // Enumerators 0 … last.
+    template <class Enum>
+    void choice(Enum& value, Enum last) {
+        int number = static_cast<int>(value);
+        raw(number);
+        require(number >= 0 && number <= static_cast<int>(last));
+        value = static_cast<Enum>(number);
+    }
+    // Numbers, or plain structs of numbers without gaps; their values are not checked.
+    template <class Item>
+    requires std::is_trivially_copyable_v<Item>
+    void list(std::vector<Item>& items) {
+        if (isReading())
+            items = reader_->list<Item>();
+        else
+            writer_->addList(std::span<const Item>(items));
+    }
+    // An array of fixed size.
+    template <class Array>
+    void planes(Array& array) {
+        using Number = std::remove_cvref_t<decltype(*array.begin())>;
+        if (!isReading()) return writer_->addList(std::span<const Number>(array));
+        const std::vector<Number> read = reader_->list<Number>();
+        require(read.size() == array.size());
+        std::copy(read.begin(), read.end(), array.begin());
+    }
+    // Items that `visit` passes one by one. Does not reserve: with a wrong count the bytes end first.
+    template <class Item, class Visit>
+    void each(std::vector<Item>& items, Visit visit) {
+        auto count = static_cast<std::uint64_t>(items.size());
+        raw(count);
+        if (isReading()) items.clear();
+        for (std::uint64_t i = 0; i < count; ++i) {
+            if (isReading()) items.emplace_back();
+            visit(items[i]);
+        }
+    }
+    template <class Item, class Visit>
+    void optional(std::optional<Item>& item, Visit visit) {
+        bool has = item.has_value();
+        raw(has);
+        if (isReading()) item = has ? std::optional<Item>(Item{}) : std::nullopt;
+        if (has) visit(*item);
+    }
+
+  protected:
+    ByteWriter* writer_ = nullptr;
+    ByteReader* reader_ = nullptr;
+
+  private:
+    void member(std::string& own) { text(own); }
+    template <class Item>
+    void member(std::vector<Item>& items) {
+        if constexpr (std::is_arithmetic_v<Item> || std::is_same_v<Item, std::byte>)
+            list(items);
+        else
+            each(
+                items, [this](Item& item) { member(item); });
+    }
+    template <class Item, std::size_t size>
+    void member(std::array<Item, size>& items) {
+        for (Item& item : items) member(item);
+    }
+    template <class Value>
+    void member(Value& value) {
+        if constexpr (std::is_arithmetic_v<Value>)
+            raw(value);
+        else
+            visit(*this, value);
+    }
+};
+
+template <class Value>
+std::vector<std::byte> bytesOf(const Value& value) {
+    ByteWriter writer;
+    Bytes bytes(writer);
+    bytes(const_cast<Value&>(value));  // writing changes nothing
+    return writer.take();
+}
+
+// Throws Error(badContent) for bytes that are not those of such a value, or more.
+template <class Value>
+Value valueIn(std::span<const std::byte> content) {
+    ByteReader reader(content);
+    Bytes bytes(reader);
+    Value value;
+    bytes(value);
+    if (!reader.isAtEnd()) ByteReader::fail();
+    return value;
+}
 
 }  // namespace taut::core

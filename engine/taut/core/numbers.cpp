@@ -1,6 +1,5 @@
 #include "taut/core/numbers.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace taut::core {
@@ -19,6 +18,13 @@ std::optional<double> numberIn(std::string_view text) {
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
     return value;
+}
+
+std::string csvCell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
 }
 
 std::vector<std::string_view> cellsOf(std::string_view line) {

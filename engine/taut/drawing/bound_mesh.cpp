@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/parallel.h"
 #include "taut/spec/private/rotation.h"
 #include "taut/spec/spec.h"
@@ -16,9 +17,9 @@ namespace taut::world {
 namespace {
 
 constexpr int boundAtOnce = 64;        // vertices in a task
-constexpr double mostEdgesAway = 2.0;  // of the longest edge, or cell, of what a vertex is bound to
+constexpr double mostEdgesAway = 2.0;  // of the longest edge, or cell, of the bound body
 
-// What is drawn in place of a body: its skin, or the mesh of a block.
+// The mesh drawn in place of a body: its skin, or the mesh of a block.
 const MeshData& meshOf(const Body& body) {
     const FinishSpec& finish = body.spec->finish;
     return finish.skinData != nullptr ? *finish.skinData : *body.spec->meshSource()->meshData;
@@ -33,9 +34,7 @@ std::vector<dvec3> placesOf(const MeshData& mesh, const MeshPlace& place) {
 [[noreturn]] void failFar(const Body& body, std::size_t vertex, double distance, double most) {
     const FinishSpec& finish = body.spec->finish;
     const MeshData& mesh = *finish.skinData;
-    const auto has = [&](const std::array<int, 3>& t) {
-        return std::find(t.begin(), t.end(), static_cast<int>(vertex)) != t.end();
-    };
+    const auto has = [&](const std::array<int, 3>& t) { return core::contains(t, static_cast<int>(vertex)); };
     const auto face = static_cast<std::size_t>(std::find_if(mesh.triangles.begin(), mesh.triangles.end(), has) -
                                                mesh.triangles.begin());
     const std::string line = face < mesh.lines.size() ? fmt::format(":{}", mesh.lines[face]) : "";

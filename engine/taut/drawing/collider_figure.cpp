@@ -23,7 +23,7 @@ dvec3 unitOf(const dvec3& v) {
     return size > 0 ? v / size : dvec3(0.0);
 }
 
-// Of axes at right angles; what has none, such as a face without area, is not turned.
+// Of axes at right angles; a part without them, such as a face without area, is not turned.
 glm::dquat turnOf(const glm::dmat3& axes) {
     return glm::dot(axes[0], axes[0]) > 0 && glm::dot(axes[2], axes[2]) > 0 ? glm::normalize(glm::quat_cast(axes))
                                                                             : glm::dquat(1, 0, 0, 0);

@@ -119,7 +119,7 @@ class SkinDrawing final : public BodyDrawing {
         addInner(skin, body.spec->finish);
         if (const int levels = body.spec->finish.smooth; twoSided_ && levels > 0)
             refinement_ = refinement(model, skin, vertexOf, topology->triangles, levels);
-        // What is cut or torn shows its own surface.
+        // A cut or torn body shows its own surface.
         if (!body.damage.isEmpty()) return;
         if (frame != nullptr) {
             bound_ = std::make_unique<BoundMesh>(body, place_, *frame);
@@ -156,7 +156,7 @@ class SkinDrawing final : public BodyDrawing {
   private:
     static constexpr int sidesOfBlock = 6;
     // Contact keeps triangles a thickness clear of colliders and two of each other, but for sides of a tight fold,
-    // which come nearer: so less than that is room for what is drawn.
+    // which come nearer: so less than that is room for drawing.
     static constexpr float shareOfThickness = 0.4F;
     using VertexNumbers = std::map<std::pair<int, int>, std::uint32_t>;  // by vertex of the skin, and side of the block
 
@@ -176,7 +176,7 @@ class SkinDrawing final : public BodyDrawing {
         innerFinish_ = std::move(plain);
     }
 
-    // What a fine mesh is made of. It is made for the first picture: a run may have none.
+    // The input of a fine mesh. It is made for the first picture: a run may have none.
     struct Refinement {
         std::vector<view::Face> faces;
         std::vector<glm::dvec3> rest;  // (vertices) [m]
@@ -266,7 +266,7 @@ class SkinDrawing final : public BodyDrawing {
     mutable std::once_flag isRefined_;
     mutable std::optional<view::FineMesh> fine_;
     mutable std::shared_ptr<const view::Topology> topology_;
-    mutable std::unique_ptr<BoundMesh> bound_;  // what is drawn in its place; null: nothing
+    mutable std::unique_ptr<BoundMesh> bound_;  // drawn in its place; null: nothing
     bool isBoundFine_ = false;                  // once the sheet is refined
 };
 
@@ -337,7 +337,10 @@ std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
     finish->pattern = spec.pattern;
     finish->repeat = static_cast<float>(spec.repeat);
     finish->weave = static_cast<float>(spec.weave);
+    finish->binding = spec.binding;
     finish->thread = static_cast<float>(spec.thread);
+    finish->slub = static_cast<float>(spec.slub);
+    finish->fuzz = static_cast<float>(spec.fuzz);
     finish->roughness = static_cast<float>(spec.roughness);
     finish->sheen = static_cast<float>(spec.sheen);
     finish->translucency = static_cast<float>(spec.translucency);

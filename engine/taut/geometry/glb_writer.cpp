@@ -50,16 +50,18 @@ std::string vectorText(const glm::vec3& v) {
 
 // Whether it looks otherwise at other texture coordinates.
 bool isMapped(const view::Finish& finish) {
-    return finish.pattern != view::Pattern::plain || finish.weave > 0 || finish.anisotropy > 0;
+    return finish.pattern != view::Pattern::plain || finish.weave > 0 || finish.slub > 0 || finish.fuzz > 0 ||
+           finish.anisotropy > 0;
 }
 
 // The fields of view::Finish that glTF's materials do not have.
 std::string finishExtras(const view::Finish& finish) {
     constexpr std::array<const char*, 5> patterns = {"plain", "checker", "stripes", "tartan", "image"};
     return fmt::format(
-        R"({{"taut":{{"back":{},"accent":{},"pattern":"{}","repeat":{},"weave":{},"thread":{},"sheen":{},"translucency":{},"anisotropy":{}}}}})",
+        R"({{"taut":{{"back":{},"accent":{},"pattern":"{}","repeat":{},"weave":{},"binding":{},"thread":{},"slub":{},"fuzz":{},"sheen":{},"translucency":{},"anisotropy":{}}}}})",
         vectorText(finish.back), vectorText(finish.accent), patterns.at(static_cast<std::size_t>(finish.pattern)),
-        finish.repeat, finish.weave, finish.thread, finish.sheen, finish.translucency, finish.anisotropy);
+        finish.repeat, finish.weave, static_cast<int>(finish.binding), finish.thread, finish.slub, finish.fuzz,
+        finish.sheen, finish.translucency, finish.anisotropy);
 }
 
 }  // namespace

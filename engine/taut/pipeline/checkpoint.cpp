@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
-#include "taut/core/bytes.h"
 #include "taut/core/error.h"
+#include "taut/core/numbers.h"
 #include "taut/pipeline/sealed_file.h"
 
 namespace taut::pipeline {
@@ -26,37 +25,24 @@ std::string changesSince(const Checkpoint& checkpoint) {
 
 }  // namespace
 
+void visit(core::Bytes& bytes, Checkpoint& checkpoint) {
+    bytes(checkpoint.frame, checkpoint.state, checkpoint.picture, checkpoint.world, checkpoint.records,
+          checkpoint.files);
+    if (bytes.isAtEnd())
+        checkpoint.bits = 1;
+    else
+        bytes(checkpoint.bits);
+    bytes.require(checkpoint.frame >= 0 && world::areBits(checkpoint.bits));
+}
+
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-    core::ByteWriter writer;
-    writer.add(checkpoint.frame);
-    writer.add(checkpoint.state);
-    writer.add(checkpoint.picture);
-    writer.addList(std::span<const std::byte>(checkpoint.world));
-    writer.add(checkpoint.records);
-    scene::addUsedFiles(writer, checkpoint.files);
-    writer.add(static_cast<std::int32_t>(checkpoint.bits));
-    writeSealed(path, checkpointKind, writer.take());
+    writeSealedValue(path, checkpointKind, checkpoint);
 }
 
 Checkpoint readCheckpoint(const std::filesystem::path& path, std::uint64_t maxBytes) {
     SealedKind kind = checkpointKind;
     kind.maxContent = maxBytes;
-    const std::vector<std::byte> content = readSealed(path, kind);
-    core::ByteReader reader(content);
-    try {
-        Checkpoint checkpoint;
-        checkpoint.frame = reader.number<std::int64_t>();
-        checkpoint.state = reader.number<std::uint64_t>();
-        checkpoint.picture = reader.number<std::uint64_t>();
-        checkpoint.world = reader.list<std::byte>();
-        checkpoint.records = reader.number<std::uint64_t>();
-        checkpoint.files = scene::nextUsedFiles(reader);
-        checkpoint.bits = reader.isAtEnd() ? 1 : reader.number<std::int32_t>();
-        if (!reader.isAtEnd() || checkpoint.frame < 0 || !world::areBits(checkpoint.bits)) core::ByteReader::fail();
-        return checkpoint;
-    } catch (const core::Error& error) {
-        throw core::Error(core::ErrorKind::badContent, fmt::format("{}: {}", path.string(), error.what()));
-    }
+    return readSealedValue<Checkpoint>(path, kind);
 }
 
 std::filesystem::path CheckpointFolder::pathOf(std::int64_t frame) const {
@@ -72,15 +58,12 @@ std::vector<std::int64_t> CheckpointFolder::framesThere() const {
     std::error_code none;  // a missing folder has no checkpoints
     for (const auto& entry : std::filesystem::directory_iterator(folder_, none)) {
         const std::string name = entry.path().filename().string();
-        if (!name.starts_with(before) || !name.ends_with(after)) continue;
-        const char* first = name.data() + before.size();
-        const char* last = name.data() + name.size() - after.size();
-        std::int64_t frame = 0;
-        const auto [end, error] = std::from_chars(first, last, frame);
-        if (error == std::errc{} && end == last && frame >= 0 && pathOf(frame).filename() == name)
-            frames.push_back(frame);
+        if (!name.starts_with(before) || !name.ends_with(after) || name.size() < before.size() + after.size()) continue;
+        const std::string digits = name.substr(before.size(), name.size() - before.size() - after.size());
+        const auto frame = core::wholeIn<std::int64_t>(digits);
+        if (frame && pathOf(*frame).filename() == name) frames.push_back(*frame);
     }
-    std::sort(frames.begin(), frames.end());
+    std::ranges::sort(frames);
     return frames;
 }
 
@@ -94,7 +77,7 @@ std::optional<Checkpoint> CheckpointFolder::latest(std::int64_t frame,
         try {
             Checkpoint checkpoint = readCheckpoint(path, maxBytes);
             if (checkpoint.bits != world::resultBits) {  // first: its keys may differ for that alone
-                if (std::none_of(refused.begin(), refused.end(), [](const auto& each) { return each.isOfOtherBits; }))
+                if (std::ranges::none_of(refused, [](const auto& each) { return each.isOfOtherBits; }))
                     refused.push_back(
                         {fmt::format("{}: this checkpoint was {}", path.string(), world::recordedBy(checkpoint.bits)),
                          true});

@@ -24,6 +24,8 @@ struct Checkpoint {
     int bits = world::resultBits;          // generation of results
 };
 
+void visit(core::Bytes& bytes, Checkpoint& checkpoint);
+
 // A checkpoint that cannot be used.
 struct PassedOver {
     std::string why;  // "FILE: …"

@@ -71,11 +71,11 @@ class Source {
     Delivery delivery(std::int64_t frame) const {
         Delivery delivery{world_.view(false), {}};
         delivery.view.frame = frame;
-        if (needsPoints_ && isWhole(frame))
+        if (needsPoints_ && writesPoints(frame))
             for (const std::string& target : run_.targets) delivery.points.push_back(world_.points(target));
         return delivery;
     }
-    bool isWhole(std::int64_t frame) const {
+    bool writesPoints(std::int64_t frame) const {
         return (frame - run_.firstFrame) % run_.every == 0 || frame == run_.lastFrame;
     }
 

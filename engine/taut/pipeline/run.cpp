@@ -1,24 +1,18 @@
 #include "taut/pipeline/run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <mutex>
 
 #include "taut/core/error.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/pipeline/stages.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/world.h"
 
 namespace taut::pipeline {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void addMoments(const world::World& world, const RunOptions& options, view::FrameView& view) {
     const double open = options.shutter * world.ticksPerFrame() * world.tickSeconds();
@@ -51,7 +45,7 @@ class Player {
     // Simulates up to the next frame; false at the end, on divergence and when stopped.
     bool advance() {
         if (next_ > options_.lastFrame || result_.divergence || result_.interrupted) return false;
-        const auto start = Clock::now();
+        const core::Stopwatch watch;
         const std::int64_t goal = next_ * world_.ticksPerFrame();
         while (world_.tick() < goal) {
             if (stop_) return !(result_.interrupted = true);
@@ -65,7 +59,7 @@ class Player {
         saveState();
         if (options_.metrics) current_.metrics = world_.metrics();
         if (options_.figures) current_.figures = options_.figures(world_);
-        current_.simulating = secondsSince(start);
+        current_.simulating = watch.seconds();
         if (listener_.frameSimulated) listener_.frameSimulated(current_);
         return true;
     }
@@ -79,9 +73,9 @@ class Player {
                 keep();
                 continue;
             }
-            const auto start = Clock::now();
+            const core::Stopwatch watch;
             view::FrameView view = shownNow(world_, options_);
-            current_.simulating += secondsSince(start);
+            current_.simulating += watch.seconds();
             current_.pictured = true;
             const std::lock_guard lock(mutex_);
             pending_[current_.frame] = current_;
@@ -90,6 +84,7 @@ class Player {
         return std::nullopt;
     }
 
+    // Called by the stages that draw and encode, on their threads.
     void drawn(std::int64_t frame, double seconds) {
         const std::lock_guard lock(mutex_);
         pending_.at(frame).drawing = seconds;
@@ -159,7 +154,7 @@ RunResult play(world::World& world, const RunOptions& options, const Draw& draw,
                const RunListener& listener, const std::atomic<bool>& stop, std::optional<RecordLog> records) {
     TAUT_EXPECTS(options.firstFrame >= 0 && options.firstFrame <= options.lastFrame);
     TAUT_EXPECTS(!draw == (sink == nullptr));
-    const auto start = Clock::now();
+    const core::Stopwatch whole;
     if (!records) records.emplace(options.figureColumns);
     Player player(world, options, listener, stop, std::move(*records));
     if (!draw) {
@@ -167,9 +162,9 @@ RunResult play(world::World& world, const RunOptions& options, const Draw& draw,
     } else {
         const auto timed = [&player](const Draw& drawOne) -> Draw {
             return [&player, &drawOne](const view::FrameView& view) {
-                const auto drawingStart = Clock::now();
+                const core::Stopwatch watch;
                 image::Image picture = drawOne(view);
-                player.drawn(view.frame, secondsSince(drawingStart));
+                player.drawn(view.frame, watch.seconds());
                 return picture;
             };
         };
@@ -178,16 +173,16 @@ RunResult play(world::World& world, const RunOptions& options, const Draw& draw,
         stages.draw = timed(draw);
         for (const Draw& more : options.moreDraws) stages.moreDraws.push_back(timed(more));
         stages.encode = [&](const view::FrameView& view, image::Image& picture) {
-            const auto encodingStart = Clock::now();
+            const core::Stopwatch watch;
             if (options.finishPicture) options.finishPicture(view, picture);
             sink->write(view.frame, picture);
-            player.encoded(view.frame, secondsSince(encodingStart));
+            player.encoded(view.frame, watch.seconds());
         };
         runStages(stages);
         sink->finish();
     }
     RunResult result = std::move(player.result());
-    result.seconds = secondsSince(start);
+    result.seconds = whole.seconds();
     return result;
 }
 

@@ -59,6 +59,12 @@ std::string nameIn(const std::string& content) {
 
 }  // namespace
 
+std::string partyName(const std::string& command) {
+    char host[256] = "";
+    ::gethostname(host, sizeof host - 1);
+    return fmt::format("{}, process {} on {}", command, ::getpid(), host);
+}
+
 RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party, const std::string& part) {
     const std::filesystem::path path = folder / (part.empty() ? ".taut-lock" : ".taut-lock_" + part);
     const bool hasMadeFolder = !core::isThere(folder);

@@ -16,6 +16,9 @@ struct RunParty {
     std::string name;                  // for the message to another run: "taut render flag, process 4711"
 };
 
+// The name of a command of this process: "taut render flag, process 4711 on host".
+std::string partyName(const std::string& command);
+
 // Locks a folder, or one part ("60-119") of the files of a run in it, until it is destroyed or its process ends, in any
 // way. Meanwhile a file `.taut-lock` or `.taut-lock_60-119` lies in the folder. A file that a killed process left
 // behind locks nothing.

@@ -96,6 +96,10 @@ std::optional<std::uint32_t> PartRecord::pictureOf(std::int64_t frame) const {
     return frame >= first && i < pictures.size() ? std::optional(pictures[i]) : std::nullopt;
 }
 
+std::string hexadecimal(std::uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
+
 std::string rendererText(const std::optional<render::RendererInfo>& info) {
     if (!info) return "";
     return fmt::format("{}, {}, {}, {}", info->backend, info->vendor, info->renderer, info->version);
@@ -150,7 +154,7 @@ std::vector<PartRecord> partRecords(const image::FramePattern& pattern) {
     std::erase_if(
         records,
         [name = pattern.name()](const PartRecord& record) { return record.fault.empty() && record.files != name; });
-    std::sort(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
+    std::ranges::sort(records, [](const PartRecord& a, const PartRecord& b) {
         return std::pair(a.first, a.path) < std::pair(b.first, b.path);
     });
     return records;
@@ -178,7 +182,7 @@ std::vector<FrameSpan> framesWithoutRecord(const std::vector<PartRecord>& record
     std::vector<FrameSpan> drawn;
     for (const PartRecord& record : records)
         if (record.lastDrawn() >= record.first) drawn.push_back({record.first, record.lastDrawn()});
-    std::sort(drawn.begin(), drawn.end(), [](const FrameSpan& a, const FrameSpan& b) { return a.first < b.first; });
+    std::ranges::sort(drawn, {}, &FrameSpan::first);
     std::vector<FrameSpan> missing;
     std::int64_t next = wanted.first;
     for (const FrameSpan& span : drawn) {
@@ -219,9 +223,8 @@ std::string inWords(const std::vector<FrameSpan>& spans) {
 void writeJoinedJson(const std::function<void(std::string_view)>& write, const std::vector<PartRecord>& records,
                      const FrameSpan& frames) {
     TAUT_EXPECTS(!records.empty());
-    const auto longest = std::max_element(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
-        return a.hashes.size() < b.hashes.size();
-    });
+    const auto longest = std::ranges::max_element(
+        records, [](const PartRecord& a, const PartRecord& b) { return a.hashes.size() < b.hashes.size(); });
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(core::fileContent(longest->path, mostBytes));
     json["frames"] = {{"first", frames.first}, {"last", frames.last}, {"of", longest->count}};
     json["joined"] = nlohmann::ordered_json::array();

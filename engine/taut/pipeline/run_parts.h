@@ -39,6 +39,9 @@ struct PartRecord {
     std::optional<std::uint32_t> pictureOf(std::int64_t frame) const;
 };
 
+// A key or a state as records have it, in 16 digits.
+std::string hexadecimal(std::uint64_t hash);
+
 // The renderer as records name it; empty if nothing was drawn.
 std::string rendererText(const std::optional<render::RendererInfo>& info);
 

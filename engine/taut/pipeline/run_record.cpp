@@ -6,8 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "taut/core/numbers.h"
 #include "taut/forces/wind.h"
 #include "taut/island/metric_table.h"
+#include "taut/pipeline/run_parts.h"
 #include "taut/spec/spec.h"
 #include "taut/world/result_bits.h"
 #include "taut/world/world.h"
@@ -16,10 +18,6 @@ namespace taut::pipeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string hex(std::uint64_t hash) {
-    return fmt::format("{:016x}", hash);
-}
 
 Json machineJson(const Machine& machine) {
     return {{"compiler", machine.compiler}, {"processor", machine.processor}, {"system", machine.system},
@@ -110,14 +108,6 @@ Json timesJson(const RunResult& result) {
     return {{"simulate", simulating}, {"render", drawing}, {"encode", encoding}, {"total", result.seconds}};
 }
 
-// Quoted where commas would end it.
-std::string csvCell(const std::string& text) {
-    if (text.find_first_of(",\"") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
-}
-
 }  // namespace
 
 void writeRunJson(const Write& write, const world::SceneSpec& spec, const world::World& world,
@@ -145,7 +135,7 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     json["size"] = {spec.picture.size.x, spec.picture.size.y};
     json["layers"] = layersJson(request.layers);
     json["frames"] = {{"first", request.firstFrame}, {"last", request.options.lastFrame}, {"of", request.frames}};
-    json["run"] = hex(request.key);
+    json["run"] = hexadecimal(request.key);
     json["seeds"] = seedsJson(spec);
     json["islands"] = islandsJson(world);
     json["frozen"] = frozenJson(world);
@@ -156,7 +146,7 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     head.resize(head.size() - 2);  // without the end of the object: two more members follow, piece by piece
     write(head + ",\n  \"state_hash\": [");
     for (std::size_t i = 0; i < result.frames.size(); ++i)  // of frames 0, 1, …
-        write(fmt::format("{}\n    \"{}\"", i > 0 ? "," : "", hex(result.frames[i].hash)));
+        write(fmt::format("{}\n    \"{}\"", i > 0 ? "," : "", hexadecimal(result.frames[i].hash)));
     write("],\n  \"picture_crc32\": [");
     for (std::size_t i = 0; i < request.pictures.size(); ++i)  // of the first frame that was asked for, …
         write(fmt::format("{}\n    \"{:08x}\"", i > 0 ? "," : "", request.pictures[i]));
@@ -167,7 +157,7 @@ void writeMetricsCsv(const Write& write, const world::SceneSpec& spec, const Run
                      const std::vector<std::string>& figures) {
     std::string text = "frame,time_s";
     for (const world::Metric& metric : world::metricTable()) text += fmt::format(",{}", metric.columns);
-    for (const std::string& name : figures) text += "," + csvCell(name);
+    for (const std::string& name : figures) text += "," + core::csvCell(name);
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
         const FrameRecord frame = result.frames[i];
         if (!frame.metrics) continue;

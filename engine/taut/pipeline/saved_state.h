@@ -34,6 +34,8 @@ struct SavedState {
     int bits = world::resultBits;
 };
 
+void visit(core::Bytes& bytes, SavedState& state);
+
 std::string toBytes(const SavedState& state);
 // Throws core::Error(badContent) for other or damaged bytes, or other results bits.
 SavedState fromBytes(std::string_view bytes);

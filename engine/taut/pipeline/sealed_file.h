@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/bytes.h"
+
 namespace taut::pipeline {
 
 struct SealedKind {
@@ -28,5 +30,20 @@ std::vector<std::byte> unsealed(const SealedKind& kind, std::span<const std::byt
 // The same with files. A file is written completely or not at all. They also throw core::Error(inputOutput).
 void writeSealed(const std::filesystem::path& path, const SealedKind& kind, std::span<const std::byte> content);
 std::vector<std::byte> readSealed(const std::filesystem::path& path, const SealedKind& kind);
+
+// The same with a value, see core::Bytes.
+template <class Value>
+void writeSealedValue(const std::filesystem::path& path, const SealedKind& kind, const Value& value) {
+    writeSealed(path, kind, core::bytesOf(value));
+}
+template <class Value>
+Value readSealedValue(const std::filesystem::path& path, const SealedKind& kind) {
+    const std::vector<std::byte> content = readSealed(path, kind);
+    try {
+        return core::valueIn<Value>(content);
+    } catch (const core::Error& error) {
+        throw core::Error(core::ErrorKind::badContent, path.string() + ": " + error.what());
+    }
+}
 
 }  // namespace taut::pipeline

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "taut/core/error.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::pipeline {
@@ -63,8 +63,8 @@ void testRenderer(render::Renderer& renderer) {
                                                                    info.vendor, info.renderer, info.version));
     };
     if (!picture.isWhole()) fail("drew no picture");
-    const bool blank = std::all_of(picture.rgb.begin(), picture.rgb.end(),
-                                   [&](std::uint8_t value) { return value == picture.rgb.front(); });
+    const bool blank =
+        std::ranges::all_of(picture.rgb, [&](std::uint8_t value) { return value == picture.rgb.front(); });
     if (blank) fail("drew a blank picture");
     if (!isRed(pixel(picture, picture.width / 2, picture.height / 2)))
         fail("did not draw the test triangle where it belongs");
@@ -74,7 +74,6 @@ void testRenderer(render::Renderer& renderer) {
 
 TestDrawing drawTest(render::Renderer& renderer, int times) {
     TAUT_EXPECTS(times >= 1);
-    using Clock = std::chrono::steady_clock;
     view::FrameView view = testView();
     view.camera.eye = {0.0F, 0.6F, 4.0F};
     view.light.direction = {0.4F, -1.0F, -0.8F};
@@ -84,9 +83,9 @@ TestDrawing drawTest(render::Renderer& renderer, int times) {
     std::vector<double> seconds;
     for (int i = 0; i < times; ++i) {
         view.camera.eye.x = 0.01F * static_cast<float>(i + 1);  // nothing is kept from the picture before
-        const auto start = Clock::now();
+        const core::Stopwatch watch;
         (void)renderer.draw(view);
-        seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+        seconds.push_back(watch.seconds());
     }
     std::nth_element(seconds.begin(), seconds.begin() + times / 2, seconds.end());
     drawing.seconds = seconds[times / 2];

@@ -4,10 +4,8 @@
 
 #include <cmath>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 #include "taut/collision/colliders.h"
 #include "taut/core/bytes.h"
@@ -21,16 +19,9 @@ namespace taut::world {
 
 // Writing changes nothing. Reading throws core::Error(badContent) for bytes that end too early or hold impossible
 // values, such as an infinite number or an unknown enumerator.
-class StateBytes {
+class StateBytes : public core::Bytes {
   public:
-    explicit StateBytes(core::ByteWriter& writer) : writer_(&writer) {}
-    explicit StateBytes(core::ByteReader& reader) : reader_(&reader) {}
-
-    bool isReading() const { return reader_ != nullptr; }
-    // Checks a condition on the values read. Does nothing while writing.
-    void require(bool condition) const {
-        if (isReading() && !condition) core::ByteReader::fail();
-    }
+    using Bytes::Bytes;
 
     // Writes the mark if wanted; reads it if present. Returns whether it is there.
     bool mark(std::uint64_t mark, bool isWanted) {
@@ -50,14 +41,6 @@ class StateBytes {
         raw(number);
         if constexpr (std::is_floating_point_v<Number>) require(std::isfinite(number));
     }
-    // Any number, also infinite or NaN: for the state of a run that diverged.
-    template <class Number>
-    void raw(Number& number) {
-        if (isReading())
-            number = reader_->number<Number>();
-        else
-            writer_->add(number);
-    }
     void notNegative(double& number) {
         (*this)(number);
         require(number >= 0);
@@ -66,20 +49,7 @@ class StateBytes {
         (*this)(number);
         require(number >= least && number <= most);
     }
-    // Enumerators 0 … last.
-    template <class Enum>
-    void choice(Enum& value, Enum last) {
-        int number = static_cast<int>(value);
-        (*this)(number);
-        require(number >= 0 && number <= static_cast<int>(last));
-        value = static_cast<Enum>(number);
-    }
-    void operator()(std::string& text) {
-        if (isReading())
-            text = reader_->text();
-        else
-            writer_->add(text);
-    }
+    void operator()(std::string& own) { text(own); }
     // Reading expects exactly this value.
     void expect(std::string text, const char* why) {
         const std::string expected = text;
@@ -106,46 +76,6 @@ class StateBytes {
         (*this)(pose.position);
         (*this)(pose.rotation);
     }
-    // Numbers, or plain structs of numbers without gaps; their values are not checked.
-    template <class Item>
-    requires std::is_trivially_copyable_v<Item>
-    void list(std::vector<Item>& items) {
-        if (isReading())
-            items = reader_->list<Item>();
-        else
-            writer_->addList(std::span<const Item>(items));
-    }
-    // An array of fixed size.
-    template <class Array>
-    void planes(Array& array) {
-        using Number = std::remove_cvref_t<decltype(*array.begin())>;
-        if (!isReading()) return writer_->addList(std::span<const Number>(array));
-        const std::vector<Number> read = reader_->list<Number>();
-        require(read.size() == array.size());
-        std::copy(read.begin(), read.end(), array.begin());
-    }
-    // Structs, each by visit(bytes, item).
-    template <class Item, class Visit>
-    void each(std::vector<Item>& items, Visit visit) {
-        auto count = static_cast<std::uint64_t>(items.size());
-        (*this)(count);
-        if (isReading()) items.clear();
-        for (std::uint64_t i = 0; i < count; ++i) {
-            if (isReading()) items.emplace_back();
-            visit(items[i]);
-        }
-    }
-    template <class Item, class Visit>
-    void optional(std::optional<Item>& item, Visit visit) {
-        bool has = item.has_value();
-        (*this)(has);
-        if (isReading()) item = has ? std::optional<Item>(Item{}) : std::nullopt;
-        if (has) visit(*item);
-    }
-
-  private:
-    core::ByteWriter* writer_ = nullptr;
-    core::ByteReader* reader_ = nullptr;
 };
 
 }  // namespace taut::world

@@ -15,22 +15,37 @@
 
 namespace taut::reality {
 
-std::string number(double value) {
-    return fmt::format("{}", value);
-}
-
 std::string lineScene(const LineScene& scene) {
-    const auto n = number;
-    return "schema = 1\n\n[run]\nfps = " + n(scene.fps) + "\nseconds = " + n(scene.seconds) +
-           "\n\n[world]\ngravity = [0, " + n(-scene.gravity) + ", 0]\n\n[solver]\nintegrator = \"" + scene.method +
-           "\"\nprecision = \"double\"\n" +
-           (scene.method.starts_with("implicit") ? "cg_tolerance = 1e-8\nnewton_steps = 4\n" : "") +
-           "\n[rope.strip]\n" + scene.place + "segments = " + n(scene.cells) + "\nmass_kg = " + n(scene.weight / g) +
-           "\nstretch_N = " + n(scene.stretch) + "\n" +
-           (scene.rigidity > 0 ? "bending_rigidity_N_m2 = " + n(scene.rigidity) + "\n" : "") +
-           "damping_time_s = " + n(scene.damping) + "\ndrag_per_s = " + n(scene.drag) +
-           "\nradius = " + n(scene.length / 100) + "\n" + scene.more + "\n[camera.main]\neye = [0, 1, " +
-           n(3 * scene.length) + "]\ntarget = [0, 1, 0]\n";
+    return fmt::format(R"(schema = 1
+
+[run]
+fps = {}
+seconds = {}
+
+[world]
+gravity = [0, {}, 0]
+
+[solver]
+integrator = "{}"
+precision = "double"
+{}
+[rope.strip]
+{}segments = {}
+mass_kg = {}
+stretch_N = {}
+{}damping_time_s = {}
+drag_per_s = {}
+radius = {}
+{}
+[camera.main]
+eye = [0, 1, {}]
+target = [0, 1, 0]
+)",
+                       scene.fps, scene.seconds, -scene.gravity, scene.method,
+                       scene.method.starts_with("implicit") ? "cg_tolerance = 1e-8\nnewton_steps = 4\n" : "",
+                       scene.place, scene.cells, scene.weight / g, scene.stretch,
+                       scene.rigidity > 0 ? fmt::format("bending_rigidity_N_m2 = {}\n", scene.rigidity) : "",
+                       scene.damping, scene.drag, scene.length / 100, scene.more, 3 * scene.length);
 }
 
 std::string laidAlong(double length, int parts, const std::function<glm::dvec3(double)>& way) {
@@ -45,8 +60,7 @@ std::string laidAlong(double length, int parts, const std::function<glm::dvec3(d
 
 world::World Bench::load(const std::string& name, const std::string& scene) {
     scene_ = name;
-    const auto same =
-        std::find_if(study_.scenes.begin(), study_.scenes.end(), [&](const auto& kept) { return kept.first == name; });
+    const auto same = std::ranges::find_if(study_.scenes, [&](const auto& kept) { return kept.first == name; });
     if (same == study_.scenes.end())
         study_.scenes.emplace_back(name, scene);
     else
@@ -79,16 +93,13 @@ bool Bench::settle(world::World& world, const std::string& target, double length
 }
 
 void Bench::line(const std::string& quantity, const std::string& source, double expected, double value,
-                 double tolerance, int cells) {
-    study_.lines.push_back({row_, quantity, source, expected, value, tolerance, cells, processor_, simulated_, scene_,
-                            std::isfinite(value) ? "" : "it does not turn where it was looked for"});
+                 double tolerance, int cells, const std::string& missing) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const std::string why =
+        !missing.empty() || std::isfinite(value) ? missing : "it does not turn where it was looked for";
+    study_.lines.push_back({row_, quantity, source, expected, missing.empty() ? value : none, tolerance, cells,
+                            processor_, simulated_, scene_, why});
     processor_ = simulated_ = 0;
-}
-
-void Bench::missing(const std::string& quantity, const std::string& source, double expected, double tolerance,
-                    int cells, const std::string& why) {
-    line(quantity, source, expected, std::numeric_limits<double>::quiet_NaN(), tolerance, cells);
-    study_.lines.back().missing = why;
 }
 
 double Bench::threshold(double low, double high, int halvings, const std::function<bool(double)>& gives) {

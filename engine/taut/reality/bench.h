@@ -14,9 +14,6 @@ namespace taut::reality {
 
 inline constexpr double g = 9.81;  // [m/s²]
 
-// A number as TOML has it, to its last bit.
-std::string number(double value);
-
 // A straight rope held at its start, unless `more` overrides it.
 struct LineScene {
     int cells = 0;
@@ -51,12 +48,14 @@ class Bench {
     // came to that.
     bool settle(world::World& world, const std::string& target, double length);
 
-    // Adds a line with the cost of all plays since the line before.
+    // Adds a line with the cost of all plays since the line before. `missing`: why there is no value; empty: there is.
     void line(const std::string& quantity, const std::string& source, double expected, double value, double tolerance,
-              int cells);
-    // The same without a value.
-    void missing(const std::string& quantity, const std::string& source, double expected, double tolerance, int cells,
-                 const std::string& why);
+              int cells, const std::string& missing = "");
+    // The same for a value at rest.
+    void restingLine(bool isAtRest, const std::string& quantity, const std::string& source, double expected,
+                     double value, double tolerance, int cells) {
+        line(quantity, source, expected, value, tolerance, cells, isAtRest ? "" : "does not come to rest");
+    }
 
     // Where between low and high `gives` turns true, halved so often; looks at the ends first. Not a number, if it is
     // true at low or false at high.

@@ -124,7 +124,7 @@ report::Chart drapeChart(const std::vector<DrapeBand>& bands, const std::vector<
                                 .style = {.colour = colour, .dash = report::Dash::dashed, .width = 1.4},
                                 .labelAt = 0.02});
         report::Curve swept{name + ", taut, ± spread", {.colour = colour, .mark = report::Mark::circle}, {}};
-        std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.weight < b.weight; });
+        std::ranges::sort(own, [](const auto& a, const auto& b) { return a.weight < b.weight; });
         for (const DrapeBand& band : own) {
             const double x = 1e3 * band.weight, y = 100 * band.mean, bar = 100 * band.spread;
             swept.points.push_back({.x = x, .y = y, .yLow = y - bar, .yHigh = y + bar});
@@ -135,8 +135,7 @@ report::Chart drapeChart(const std::vector<DrapeBand>& bands, const std::vector<
         panel.curves.push_back(
             {.title = "weight in assets/fabrics, chosen",
              .style = {.colour = "#202020", .mark = report::Mark::circle, .isFilled = false, .width = 0, .size = 1.9},
-             .points = {*std::find_if(swept.points.begin(), swept.points.end(),
-                                      [&](const auto& p) { return p.x == weight; })}});
+             .points = {*std::ranges::find_if(swept.points, [&](const auto& p) { return p.x == weight; })}});
     }
     report::Chart chart;
     chart.title = "Cloth of 15 cm over a disc of 9 cm";

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/reality/bench.h"
 #include "taut/reality/rows.h"
 
@@ -33,8 +34,7 @@ std::span<const Row> rows() {
 }
 
 bool Comparison::passes() const {
-    return std::all_of(
-        lines.begin(), lines.end(), [](const Line& line) { return line.passes(); });
+    return std::ranges::all_of(lines, &Line::passes);
 }
 
 Comparison compare(const Settings& settings) {
@@ -42,7 +42,7 @@ Comparison compare(const Settings& settings) {
     Bench bench(settings, study);
     std::vector<const Row*> chosen;
     for (const Row& row : rows()) {
-        const bool isNamed = std::find(settings.rows.begin(), settings.rows.end(), row.name) != settings.rows.end();
+        const bool isNamed = core::contains(settings.rows, row.name);
         if (isNamed || (settings.rows.empty() && (settings.isLong || !row.isLong))) chosen.push_back(&row);
     }
     try {
@@ -53,8 +53,8 @@ Comparison compare(const Settings& settings) {
                 chosen[i]->hold(bench);
             } catch (const core::Error& error) {
                 if (error.kind() != core::ErrorKind::diverged) throw;
-                bench.missing(chosen[i]->title, "", std::numeric_limits<double>::quiet_NaN(), 0, settings.cells,
-                              "diverges");
+                constexpr double none = std::numeric_limits<double>::quiet_NaN();
+                bench.line(chosen[i]->title, "", none, none, 0, settings.cells, "diverges");
             }
         }
     } catch (const core::Error& error) {

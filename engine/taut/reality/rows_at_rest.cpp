@@ -99,10 +99,7 @@ std::optional<double> droopOf(Bench& bench, const std::string& name, const std::
 
 void addDroop(Bench& bench, const std::string& quantity, const std::string& source, double expected, double tolerance,
               int cells, std::optional<double> droop) {
-    if (droop)
-        bench.line(quantity, source, expected, *droop, tolerance, cells);
-    else
-        bench.missing(quantity, source, expected, tolerance, cells, "does not come to rest");
+    bench.restingLine(droop.has_value(), quantity, source, expected, droop.value_or(0), tolerance, cells);
 }
 
 // A rope in place of a strip a metre wide.
@@ -250,13 +247,10 @@ void holdTipLoad(Bench& bench) {
         scene.more = fmt::format("\n[[mass]]\ntarget = \"rope.strip@end\"\nmass_kg = {}\n", load / g);
         world::World world = bench.load("tip-load", lineScene(scene));
         const HangingStrip exact = hangingStrip(0, gamma, pi / 2);
-        const std::string quantity = fmt::format("deflection/L at PL²/B = {}", gamma), source = "elastica, dead load";
-        if (!bench.settle(world, "rope.strip", stripLength)) {
-            bench.missing(quantity, source, exact.down, 0.005, cells, "does not come to rest");
-            continue;
-        }
+        const bool isAtRest = bench.settle(world, "rope.strip", stripLength);
         const dvec3 tip = world.positions(world.select("rope.strip@end")).front();
-        bench.line(quantity, source, exact.down, (1 - tip.y) / stripLength, 0.005, cells);
+        bench.restingLine(isAtRest, fmt::format("deflection/L at PL²/B = {}", gamma), "elastica, dead load", exact.down,
+                          (1 - tip.y) / stripLength, 0.005, cells);
     }
 }
 
@@ -305,15 +299,11 @@ void holdLoops(Bench& bench) {
             scene.drag = 2 * dragOf(gamma);
             world::World world = bench.load(name, lineScene(scene));
             const Loop exact = loopOf(shape.kind, gamma);
-            const std::string quantity = fmt::format("height of a {} over L at Γ = {}", shape.name, gamma);
-            if (!bench.settle(world, "rope.strip", stripLength)) {
-                bench.missing(quantity, "heavy elastica, Peirce 1930", exact.height, 0.01, cells,
-                              "does not come to rest");
-                continue;
-            }
+            const bool isAtRest = bench.settle(world, "rope.strip", stripLength);
             double lowest = 0;
             for (const dvec3& x : world.positions(world.select("rope.strip"))) lowest = std::max(lowest, 1 - x.y);
-            bench.line(quantity, "heavy elastica, Peirce 1930", exact.height, lowest / whole, 0.01, cells);
+            bench.restingLine(isAtRest, fmt::format("height of a {} over L at Γ = {}", shape.name, gamma),
+                              "heavy elastica, Peirce 1930", exact.height, lowest / whole, 0.01, cells);
         }
 }
 
@@ -347,11 +337,7 @@ void holdColumn(Bench& bench) {
         const Column exact = columnOf(
             core::rootOf([&](double slope) { return shortening - columnOf(slope).shortening; }, 1e-3, 2.0, 50));
         const auto add = [&](const std::string& quantity, double expected, double value, double tolerance) {
-            if (isAtRest)
-                bench.line(quantity, "elastica, elliptic integrals", expected, value, tolerance, cells);
-            else
-                bench.missing(quantity, "elastica, elliptic integrals", expected, tolerance, cells,
-                              "does not come to rest");
+            bench.restingLine(isAtRest, quantity, "elastica, elliptic integrals", expected, value, tolerance, cells);
         };
         add(fmt::format("crest/L of a strip shortened by {:.3f} L", aim.shortening), exact.crest, crest / stripLength,
             0.005);
@@ -453,12 +439,8 @@ target = [0, 1, 0]
         const auto direction = [&](std::size_t i) { return std::atan2(x[i + 1].y - x[i].y, x[i + 1].x - x[i].x); };
         // From the middle of the first cell to that of the last.
         const double curvature = (direction(static_cast<std::size_t>(cells) - 1) - direction(0)) / (length - cell);
-        const std::string quantity = fmt::format("curvature that {} keeps, 1/m", fabric.name),
-                          source = "2HB/(2B), Matsudaira et al. 2015";
-        if (isAtRest)
-            bench.line(quantity, source, crease, curvature, 0.01, cells);
-        else
-            bench.missing(quantity, source, crease, 0.01, cells, "does not come to rest");
+        bench.restingLine(isAtRest, fmt::format("curvature that {} keeps, 1/m", fabric.name),
+                          "2HB/(2B), Matsudaira et al. 2015", crease, curvature, 0.01, cells);
     }
 }
 

@@ -71,7 +71,7 @@ target = [0, 0.25, 0]
 
 // How often a ring of values rises and falls again, each time by as much and more.
 int wavesOf(std::vector<double> ring, double least) {
-    std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+    std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
     ring.push_back(ring.front());
     int waves = 0;
     bool isRising = true;
@@ -105,7 +105,7 @@ Drape dropped(Bench& bench, const std::string& scene) {
     std::vector<std::pair<double, double>> byAngle;
     for (std::size_t i = 0; i < flat.size(); ++i)
         byAngle.emplace_back(std::atan2(flat[i].z, flat[i].x), out(hung[i]) / out(flat[i]));
-    std::sort(byAngle.begin(), byAngle.end());
+    std::ranges::sort(byAngle);
     std::vector<double> ring;
     for (const auto& [angle, share] : byAngle) ring.push_back(share);
     return {(shadow.of(world).front() - disc) / (whole - disc), wavesOf(ring, 0.05)};

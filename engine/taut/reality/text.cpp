@@ -105,7 +105,7 @@ std::string besidePart(const Comparison& comparison) {
     std::vector<std::pair<std::string, std::map<double, double>>> all;  // H/W at Γ, in the order of measuring
     std::set<double> gammas;
     const auto add = [&](const std::string& name, double gamma, double droop) {
-        auto strips = std::find_if(all.begin(), all.end(), [&](const auto& known) { return known.first == name; });
+        auto strips = std::ranges::find_if(all, [&](const auto& known) { return known.first == name; });
         if (strips == all.end()) strips = all.insert(all.end(), {name, {}});
         strips->second[gamma] = droop;
         gammas.insert(gamma);

@@ -8,6 +8,7 @@
 
 #include "taut/core/error.h"
 #include "taut/image/read.h"
+#include "taut/pipeline/run_parts.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/mutants.h"
 #include "taut/regression/playing.h"
@@ -115,7 +116,7 @@ class Calibration {
                 const image::Image now =
                     image::readImage(file, std::int64_t{picture.picture.width} * picture.picture.height);
                 CalibrationRow noise = row(picture, process.name, &now);
-                noise.stateDiffers = hash != hexadecimal(picture.stateHash);
+                noise.stateDiffers = hash != pipeline::hexadecimal(picture.stateHash);
                 addNoise(noise);
             }
     }

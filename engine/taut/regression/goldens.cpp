@@ -9,6 +9,7 @@
 #include "taut/core/whole_file.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"
+#include "taut/pipeline/run_parts.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/scenario_text.h"
@@ -49,7 +50,7 @@ bool hasSamePicture(const std::filesystem::path& file, const image::Image& pictu
 std::string updateState(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
                         GoldenScenario& goldens, const std::string& why, core::FileBatch& files) {
     const std::filesystem::path file = folder.tape(scenario.name);
-    const std::string last = hexadecimal(played.tape.chain.back());
+    const std::string last = pipeline::hexadecimal(played.tape.chain.back());
     const TapeOrigin& origin = played.tape.origin;
     std::optional<int> known;
     if (goldens.state && goldens.state->lastHash == last) known = bitsOfSameChain(file, played.tape);
@@ -66,7 +67,7 @@ bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const 
     const std::string key = played.request.key();
     const std::filesystem::path file = folder.picture(scenario.name, key), stored = folder.stored(scenario.name, key);
     const auto known = goldens.pictures.find(key);
-    const std::string hash = hexadecimal(played.stateHash);
+    const std::string hash = pipeline::hexadecimal(played.stateHash);
     const auto writeStored = [&] {
         if (!played.request.restart) return;
         TAUT_EXPECTS(!played.savedState.empty());

@@ -9,6 +9,7 @@
 #include "taut/image/png.h"
 #include "taut/image/read.h"
 #include "taut/pipeline/run.h"
+#include "taut/pipeline/run_parts.h"
 #include "taut/regression/scenario_text.h"
 #include "taut/regression/tape_compare.h"
 
@@ -19,6 +20,8 @@ using report::TestPicture;
 using report::TestScenario;
 using report::TestState;
 using report::Verdict;
+
+using pipeline::hexadecimal;
 
 // The entry of a scenario in the manifest; an empty one when there is none.
 const GoldenScenario& goldensOf(const Scenario& scenario, const Manifest& manifest) {
@@ -175,10 +178,6 @@ TestScenario blank(const Scenario& scenario) {
 
 }  // namespace
 
-std::string hexadecimal(std::uint64_t hash) {
-    return fmt::format("{:016x}", hash);
-}
-
 std::string inWords(const image::Tolerance& tolerance) {
     return fmt::format(
         "at most {:.4g} % of its pixels are off by more than {}/255 in any channel, of no tile of {} × {} pixels "
@@ -207,8 +206,8 @@ std::string otherRendererNote(const report::TestReport& report, const Manifest& 
 std::vector<std::string> leftOver(const Scenario& scenario, const Manifest& manifest) {
     std::vector<std::string> keys;
     for (const auto& [key, picture] : goldensOf(scenario, manifest).pictures)
-        if (std::none_of(scenario.goldens.begin(), scenario.goldens.end(),
-                         [&, &name = key](const GoldenRequest& request) { return request.key() == name; }))
+        if (std::ranges::none_of(scenario.goldens,
+                                 [&, &name = key](const GoldenRequest& request) { return request.key() == name; }))
             keys.push_back(key);
     return keys;
 }

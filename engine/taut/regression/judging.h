@@ -41,6 +41,4 @@ std::string inWords(const image::Tolerance& tolerance);
 // none.
 std::string otherRendererNote(const report::TestReport& report, const Manifest& manifest);
 
-std::string hexadecimal(std::uint64_t hash);  // 16 digits
-
 }  // namespace taut::regression

@@ -1,16 +1,39 @@
 #include "taut/regression/playing.h"
 
-#include <chrono>
+#include <fmt/format.h>
 
+#include <filesystem>
+
+#include "taut/check/watcher.h"
 #include "taut/core/error.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/ecs/registry.h"
 #include "taut/pipeline/run.h"
-#include "taut/regression/scenario_checks.h"
 #include "taut/world/components.h"
 #include "taut/world/world.h"
 
 namespace taut::regression {
 namespace {
+
+report::TestCheck reported(const check::Result& result, bool broken) {
+    report::TestCheck check;
+    check.that = result.that;
+    check.span = result.span;
+    check.source =
+        fmt::format("{}:{}", std::filesystem::path(result.source.file).filename().string(), result.source.line);
+    const std::optional<check::Sighting>& shown = result.first ? result.first : result.worst;
+    if (shown) {
+        check.value = check::quantityText(shown->outcome.value, shown->outcome.unit);
+        check.bound = check::quantityText(shown->outcome.bound, shown->outcome.unit);
+        check.when = check::momentText(*shown);
+        check.where = shown->where;
+    }
+    if (result.passed) return check;
+    // A check that did not fail and did not run to its end has no verdict.
+    check.verdict = broken && !result.first ? report::Verdict::skipped : report::Verdict::failed;
+    if (check.verdict == report::Verdict::failed) check.reason = result.reason;
+    return check;
+}
 
 // Of one scenario, while it is played.
 class Player {
@@ -40,7 +63,7 @@ class Player {
 
     Played result() {
         const bool ended = world_.tick() >= lastFrame() * world_.ticksPerFrame();
-        played_.checks = reported(checks_.results(), !ended);
+        for (const check::Result& result : checks_.results()) played_.checks.push_back(reported(result, !ended));
         played_.warnings = printed(world_.warnings());
         return std::move(played_);
     }
@@ -104,12 +127,11 @@ class Player {
 
 Played playScenario(const Scenario& scenario, Drawer& drawer, const PlayOptions& options,
                     const std::atomic<bool>& stop) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
+    const core::Stopwatch watch;
     Player player(scenario, drawer, options);
     player.play(stop);
     Played played = player.result();
-    played.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    played.seconds = watch.seconds();
     return played;
 }
 

@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> scenarioFilesIn(const std::filesystem::path& 
         throw core::Error(
             core::ErrorKind::inputOutput,
             fmt::format("{}: there is no scenario in this folder, that is, no file NAME.toml", folder.string()));
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     return files;
 }
 
@@ -74,9 +74,9 @@ std::vector<GoldenRequest> goldenRequests(const world::SceneSpec& spec) {
     std::set<std::string> keys;
     const std::int64_t count = pipeline::frameCount(spec.run);
     for (const world::GoldenSpec& golden : spec.goldens) {
-        if (!golden.camera.empty() &&
-            std::none_of(spec.cameras.begin(), spec.cameras.end(),
-                         [&](const world::CameraSpec& camera) { return camera.name == golden.camera; }))
+        if (!golden.camera.empty() && std::ranges::none_of(spec.cameras, [&](const world::CameraSpec& camera) {
+                return camera.name == golden.camera;
+            }))
             refuse(spec, golden.source, fmt::format("there is no camera '{}'", golden.camera));
         for (const int frame : golden.frames) {
             if (frame < 0 || frame >= count)
@@ -87,8 +87,7 @@ std::vector<GoldenRequest> goldenRequests(const world::SceneSpec& spec) {
                 refuse(spec, golden.source, fmt::format("the golden picture of frame {} is asked for twice", frame));
         }
     }
-    std::stable_sort(requests.begin(), requests.end(),
-                     [](const GoldenRequest& a, const GoldenRequest& b) { return a.frame < b.frame; });
+    std::ranges::stable_sort(requests, {}, &GoldenRequest::frame);
     return requests;
 }
 

@@ -20,16 +20,12 @@ class Suite {
   public:
     Suite(const std::vector<Scenario>& scenarios, const SuiteOptions& options, const Manifest& manifest,
           const std::atomic<bool>& stop)
-        : scenarios_(scenarios), options_(options), manifest_(manifest), stop_(stop), results_(scenarios.size()) {
-        std::vector<double> costs;
-        for (const Scenario& scenario : scenarios)
-            costs.push_back(scene::sizeOf(scenario.spec).bytes() * scenario.spec.run.seconds);
-        order_.resize(scenarios.size());
-        std::iota(order_.begin(), order_.end(), std::size_t{0});
-        std::stable_sort(order_.begin(), order_.end(),
-                         [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
-    }
-
+        : scenarios_(scenarios),
+          options_(options),
+          manifest_(manifest),
+          stop_(stop),
+          results_(scenarios.size()),
+          order_(longestFirst(scenarios)) {}
     void run() {
         const int count = std::clamp(options_.sideBySide, 1, std::max(1, static_cast<int>(scenarios_.size())));
         std::vector<std::jthread> workers;
@@ -90,7 +86,7 @@ class Suite {
     const Manifest& manifest_;
     const std::atomic<bool>& stop_;
     std::vector<std::optional<report::TestScenario>> results_;
-    std::vector<std::size_t> order_;  // the longest first, so that none is left alone at the end
+    std::vector<std::size_t> order_;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<bool> failed_ = false;
     int done_ = 0;
@@ -100,6 +96,16 @@ class Suite {
 };
 
 }  // namespace
+
+std::vector<std::size_t> longestFirst(const std::vector<Scenario>& scenarios) {
+    std::vector<double> costs;
+    for (const Scenario& scenario : scenarios)
+        costs.push_back(scene::sizeOf(scenario.spec).bytes() * scenario.spec.run.seconds);
+    std::vector<std::size_t> order(costs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+    return order;
+}
 
 std::function<std::optional<std::vector<std::byte>>(const GoldenRequest&)> storedStates(const GoldenFolder& folder,
                                                                                         const Scenario& scenario) {

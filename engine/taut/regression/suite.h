@@ -31,6 +31,9 @@ std::vector<report::TestScenario> runSuite(const std::vector<Scenario>& scenario
                                            const Manifest& manifest, std::string& renderer,
                                            const std::atomic<bool>& stop);
 
+// By falling cost, so that no long one is left alone at the end.
+std::vector<std::size_t> longestFirst(const std::vector<Scenario>& scenarios);
+
 // The goldens of a folder as where restart pictures take their states from.
 std::function<std::optional<std::vector<std::byte>>(const GoldenRequest&)> storedStates(const GoldenFolder& folder,
                                                                                         const Scenario& scenario);

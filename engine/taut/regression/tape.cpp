@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "taut/core/bytes.h"
 #include "taut/core/error.h"
 #include "taut/ecs/registry.h"
 #include "taut/pipeline/machine.h"
@@ -32,23 +31,6 @@ std::uint32_t folded(std::uint64_t hash) {
     return static_cast<std::uint32_t>(hash ^ (hash >> 32U));
 }
 
-void addTexts(core::ByteWriter& writer, const std::vector<std::string>& texts) {
-    writer.add(static_cast<std::uint64_t>(texts.size()));
-    for (const std::string& text : texts) writer.add(text);
-}
-
-std::vector<std::string> texts(core::ByteReader& reader) {
-    std::vector<std::string> all;
-    // Not reserved: a count that is not true ends with the bytes.
-    for (auto left = reader.number<std::uint64_t>(); left > 0; --left) all.push_back(reader.text());
-    return all;
-}
-
-template <class Number>
-void addNumbers(core::ByteWriter& writer, const std::vector<Number>& numbers) {
-    writer.addList(std::span<const Number>(numbers));
-}
-
 // Finds where each tick begins, and thereby whether the lists fit each other.
 void index(Tape& tape) {
     std::size_t body = 0, point = 0;
@@ -65,37 +47,28 @@ void index(Tape& tape) {
     if (body != tape.bodies.size() || point != tape.points.size()) core::ByteReader::fail();
 }
 
-Tape tapeIn(std::span<const std::byte> content) {
-    core::ByteReader reader(content);
-    Tape tape;
-    for (std::string* text :
-         {&tape.origin.program, &tape.origin.compiler, &tape.origin.simd, &tape.origin.scene, &tape.origin.text})
-        *text = reader.text();
-    tape.origin.overrides = texts(reader);
-    tape.tickSeconds = reader.number<double>();
-    tape.ticksPerFrame = reader.number<std::int32_t>();
-    if (!(tape.tickSeconds > 0.0) || tape.ticksPerFrame < 1) core::ByteReader::fail();
-    for (auto left = reader.number<std::uint64_t>(); left > 0; --left) {
-        TapeBodies cast;
-        cast.names = texts(reader);
-        cast.points = reader.list<int>();
-        if (cast.points.size() != cast.names.size() ||
-            std::any_of(cast.points.begin(), cast.points.end(), [](int count) { return count < 0; }))
-            core::ByteReader::fail();
-        tape.casts.push_back(std::move(cast));
-    }
-    tape.castOf = reader.list<std::uint32_t>();
-    tape.chain = reader.list<std::uint64_t>();
-    tape.bodies = reader.list<std::uint64_t>();
-    tape.points = reader.list<std::uint32_t>();
-    if (!reader.isAtEnd()) tape.origin.files = scene::nextUsedFiles(reader);
-    tape.origin.bits = reader.isAtEnd() ? 1 : reader.number<std::int32_t>();
-    if (!reader.isAtEnd() || !world::areBits(tape.origin.bits)) core::ByteReader::fail();
-    index(tape);
-    return tape;
+}  // namespace
+
+void visit(core::Bytes& bytes, TapeBodies& cast) {
+    bytes(cast.names, cast.points);
+    bytes.require(cast.points.size() == cast.names.size() &&
+                  std::ranges::none_of(cast.points, [](int count) { return count < 0; }));
 }
 
-}  // namespace
+void visit(core::Bytes& bytes, Tape& tape) {
+    TapeOrigin& origin = tape.origin;
+    bytes(origin.program, origin.compiler, origin.simd, origin.scene, origin.text, origin.overrides, tape.tickSeconds,
+          tape.ticksPerFrame);
+    bytes.require(tape.tickSeconds > 0.0 && tape.ticksPerFrame >= 1);
+    bytes(tape.casts, tape.castOf, tape.chain, tape.bodies, tape.points);
+    if (!bytes.isAtEnd()) bytes(origin.files);
+    if (bytes.isAtEnd())
+        origin.bits = 1;
+    else
+        bytes(origin.bits);
+    bytes.require(world::areBits(origin.bits));
+    if (bytes.isReading()) index(tape);
+}
 
 Tape blankTape() {
     const pipeline::Machine machine = pipeline::machine();
@@ -136,36 +109,23 @@ void addTick(Tape& tape, world::World& world, bool withPoints) {
     tape.castOf.push_back(static_cast<std::uint32_t>(tape.casts.size() - 1));
 }
 
+std::optional<world::Divergence> addTicks(Tape& tape, world::World& world, std::int64_t last, bool withPoints,
+                                          const std::function<bool()>& goesOn) {
+    addTick(tape, world, withPoints);
+    while (world.tick() < last && goesOn()) {
+        if (auto divergence = world.advance()) return divergence;
+        addTick(tape, world, withPoints);
+    }
+    return std::nullopt;
+}
+
 void writeTape(const std::filesystem::path& path, const Tape& tape) {
     TAUT_EXPECTS(!tape.chain.empty());
-    core::ByteWriter writer;
-    for (const std::string& text :
-         {tape.origin.program, tape.origin.compiler, tape.origin.simd, tape.origin.scene, tape.origin.text})
-        writer.add(text);
-    addTexts(writer, tape.origin.overrides);
-    writer.add(tape.tickSeconds);
-    writer.add(static_cast<std::int32_t>(tape.ticksPerFrame));
-    writer.add(static_cast<std::uint64_t>(tape.casts.size()));
-    for (const TapeBodies& cast : tape.casts) {
-        addTexts(writer, cast.names);
-        addNumbers(writer, cast.points);
-    }
-    addNumbers(writer, tape.castOf);
-    addNumbers(writer, tape.chain);
-    addNumbers(writer, tape.bodies);
-    addNumbers(writer, tape.points);
-    scene::addUsedFiles(writer, tape.origin.files);
-    writer.add(static_cast<std::int32_t>(tape.origin.bits));
-    pipeline::writeSealed(path, kind, writer.take());
+    pipeline::writeSealedValue(path, kind, tape);
 }
 
 Tape readTape(const std::filesystem::path& path) {
-    const std::vector<std::byte> content = pipeline::readSealed(path, kind);
-    try {
-        return tapeIn(content);
-    } catch (const core::Error& error) {
-        throw core::Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
-    }
+    return pipeline::readSealedValue<Tape>(path, kind);
 }
 
 }  // namespace taut::regression

@@ -4,9 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "taut/island/report.h"
 #include "taut/scene/private/used_files.h"
 #include "taut/world/result_bits.h"
 
@@ -49,11 +52,19 @@ struct Tape {
     std::int64_t ticks() const { return static_cast<std::int64_t>(chain.size()) - 1; }  // after the start
 };
 
+void visit(core::Bytes& bytes, TapeBodies& cast);
+void visit(core::Bytes& bytes, Tape& tape);
+
 // A tape of this program, without ticks.
 Tape blankTape();
 
 // Adds the moment that the world is at, which follows the last one on the tape; of a world after its start the rates.
 void addTick(Tape& tape, world::World& world, bool withPoints);
+
+// Adds the present moment of a world and those up to the tick `last`; ends before it on divergence, which it returns,
+// or where `goesOn` is false.
+std::optional<world::Divergence> addTicks(Tape& tape, world::World& world, std::int64_t last, bool withPoints,
+                                          const std::function<bool()>& goesOn);
 
 // Throw core::Error: inputOutput, or badContent for other files, a damaged tape, or one of another version.
 void writeTape(const std::filesystem::path& path, const Tape& tape);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "taut/core/private/contains.h"
+
 namespace taut::regression {
 namespace {
 
@@ -20,7 +22,7 @@ TapeDifference differenceAt(const Tape& tape, std::size_t tick, TapeFault fault)
 std::string oddOne(const TapeBodies& a, const TapeBodies& b) {
     for (const auto& [from, other] : {std::pair(&a, &b), std::pair(&b, &a)})
         for (const std::string& name : from->names)
-            if (std::find(other->names.begin(), other->names.end(), name) == other->names.end()) return name;
+            if (!core::contains(other->names, name)) return name;
     return *std::mismatch(a.names.begin(), a.names.end(), b.names.begin(), b.names.end()).first;
 }
 

@@ -63,6 +63,8 @@ Program::Program(const Gl& gl, GlObject object) : gl_(&gl), object_(std::move(ob
     set("shapes", static_cast<int>(shapesUnit));
     set("materials", static_cast<int>(materialsUnit));
     set("environment", static_cast<int>(environmentUnit));
+    set("hidden", static_cast<int>(hiddenUnit));
+    set("depths", static_cast<int>(hiddenUnit));
     for (std::size_t lamp = 0; lamp < view::mostLamps; ++lamp) {
         const std::string number = "[" + std::to_string(lamp) + "]";
         set("lampMaps" + number, lampUnits(lamp).map);

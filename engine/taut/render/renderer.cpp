@@ -285,7 +285,7 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
         gl().ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         gl().Clear(GL_COLOR_BUFFER_BIT);
     }
-    parts->surfaces.light(lights.kind, view.camera, pass.part, parts->targets.size(), pass.shift);
+    parts->surfaces.light(lights.kind, view.camera, pass.part, parts->targets, pass.shift, options.occlusion);
     passDone("light");
     ground.draw(pass.projection);
     passDone("ground");
@@ -333,7 +333,7 @@ void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, const LightK
     parts->targets.bindShading();
     gl().ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     gl().Clear(GL_COLOR_BUFFER_BIT);
-    parts->surfaces.light(lights, scene.view.camera, part, parts->targets.size(), pass.shift);
+    parts->surfaces.light(lights, scene.view.camera, part, parts->targets, pass.shift, false);
     parts->shaded.box = part;
     parts->targets.colours(parts->thinColours);
     takePart(parts->thinColours, options.width, part, parts->shaded.colour);

@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "taut/render/private/edge_pass.h"
+#include "taut/render/private/targets.h"
 #include "taut/view/camera_axes.h"
 
 namespace taut::render {
@@ -12,6 +13,10 @@ namespace taut::render {
 namespace {
 
 constexpr std::size_t mostMaterials = 16384;  // GL takes textures of that many rows
+
+bool isWoven(const view::Finish& finish) {
+    return finish.weave > 0.0F || finish.fuzz > 0.0F;
+}
 
 }  // namespace
 
@@ -34,6 +39,7 @@ SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudge
     : gl_(&gl),
       shaders_(&shaders),
       textures_(gl, budget),
+      occlusion_(shaders.program("screen.vert", "nearby.frag")),
       materialTexture_(gl, GlKind::texture),
       empty_(gl, GlKind::vertexArray) {
     programUnder({});
@@ -44,16 +50,17 @@ SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudge
 }
 
 Program& SurfacePass::programFor(const view::Surface& surface) {
-    const bool woven = surface.finish->weave > 0.0F;
-    const bool fibres = surface.finish->anisotropy > 0.0F;
-    const auto key = std::make_tuple(surface.finish->pattern, woven, surface.twoSided, fibres);
-    const auto known = programs_.find(key);
-    if (known != programs_.end()) return known->second;
-    std::vector<std::string> definitions{"PATTERN " + std::to_string(static_cast<int>(surface.finish->pattern))};
-    if (woven) definitions.emplace_back("WEAVE");
+    const view::Finish& finish = *surface.finish;
+    std::vector<std::string> definitions{"PATTERN " + std::to_string(static_cast<int>(finish.pattern))};
+    if (isWoven(finish)) definitions.push_back("WEAVE " + std::to_string(static_cast<int>(finish.binding)));
+    if (finish.slub > 0.0F) definitions.emplace_back("SLUB");
+    if (finish.fuzz > 0.0F) definitions.emplace_back("FUZZ");
     if (surface.twoSided) definitions.emplace_back("TWO_SIDED");
-    if (fibres) definitions.emplace_back("FIBRES");
-    return programs_.emplace(key, shaders_->program("surface.vert", "surface.frag", definitions)).first->second;
+    if (finish.anisotropy > 0.0F) definitions.emplace_back("FIBRES");
+    const auto known = programs_.find(definitions);
+    if (known != programs_.end()) return known->second;
+    Program program = shaders_->program("surface.vert", "surface.frag", definitions);
+    return programs_.emplace(std::move(definitions), std::move(program)).first->second;
 }
 
 Program& SurfacePass::programUnder(const LightKind& kind) {
@@ -67,8 +74,8 @@ int SurfacePass::rowOf(const view::Surface& surface) {
     const view::Finish& finish = *surface.finish;
     const Material material{glm::vec4(finish.back, finish.roughness),
                             {finish.sheen, surface.dulled - surface.greyed,
-                             surface.twoSided ? finish.translucency : 0.0F, finish.weave > 0.0F ? 1.0F : 0.0F},
-                            {finish.anisotropy, 0.0F, 0.0F, 0.0F}};
+                             surface.twoSided ? finish.translucency : 0.0F, isWoven(finish) ? 1.0F : 0.0F},
+                            {finish.anisotropy, finish.fuzz, 0.0F, 0.0F}};
     const auto known = std::find(materials_.rbegin(), materials_.rend(), material);
     if (known != materials_.rend()) return static_cast<int>(materials_.rend() - known) - 1;
     if (materials_.size() == mostMaterials)
@@ -95,7 +102,10 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
         program.set("accentColour", finish.accent);
         program.set("repeat", std::max(finish.repeat, 1e-4F));
         program.set("weave", finish.weave);
+        program.set("weftColour", finish.back);
         program.set("thread", std::max(finish.thread, 1e-5F));
+        program.set("slub", finish.slub);
+        program.set("fuzz", finish.fuzz);
         program.set("material", rowOf(surface));
         program.set("mark", static_cast<int>(std::lround(255.0F * itemMark(i))));
         if (finish.pattern == view::Pattern::image) textures_.bind(finish.texture);
@@ -115,9 +125,22 @@ void SurfacePass::bindMaterials() {
                     materials_.data());
 }
 
-void SurfacePass::light(const LightKind& kind, const view::Camera& camera, const PixelBox& part, glm::ivec2 size,
-                        glm::vec2 shift) {
+void SurfacePass::light(const LightKind& kind, const view::Camera& camera, const PixelBox& part, const Targets& targets,
+                        glm::vec2 shift, bool occlusion) {
     if (materials_.empty() || part.width == 0 || part.height == 0) return;
+    const glm::ivec2 size = targets.size();
+    gl_->BindVertexArray(empty_.id());
+    gl_->Enable(GL_SCISSOR_TEST);
+    targets.bindHidden();
+    gl_->Disable(GL_DEPTH_TEST);
+    gl_->Scissor(part.x / 2 - 1, part.y / 2 - 1, part.width / 2 + 3, part.height / 2 + 3);
+    occlusion_.use();
+    setRays(occlusion_, camera, size, shift);
+    occlusion_.set("ends", 1.0F / glm::vec2(camera.nearPlane, camera.farPlane));
+    occlusion_.set("strength", occlusion ? 1.0F : 0.0F);
+    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+
+    targets.bindShading();
     bindMaterials();
     Program& light = programUnder(kind);
     light.use();
@@ -126,9 +149,7 @@ void SurfacePass::light(const LightKind& kind, const view::Camera& camera, const
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_GREATER);
     gl_->DepthMask(GL_FALSE);
-    gl_->Enable(GL_SCISSOR_TEST);
     gl_->Scissor(part.x, part.y, part.width, part.height);
-    gl_->BindVertexArray(empty_.id());
     gl_->DrawArrays(GL_TRIANGLES, 0, 3);
     gl_->Disable(GL_SCISSOR_TEST);
     gl_->DepthMask(GL_TRUE);

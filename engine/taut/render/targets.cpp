@@ -36,6 +36,7 @@ Targets::Targets(const Gl& gl, int width, int height)
       colour_(gl, GlKind::renderbuffer),
       target_(gl, GlKind::framebuffer),
       surfaceTarget_(gl, GlKind::framebuffer),
+      hiddenTarget_(gl, GlKind::framebuffer),
       putTarget_(gl, GlKind::framebuffer) {
     expectSize(gl, width, height);
     const auto attach = [&](const GlObject& target, GLenum point, const GlObject& texture) {
@@ -46,27 +47,31 @@ Targets::Targets(const Gl& gl, int width, int height)
     // Shaded picture.
     gl.BindRenderbuffer(GL_RENDERBUFFER, colour_.id());
     gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, width, height);
-    depth_ = texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+    depth_ = texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height);
     gl.BindFramebuffer(GL_FRAMEBUFFER, target_.id());
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.id());
     attach(target_, GL_DEPTH_ATTACHMENT, depth_);
     expectComplete(gl);
 
     // What is seen of surfaces, in front of the same depth.
-    tints_ = texture(GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT);
-    shapes_ = texture(GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+    tints_ = texture(GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, width, height);
+    shapes_ = texture(GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, width, height);
     attach(surfaceTarget_, GL_COLOR_ATTACHMENT0, tints_);
     attach(surfaceTarget_, GL_COLOR_ATTACHMENT1, shapes_);
     attach(surfaceTarget_, GL_DEPTH_ATTACHMENT, depth_);
     const std::array<GLenum, 2> both{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     gl.DrawBuffers(2, both.data());
     expectComplete(gl);
+
+    hidden_ = texture(GL_RG32F, GL_RG, GL_FLOAT, (width + 1) / 2, (height + 1) / 2);
+    attach(hiddenTarget_, GL_COLOR_ATTACHMENT0, hidden_);
+    expectComplete(gl);
 }
 
-GlObject Targets::texture(GLenum format, GLenum layout, GLenum type) const {
+GlObject Targets::texture(GLenum format, GLenum layout, GLenum type, int width, int height) const {
     GlObject object(*gl_, GlKind::texture);
     gl_->BindTexture(GL_TEXTURE_2D, object.id());
-    gl_->TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width_, height_, 0, layout, type, nullptr);
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, layout, type, nullptr);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -78,20 +83,28 @@ void Targets::bindTexture(int unit, const GlObject& object) const {
     gl_->BindTexture(GL_TEXTURE_2D, object.id());
 }
 
-void Targets::bind(const GlObject& target) const {
+void Targets::bind(const GlObject& target, int width, int height) const {
     gl_->BindFramebuffer(GL_FRAMEBUFFER, target.id());
-    gl_->Viewport(0, 0, width_, height_);
+    gl_->Viewport(0, 0, width, height);
 }
 
 void Targets::bindSurfaces() const {
-    bind(surfaceTarget_);
+    bind(surfaceTarget_, width_, height_);
+    gl_->Disable(GL_FRAMEBUFFER_SRGB);
+}
+
+void Targets::bindHidden() const {
+    bind(hiddenTarget_, (width_ + 1) / 2, (height_ + 1) / 2);
+    bindTexture(hiddenUnit, depth_);
+    bindTexture(shapesUnit, shapes_);
     gl_->Disable(GL_FRAMEBUFFER_SRGB);
 }
 
 void Targets::bindShading() const {
-    bind(target_);
+    bind(target_, width_, height_);
     bindTexture(tintsUnit, tints_);
     bindTexture(shapesUnit, shapes_);
+    bindTexture(hiddenUnit, hidden_);
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
 }
 
@@ -124,7 +137,7 @@ std::vector<float> Targets::nearness(const PixelBox& part) const {
 
 void Targets::put(std::span<const std::uint32_t> colours) {
     if (putColour_.id() == 0) {
-        putColour_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+        putColour_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, width_, height_);
         gl_->BindFramebuffer(GL_FRAMEBUFFER, putTarget_.id());
         gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, putColour_.id(), 0);
         expectComplete(*gl_);

@@ -1,17 +1,19 @@
-// A report as bytes and back, so that one may be made of several, by another process. It writes no file.
+// The members of a report for core::Bytes, so that one report may be made of several, by another process. It writes no
+// file.
 #pragma once
 
-#include <cstddef>
-#include <span>
-#include <vector>
-
+#include "taut/core/bytes.h"
 #include "taut/report/test_report.h"
 
 namespace taut::report {
 
-std::vector<std::byte> bytesOf(const TestReport& report);
-
-// Throws core::Error(badContent) for bytes that are none of a report.
-TestReport reportIn(std::span<const std::byte> bytes);
+void visit(core::Bytes& bytes, Verdict& verdict);
+void visit(core::Bytes& bytes, TestCheck& check);
+void visit(core::Bytes& bytes, TestState& state);
+void visit(core::Bytes& bytes, TestPicture& picture);
+void visit(core::Bytes& bytes, TextChange& change);
+void visit(core::Bytes& bytes, TestScenario& scenario);
+void visit(core::Bytes& bytes, CalibrationRow& row);
+void visit(core::Bytes& bytes, TestReport& report);
 
 }  // namespace taut::report

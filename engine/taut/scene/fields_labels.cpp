@@ -33,18 +33,9 @@ void checkLabel(const CheckInput& input, const LabelSpec& label) {
 }  // namespace
 
 SceneSection labelSection() {
-    SceneSection section;
-    section.name = "label";
-    section.layout = Layout::named;
-    section.help = "A line of text in the picture, with a font of Debian's package fonts-dejavu-core.";
-    section.enter = enterNamed(&SceneSpec::labels);
-    section.variant = [](const Node& table) -> std::string {
-        return table.find("of") != nullptr       ? ofBodies
-               : table.find("at") != nullptr     ? inWorld
-               : table.find("screen") != nullptr ? onScreen
-                                                 : "";
-    };
-    section.fields =
+    SceneSection section = sectionOf(
+        "label", "A line of text in the picture, with a font of Debian's package fonts-dejavu-core.",
+        &SceneSpec::labels,
         FieldList<LabelSpec>()
             .text("text", &LabelSpec::text, Role::none, "Text; of bodies by default the name of their method.")
             .vector("at", &LabelSpec::at, "m", Range{-1e6, 1e6}, "Place in the world.")
@@ -62,7 +53,13 @@ SceneSection labelSection() {
             .number("plate", &LabelSpec::plate, "", share, "Darkness of a plate behind the text.")
             .number("from_s", &LabelSpec::from, "s", Range{0.0, 1e6}, "Time at which it appears; default the start.")
             .number("to_s", &LabelSpec::to, "s", Range{0.0, 1e6}, "Time at which it disappears; default never.")
-            .take();
+            .take());
+    section.variant = [](const Node& table) -> std::string {
+        return table.find("of") != nullptr       ? ofBodies
+               : table.find("at") != nullptr     ? inWorld
+               : table.find("screen") != nullptr ? onScreen
+                                                 : "";
+    };
     section.check = [](const CheckInput& input, void* target) {
         checkLabel(input, *static_cast<const LabelSpec*>(target));
     };

@@ -63,11 +63,8 @@ SceneSection fileSection() {
 }
 
 SceneSection needSection() {
-    SceneSection section;
-    section.name = "need";
-    section.help = "Required accuracy of the scene.";
-    section.enter = enterPart(&SceneSpec::need);
-    section.fields =
+    return sectionOf(
+        "need", "Required accuracy of the scene.", &SceneSpec::need,
         FieldList<NeedSpec>()
             .number("rms_position_m", &NeedSpec::rmsPosition, "m", positive,
                     "Largest RMS error of positions, over points and time.")
@@ -76,16 +73,12 @@ SceneSection needSection() {
             .number("rms_pixels", &NeedSpec::rmsPixels, "px", positive, "Largest RMS error in pixels of the picture.")
             .number("horizon_s", &NeedSpec::horizon, "s", seconds, "Time until which the error counts.")
             .number("budget_ms", &NeedSpec::budget, "ms", positive, "Largest processor time of a frame.")
-            .take();
-    return section;
+            .take());
 }
 
 SceneSection solverSection() {
-    SceneSection section;
-    section.name = "solver";
-    section.help = "Integration.";
-    section.enter = enterPart(&SceneSpec::solver);
-    section.fields =
+    return sectionOf(
+        "solver", "Integration.", &SceneSpec::solver,
         FieldList<SolverSpec>()
             .choice("integrator", &SolverSpec::integrator, methodNames(), "Method of integration.")
             .role(Role::method)
@@ -107,65 +100,48 @@ SceneSection solverSection() {
                     "Strain of a spring that counts as diverged, with on_divergence = \"freeze\".")
             .number("sleep_error_m", &SolverSpec::sleepError, "m", Range{0.0, 1.0},
                     "Largest position error of sleeping bodies; 0: nothing sleeps.")
-            .take();
-    return section;
+            .take());
 }
 
 SceneSection worldSection() {
-    SceneSection section;
-    section.name = "world";
-    section.help = "Surroundings.";
-    section.enter = enterPart(&SceneSpec::world);
-    section.existing = findPart(&SceneSpec::world);
-    section.fields = FieldList<WorldSpec>()
+    return sectionOf("world", "Surroundings.", &SceneSpec::world,
+                     FieldList<WorldSpec>()
                          .vector("gravity", &WorldSpec::gravity, "m/s²", Range{-1e6, 1e6}, "Acceleration of gravity.")
                          .number("air_density_kg_per_m3", &WorldSpec::airDensity, "kg/m³", Range{0.0, 1e6},
                                  "Density of the air, for wind.")
                          .number("air_pressure_Pa", &WorldSpec::airPressure, "Pa", Range{0.0, 1e9},
                                  "Pressure of the air outside sealed fillings; 0: none.")
                          .allRamp(Affects::forces)
-                         .take();
-    return section;
+                         .take());
 }
 
 SceneSection contactSection() {
-    SceneSection section;
-    section.name = "contact";
-    section.help = "Contact between bodies with `touch`.";
-    section.enter = enterPart(&SceneSpec::contact);
-    section.fields = FieldList<ContactSpec>()
+    return sectionOf("contact", "Contact between bodies with `touch`.", &SceneSpec::contact,
+                     FieldList<ContactSpec>()
                          .number("friction", &ContactSpec::friction, "", Range{0.0, 100.0},
                                  "Coulomb's coefficient between two bodies, times the factors of the two bodies.")
                          .number("restitution", &ContactSpec::restitution, "", Range{0.0, 1.0},
                                  "Speed after a bounce over speed before, times the factors of the two bodies.")
                          .whole("detections", &ContactSpec::detections, "", Range{1, 1024},
                                 "Smallest number of detections of contact pairs in a tick; default as speeds need.")
-                         .take();
-    return section;
+                         .take());
 }
 
 SceneSection runSection() {
-    SceneSection section;
-    section.name = "run";
-    section.help = "Length of the scene.";
-    section.enter = enterPart(&SceneSpec::run);
-    section.fields = FieldList<RunSpec>()
+    return sectionOf("run", "Length of the scene.", &SceneSpec::run,
+                     FieldList<RunSpec>()
                          .number("fps", &RunSpec::fps, "1/s", Range{0.1, 1000.0}, "Pictures per second of scene time.")
                          .number("seconds", &RunSpec::seconds, "s", seconds, "Length of the run.")
                          .role(Role::time)
                          .text("start", &RunSpec::start, Role::state,
                                "File of a state of an earlier run of the same bodies (taut render --keep-state): the "
                                "run continues from it, at its time.")
-                         .take();
-    return section;
+                         .take());
 }
 
 SceneSection pictureSection() {
-    SceneSection section;
-    section.name = "picture";
-    section.help = "Picture.";
-    section.enter = enterPart(&SceneSpec::picture);
-    section.fields =
+    return sectionOf(
+        "picture", "Picture.", &SceneSpec::picture,
         FieldList<PictureSpec>()
             .vector("size", &PictureSpec::size, "px", Range{16, 16384}, "Width and height.")
             .text("camera", &PictureSpec::camera, Role::camera, "Name of the camera; default the first by name.")
@@ -176,17 +152,12 @@ SceneSection pictureSection() {
             .multipleOf(128)
             .whole("smooth", &PictureSpec::smooth, "", Range{0.0, 3.0},
                    "Replaces finish.smooth of every cloth and rope.")
-            .take();
-    return section;
+            .take());
 }
 
 SceneSection lightSection() {
-    SceneSection section;
-    section.name = "light";
-    section.help = "The sun and the light of the sky.";
-    section.enter = enterPart(&SceneSpec::light);
-    section.existing = findPart(&SceneSpec::light);
-    section.fields =
+    return sectionOf(
+        "light", "The sun and the light of the sky.", &SceneSpec::light,
         FieldList<LightSpec>()
             .direction("direction", &LightSpec::direction, "Direction in which the light travels; any length.")
             .colour("colour", &LightSpec::colour, "Colour of the direct light.")
@@ -198,17 +169,13 @@ SceneSection lightSection() {
             .colour("ground", &LightSpec::ground, "Ambient light from below.")
             .number("ambient", &LightSpec::ambient, "", Range{0.0, 1000.0}, "Strength of the ambient light.")
             .allRamp(inPicture)
-            .take();
-    return section;
+            .take());
 }
 
 SceneSection environmentSection() {
-    SceneSection section;
-    section.name = "environment";
-    section.help = "A distant picture around the scene that replaces the light of sky and ground.";
-    section.enter = enterPart(&SceneSpec::environment);
-    section.existing = findPart(&SceneSpec::environment);
-    section.fields =
+    return sectionOf(
+        "environment", "A distant picture around the scene that replaces the light of sky and ground.",
+        &SceneSpec::environment,
         FieldList<EnvironmentSpec>()
             .text("image", &EnvironmentSpec::image, Role::environment,
                   "Equirectangular Radiance HDR, PNG or JPEG, twice as wide as high; its middle lies at -z, its right "
@@ -218,18 +185,12 @@ SceneSection environmentSection() {
             .degrees("turn_deg", &EnvironmentSpec::turn, Range{-3600.0, 3600.0}, "Rotation about the vertical.")
             .flag("visible", &EnvironmentSpec::visible, "Whether it is visible in place of the background.")
             .allRamp(inPicture)
-            .take();
-    return section;
+            .take());
 }
 
 SceneSection lampSection() {
-    SceneSection section;
-    section.name = "lamp";
-    section.layout = Layout::named;
-    section.help = "A further distant light, e.g. to fill shadows or to draw an outline; at most two.";
-    section.enter = enterNamed(&SceneSpec::lamps);
-    section.existing = findNamed(&SceneSpec::lamps);
-    section.fields =
+    return sectionOf(
+        "lamp", "A further distant light, e.g. to fill shadows or to draw an outline; at most two.", &SceneSpec::lamps,
         FieldList<LampSpec>()
             .direction("direction", &LampSpec::direction, "Direction in which the light travels; any length.")
             .colour("colour", &LampSpec::colour, "Colour.")
@@ -237,17 +198,12 @@ SceneSection lampSection() {
             .degrees("softness_deg", &LampSpec::softness, lightSize, "Apparent size, as that of the sun.")
             .flag("shadow", &LampSpec::shadow, "Whether it casts shadows, which cost as much as those of the sun.")
             .allRamp(inPicture)
-            .take();
-    return section;
+            .take());
 }
 
 SceneSection backgroundSection() {
-    SceneSection section;
-    section.name = "background";
-    section.help = "Background.";
-    section.enter = enterPart(&SceneSpec::background);
-    section.existing = findPart(&SceneSpec::background);
-    section.fields =
+    SceneSection section = sectionOf(
+        "background", "Background.", &SceneSpec::background,
         FieldList<BackgroundSpec>()
             .colour("top", &BackgroundSpec::top, "Colour at the top of the picture.")
             .colour("horizon", &BackgroundSpec::horizon, "Colour at the horizon.")
@@ -256,7 +212,7 @@ SceneSection backgroundSection() {
                     "distant cameras.")
             .number("fade_end", &BackgroundSpec::fadeEnd, "m", positive, "Distance at which the ground has faded.")
             .allRamp(inPicture)
-            .take();
+            .take());
     section.check = [](const CheckInput& input, void* target) {
         auto& background = *static_cast<BackgroundSpec*>(target);
         background.fadesWithCamera =
@@ -283,19 +239,9 @@ SceneSection cameraSection() {
             .degrees("fov_deg", &CameraKey::fieldOfView, fieldOfView, "Field of view; default that of the camera.")
             .choice("ease", &CameraKey::ease, easeNames(), "Easing from the key before to this one.")
             .take();
-    SceneSection section;
-    section.name = "camera";
-    section.layout = Layout::named;
-    section.help = "A camera.";
-    section.enter = enterNamed(&SceneSpec::cameras);
-    section.existing = findNamed(&SceneSpec::cameras);
-    section.variant = [](const Node& table) -> std::string {
-        return table.find("keys") != nullptr             ? "a camera with keys"
-               : table.find("orbit_period_s") != nullptr ? "an orbiting camera"
-                                                         : "a still camera";
-    };
     // The camera; with keys it has no place of its own.
-    section.fields =
+    SceneSection section = sectionOf(
+        "camera", "A camera.", &SceneSpec::cameras,
         FieldList<CameraSpec>()
             .vector("eye", &CameraSpec::eye, "m", Range{-1e6, 1e6}, "Position of the camera.")
             .ramps(inPicture)
@@ -315,7 +261,12 @@ SceneSection cameraSection() {
                     "Time by which the camera comes after the followed body.")
             .tables("keys", &CameraSpec::keys, key, "Keyframes, in the order of time.")
             .only({"a camera with keys"})
-            .take();
+            .take());
+    section.variant = [](const Node& table) -> std::string {
+        return table.find("keys") != nullptr             ? "a camera with keys"
+               : table.find("orbit_period_s") != nullptr ? "an orbiting camera"
+                                                         : "a still camera";
+    };
     section.check = [](const CheckInput& input, void* target) {
         checkAscending(input);
         if (input.isClean) checkCamera(input, *static_cast<const CameraSpec*>(target));

@@ -155,31 +155,20 @@ SceneSection seamSection() {
 }
 
 SceneSection massSection() {
-    SceneSection section;
-    section.name = "mass";
-    section.layout = Layout::list;
-    section.help = "Mass added to points.";
-    section.enter = enterNamed(&SceneSpec::masses);
-    section.fields =
+    return sectionOf(
+        "mass", "Mass added to points.", &SceneSpec::masses,
         FieldList<MassSpec>()
             .text("target", &MassSpec::target, Role::points, "Points: KIND.NAME@SELECTOR.")
             .required()
             .number("mass_kg", &MassSpec::mass, "kg", positive, "Added mass, shared evenly among the points.")
             .required()
-            .take();
-    return section;
+            .take(),
+        Layout::list);
 }
 
 SceneSection colliderSection(const collision::ShapeKinds& shapes) {
-    SceneSection section;
-    section.name = "collider";
-    section.layout = Layout::named;
-    section.help = "A rigid obstacle, at rest or moved by keys.";
-    section.enter = enterNamed(&SceneSpec::colliders);
-    section.existing = findNamed(&SceneSpec::colliders);
-    section.variant = shapeNameIn;
-    section.variantKey = "shape";
-    section.fields =
+    SceneSection section = sectionOf(
+        "collider", "A rigid obstacle, at rest or moved by keys.", &SceneSpec::colliders,
         shapeRows<ColliderSpec>(shapes, colliderMesh)
             .direction("normal", &ColliderSpec::normal, "Direction away from the solid; any length.")
             .only(namesOf(shapes, "normal"))
@@ -211,7 +200,9 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
                     "Radius of a drawn box's edges, except at its foot on the ground.")
             .only(namesOf(shapes, "edge"))
             .table("finish", &ColliderSpec::finish, finishSection(), "Appearance.")
-            .take();
+            .take());
+    section.variant = shapeNameIn;
+    section.variantKey = "shape";
     section.check = [](const CheckInput& input, void* target) {
         checkCollider(input, *static_cast<ColliderSpec*>(target));
     };

@@ -9,17 +9,13 @@ namespace taut::scene {
 using namespace world;
 
 SceneSection handSection() {
-    SceneSection section;
-    section.name = "hand";
-    section.help = "Limits of a hand in live play; every step allows for it.";
-    section.enter = enterPart(&SceneSpec::hand);
-    section.fields = FieldList<HandSpec>()
+    return sectionOf("hand", "Limits of a hand in live play; every step allows for it.", &SceneSpec::hand,
+                     FieldList<HandSpec>()
                          .flag("anywhere", &HandSpec::anywhere, "Whether any point of any body may be grabbed.")
                          .number("strength_N_per_m", &HandSpec::strength, "N/m", positive, "Largest speed of a hand.")
                          .number("damping_ratio", &HandSpec::dampingRatio, "", Range{0.0, 10.0},
                                  "Largest acceleration of the grabbed mass by the spring of a hand.")
-                         .take();
-    return section;
+                         .take());
 }
 
 SceneSection atSection(const KindTable<ActionSpec>& kinds) {
@@ -55,29 +51,27 @@ SceneSection atSection(const KindTable<ActionSpec>& kinds) {
 }
 
 SceneSection checkSection() {
-    SceneSection section;
-    section.name = "check";
-    section.layout = Layout::list;
-    section.help = "A claim about the state, for taut test.";
-    section.enter = enterNamed(&SceneSpec::checks);
+    SceneSection section =
+        sectionOf("check", "A claim about the state, for taut test.", &SceneSpec::checks,
+                  FieldList<CheckSpec>()
+                      .text("that", &CheckSpec::that, Role::none,
+                            "Claim, e.g. \"max_strain(cloth.*) < 0.1\"; it must hold at every tick unless a time or "
+                            "a span is given.")
+                      .required()
+                      .number("at", &CheckSpec::at, "s", momentRange, "Only time.")
+                      .role(Role::time)
+                      .only({"a check at a moment"})
+                      .number("from", &CheckSpec::from, "s", momentRange, "First time.")
+                      .role(Role::time)
+                      .only({"a check of a span"})
+                      .number("to", &CheckSpec::upTo, "s", momentRange, "Last time.")
+                      .role(Role::time)
+                      .only({"a check of a span"})
+                      .take(),
+                  Layout::list);
     section.variant = [](const Node& table) -> std::string {
         return table.find("at") != nullptr ? "a check at a moment" : "a check of a span";
     };
-    section.fields = FieldList<CheckSpec>()
-                         .text("that", &CheckSpec::that, Role::none,
-                               "Claim, e.g. \"max_strain(cloth.*) < 0.1\"; it must hold at every tick unless a time or "
-                               "a span is given.")
-                         .required()
-                         .number("at", &CheckSpec::at, "s", momentRange, "Only time.")
-                         .role(Role::time)
-                         .only({"a check at a moment"})
-                         .number("from", &CheckSpec::from, "s", momentRange, "First time.")
-                         .role(Role::time)
-                         .only({"a check of a span"})
-                         .number("to", &CheckSpec::upTo, "s", momentRange, "Last time.")
-                         .role(Role::time)
-                         .only({"a check of a span"})
-                         .take();
     section.check = [](const CheckInput& input, void* target) {
         const auto& check = *static_cast<const CheckSpec*>(target);
         if (input.isClean && check.from && check.upTo && !(*check.from < *check.upTo))
@@ -123,11 +117,8 @@ Section fitTargetSection() {
 }  // namespace
 
 SceneSection fitSection() {
-    SceneSection section;
-    section.name = "fit";
-    section.help = "Numbers of the scene that taut fit fits, and measurements.";
-    section.enter = enterPart(&SceneSpec::fit);
-    section.fields =
+    return sectionOf(
+        "fit", "Numbers of the scene that taut fit fits, and measurements.", &SceneSpec::fit,
         FieldList<FitSpec>()
             .texts("keys", &FitSpec::keys, Role::none,
                    "At most six numbers, as --set names them, e.g. \"material.m.bending_rigidity_N_m\".")
@@ -137,17 +128,12 @@ SceneSection fitSection() {
             .numbers("high", &FitSpec::high, "Upper bound of each number.")
             .required()
             .tables("target", &FitSpec::targets, fitTargetSection(), "Measurements, one [[fit.target]] for each.")
-            .take();
-    return section;
+            .take());
 }
 
 SceneSection goldenSection() {
-    SceneSection section;
-    section.name = "golden";
-    section.layout = Layout::list;
-    section.help = "Frames that taut test compares with recorded ones.";
-    section.enter = enterNamed(&SceneSpec::goldens);
-    section.fields =
+    SceneSection section = sectionOf(
+        "golden", "Frames that taut test compares with recorded ones.", &SceneSpec::goldens,
         FieldList<GoldenSpec>()
             .wholes("frames", &GoldenSpec::frames, Range{0.0, 1e9}, "Numbers of the frames, from 0.")
             .required()
@@ -156,7 +142,8 @@ SceneSection goldenSection() {
             .flag("debug", &GoldenSpec::debug, "Whether springs, points and contacts are drawn.")
             .text("camera", &GoldenSpec::camera, Role::camera, "Name of the camera; default that of [picture].")
             .vector("size", &GoldenSpec::size, "px", Range{16, 16384}, "Width and height.")
-            .take();
+            .take(),
+        Layout::list);
     section.check = [](const CheckInput& input, void* target) {
         if (input.isClean && static_cast<const GoldenSpec*>(target)->frames.empty())
             input.problems.addError(input.at("frames"), "frames must not be empty");

@@ -90,23 +90,4 @@ std::vector<std::string> changedSince(std::span<const UsedFile> files) {
     return changes;
 }
 
-void addUsedFiles(core::ByteWriter& writer, std::span<const UsedFile> files) {
-    writer.add(static_cast<std::uint64_t>(files.size()));
-    for (const UsedFile& file : files) {
-        writer.add(file.path);
-        writer.add(file.content);
-    }
-}
-
-std::vector<UsedFile> nextUsedFiles(core::ByteReader& reader) {
-    std::vector<UsedFile> files;
-    // Does not reserve: with a wrong count the bytes end first.
-    for (auto left = reader.number<std::uint64_t>(); left > 0; --left) {
-        UsedFile file{reader.text()};
-        file.content = reader.number<std::uint64_t>();
-        files.push_back(std::move(file));
-    }
-    return files;
-}
-
 }  // namespace taut::scene

@@ -36,7 +36,9 @@ void checkJoint(const fields::CheckInput& input, const JointSpec& joint) {
         const Target target = parseTarget(text);
         return target.kind == "collider" || target.selector.empty() || target.selector == "all";
     };
-    const auto areWhole = [&](const JointSide& side) { return std::ranges::all_of(side.targets, isWhole); };
+    const auto areWhole = [&](const JointSide& side) {
+        return std::all_of(side.targets.begin(), side.targets.end(), isWhole);
+    };
     if (joint.place && !areWhole(joint.a) && !areWhole(joint.b))
         input.problems.addError(input.at("place"),
                                 "place is on a side that is a whole solid or a collider, and both sides name points",
@@ -109,7 +111,13 @@ Section finishSection() {
                     "Period of the pattern; on a mesh in texture coordinates.")
             .number("weave", &FinishSpec::weave, "", fields::share,
                     "Depth of the weave: 0 smooth, 1 coarse linen. A mesh without texture coordinates has no weave.")
+            .choice("binding", &FinishSpec::binding, {"plain", "twill", "satin", "rib", "knit"},
+                    "Crossing of the threads of a weave. Twill shows a quarter of weft, in the colour of the back.")
             .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")
+            .number("slub", &FinishSpec::slub, "", fields::share,
+                    "Unevenness of the threads: 0 nylon, 0.5 denim, 1 raw linen.")
+            .number("fuzz", &FinishSpec::fuzz, "", fields::share,
+                    "Fibres that stand up: 0.3 flannel, 0.6 velvet, 1 a blanket of fleece.")
             .number("roughness", &FinishSpec::roughness, "", fields::share, "Roughness: 0 a mirror, 1 chalk.")
             .number("sheen", &FinishSpec::sheen, "", fields::share, "Strength of the bright rim of fabric.")
             .number("translucency", &FinishSpec::translucency, "", fields::share,

@@ -20,9 +20,12 @@ struct FinishSpec {
     std::optional<dvec3> backColour;  // none: a paler colour
     dvec3 accent{0.95, 0.93, 0.88};
     view::Pattern pattern = view::Pattern::plain;
-    double repeat = 0.25;       // [m]
-    double weave = 0.0;         // 0 … 1
+    double repeat = 0.25;  // [m]
+    double weave = 0.0;    // 0 … 1
+    view::Binding binding = view::Binding::plain;
     double thread = 0.0015;     // [m]
+    double slub = 0.0;          // 0 … 1
+    double fuzz = 0.0;          // 0 … 1
     double roughness = 0.7;     // 0 … 1
     double sheen = 0.0;         // 0 … 1
     double translucency = 0.2;  // 0 … 1

@@ -105,7 +105,7 @@ Panel workPanel(const StabilityMap& map) {
             return std::equal(curve.points.begin(), curve.points.end(), other.points.begin(),
                               [](const auto& a, const auto& b) { return a.y == b.y || std::isnan(a.y + b.y); });
         };
-        const auto same = std::find_if(panel.curves.begin(), panel.curves.end(), isSame);
+        const auto same = std::ranges::find_if(panel.curves, isSame);
         if (same == panel.curves.end()) {
             panel.curves.push_back(std::move(curve));
             continue;

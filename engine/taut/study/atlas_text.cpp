@@ -32,8 +32,8 @@ std::string limitText(double limit) {
 }
 
 const Boundary& nearest(const StabilityPanel& panel, double zeta) {
-    return *std::min_element(
-        panel.boundaries.begin(), panel.boundaries.end(),
+    return *std::ranges::min_element(
+        panel.boundaries,
         [&](const auto& a, const auto& b) { return std::abs(a.zeta - zeta) < std::abs(b.zeta - zeta); });
 }
 

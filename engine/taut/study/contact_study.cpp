@@ -8,6 +8,7 @@
 
 #include "taut/check/figures.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/scene/load.h"
 #include "taut/world/world.h"
 
@@ -162,7 +163,7 @@ ContactRun runOf(const ContactProblem& problem, int steps, int detections) {
     for (int tick = 0; tick < ticks; ++tick) {
         const std::clock_t start = std::clock();
         if (world.advance()) {
-            run.isWhole = false;
+            run.hasEnded = false;
             break;
         }
         run.milliseconds += 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / ticks;
@@ -193,9 +194,7 @@ ContactStudy studyContact(const ContactSettings& settings) {
     const auto all = static_cast<double>(contactProblems().size());
     for (const ContactProblem& problem : contactProblems()) {
         done += 1;
-        if (!settings.problems.empty() &&
-            std::find(settings.problems.begin(), settings.problems.end(), problem.name) == settings.problems.end())
-            continue;
+        if (!settings.problems.empty() && !core::contains(settings.problems, problem.name)) continue;
         std::vector<ContactRun> runs;
         for (const int factor : settings.steps)
             for (const int detections : settings.detections) {

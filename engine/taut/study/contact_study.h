@@ -32,7 +32,7 @@ struct ContactRun {
     double value = 0, error = 0;    // value / known - 1
     int crossings = 0;              // most in a tick
     double milliseconds = 0;        // [ms] of processor time a tick
-    bool isWhole = true;            // false: it diverged
+    bool hasEnded = true;           // false: it diverged
 };
 
 struct ContactStudy {

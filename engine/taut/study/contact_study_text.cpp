@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "taut/report/column.h"
 
@@ -19,7 +20,7 @@ const report::Columns<ContactRun>& contactColumns() {
         {"problem", &ContactRun::problem},           {"steps", &ContactRun::steps},
         {"detections", &ContactRun::detections},     {"value", &ContactRun::value},
         {"relative_error", &ContactRun::error},      {"crossings", &ContactRun::crossings},
-        {"processor_ms", &ContactRun::milliseconds}, {"whole", &ContactRun::isWhole}};
+        {"processor_ms", &ContactRun::milliseconds}, {"whole", &ContactRun::hasEnded}};
     return all;
 }
 
@@ -31,8 +32,7 @@ void forEachSeries(const ContactStudy& study, const Each& each) {
         while (last < study.runs.size() && study.runs[last].problem == run.problem &&
                study.runs[last].steps == run.steps)
             ++last;
-        const auto problem = std::find_if(contactProblems().begin(), contactProblems().end(),
-                                          [&](const ContactProblem& p) { return p.name == run.problem; });
+        const auto problem = std::ranges::find(contactProblems(), run.problem, &ContactProblem::name);
         each(*problem, run.steps, std::span(study.runs).subspan(first, last - first));
     }
 }
@@ -62,17 +62,15 @@ std::string contactCsv(const ContactStudy& study) {
 std::string contactSummary(const ContactStudy& study) {
     report::TextTable table;
     table.columns = {"problem", "steps"};
-    std::vector<int> detections;
-    for (const ContactRun& run : study.runs) detections.push_back(run.detections);
-    std::sort(detections.begin(), detections.end());
-    detections.erase(std::unique(detections.begin(), detections.end()), detections.end());
+    std::set<int> detections;
+    for (const ContactRun& run : study.runs) detections.insert(run.detections);
     for (const int n : detections) table.columns.push_back(fmt::format("[%] at {}", n));
     forEachSeries(study, [&](const ContactProblem& problem, int steps, std::span<const ContactRun> runs) {
         std::vector<report::Cell> row = {problem.name, std::to_string(steps)};
         for (const int n : detections) {
-            const auto run = std::find_if(runs.begin(), runs.end(), [&](const auto& r) { return r.detections == n; });
+            const auto run = std::ranges::find_if(runs, [&](const auto& r) { return r.detections == n; });
             row.emplace_back(run == runs.end() ? std::string("-")
-                             : !run->isWhole   ? std::string("diverged")
+                             : !run->hasEnded  ? std::string("diverged")
                                                : fmt::format("{:+.3g}", 100.0 * run->error));
         }
         table.rows.push_back(std::move(row));
@@ -107,7 +105,7 @@ std::vector<NamedChart> contactCharts(const ContactStudy& study, const std::vect
         curve.title = fmt::format(
             "{} steps", series == 0 ? "fewest" : fmt::format("{} times as many", steps / problem.fewestSteps));
         for (const ContactRun& run : runs)
-            if (run.isWhole)
+            if (run.hasEnded)
                 curve.points.push_back(
                     {static_cast<double>(run.detections), std::clamp(std::abs(run.error), leastShown, mostShown)});
         ++series;

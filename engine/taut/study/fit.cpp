@@ -78,7 +78,7 @@ FitRun play(const world::SceneSpec& scene, const std::vector<FitTarget>& targets
         std::vector<Gauge> gauges(targets.begin(), targets.end());
         while (true) {
             for (Gauge& gauge : gauges) gauge.look(world, tick);
-            if (std::all_of(gauges.begin(), gauges.end(), [](const Gauge& gauge) { return gauge.isDone(); })) break;
+            if (std::ranges::all_of(gauges, &Gauge::isDone)) break;
             if (stop != nullptr && stop->load()) throw core::Error(core::ErrorKind::interrupted, "stopped");
             if (const auto divergence = world.advance()) {
                 run.failure = fmt::format("diverged at {:.3g} s", divergence->time);
@@ -170,7 +170,7 @@ class Fitting {
         for (std::size_t k = 0; k < places.size(); ++k)
             if (const FitTrial& trial = fit_.trials[first + k]; trial.failure.empty())
                 sorted.emplace_back(trial.misfit, places[k]);
-        std::sort(sorted.begin(), sorted.end());
+        std::ranges::sort(sorted);
         places.clear();
         for (auto& [misfit, place] : sorted) places.push_back(std::move(place));
         return places;
@@ -260,8 +260,7 @@ class Fitting {
 }  // namespace
 
 bool Fit::areTargetsMet() const {
-    return std::all_of(
-        targets.begin(), targets.end(), [](const FittedTarget& target) { return target.isMet(); });
+    return std::ranges::all_of(targets, &FittedTarget::isMet);
 }
 
 bool Fit::isMet() const {

@@ -87,8 +87,7 @@ std::string unseenText(const Fit& fit, const std::vector<double>& direction) {
             "The targets do not tell {}: they are alike for very different values. Leave it out, or add "
             "a target that it changes.",
             key(0));
-    const bool areLogarithmic =
-        std::all_of(parts.begin(), parts.end(), [&](std::size_t i) { return fit.keys[i].isLogarithmic; });
+    const bool areLogarithmic = std::ranges::all_of(parts, [&](std::size_t i) { return fit.keys[i].isLogarithmic; });
     std::string seen;
     if (parts.size() == 2 && areLogarithmic) {
         const double power = -direction[parts[0]] / direction[parts[1]];
@@ -114,8 +113,8 @@ std::string unseenText(const Fit& fit, const std::vector<double>& direction) {
 std::string fitVerdict(const Fit& fit) {
     std::string text;
     const auto add = [&](const std::string& sentence) { text += (text.empty() ? "" : "\n") + sentence; };
-    const auto worst = std::max_element(fit.targets.begin(), fit.targets.end(),
-                                        [](const FittedTarget& a, const FittedTarget& b) { return a.off < b.off; });
+    const auto worst = std::ranges::max_element(
+        fit.targets, [](const FittedTarget& a, const FittedTarget& b) { return a.off < b.off; });
     const bool isReached = worst->isMet();
     if (!isReached)
         add(

@@ -118,7 +118,7 @@ class Descent {
             hold(columns);
             Matrix free = columns;
             for (std::size_t i = 0; i < free.size(); ++i)
-                if (at_.isHeld[i]) std::fill(free[i].begin(), free[i].end(), 0.0);
+                if (at_.isHeld[i]) std::ranges::fill(free[i], 0.0);
             const NormalEquations equations(free, at_.residuals);
             const double perValue = at_.sum() / static_cast<double>(at_.residuals.size());
             at_.hasConverged =
@@ -255,7 +255,7 @@ Eigenvectors eigenvectors(std::vector<Vector> a) {
             }
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return a[i][i] < a[j][j]; });
+    std::ranges::sort(order, [&](std::size_t i, std::size_t j) { return a[i][i] < a[j][j]; });
     Eigenvectors found;
     for (const std::size_t i : order) {
         found.values.push_back(a[i][i]);

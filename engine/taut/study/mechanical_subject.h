@@ -31,4 +31,15 @@ struct Energies {
 Energies energiesOf(const mechanics::Model& model, const glm::dvec3& gravity, std::span<const glm::dvec3> x,
                     std::span<const glm::dvec3> v);
 
+// The problems with point masses; a row of problems.cpp names each.
+std::unique_ptr<Subject> makeProjectile();
+std::unique_ptr<Subject> makeOscillator(const char* name, const char* title, double dampingRatio);
+std::unique_ptr<Subject> makePendulum();
+std::unique_ptr<Subject> makeChain();
+std::unique_ptr<Subject> makeNet();
+std::unique_ptr<Subject> makeCloth(const char* name, const char* title, const std::vector<std::string>& hold,
+                                   const glm::dvec3& down);
+// Adds a point at rest and returns its number.
+int addPoint(mechanics::Model& model, const glm::dvec3& position, double mass, bool isHeld);
+
 }  // namespace taut::study

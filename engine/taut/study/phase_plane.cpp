@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "taut/core/private/contains.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/oscillator.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 
@@ -35,9 +37,8 @@ PhasePath phasePath(std::string_view method, double z, int steps) {
 
 std::vector<PhasePath> phasePaths(const std::vector<std::string>& methods) {
     std::vector<PhasePath> paths;
-    for (const ode::MethodInfo& method : ode::methods())
-        if (methods.empty() || std::find(methods.begin(), methods.end(), method.name) != methods.end())
-            paths.push_back(phasePath(method.name, phasePlaneStep(), 2 * stepsPerTurn));
+    for (const ode::MethodInfo& method : chosenMethods(methods))
+        paths.push_back(phasePath(method.name, phasePlaneStep(), 2 * stepsPerTurn));
     return paths;
 }
 

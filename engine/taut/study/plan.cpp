@@ -45,11 +45,11 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     std::string failure = base.failure;
     // Where leap-frog cannot, another method may.
     for (const ode::MethodInfo& method : ode::methods()) {
-        if (base.isWhole()) break;
+        if (base.hasEnded()) break;
         model.solver.integrator = method.name;
         base = playWhole(model);
     }
-    if (!base.isWhole())
+    if (!base.hasEnded())
         throw core::Error(core::ErrorKind::diverged,
                           fmt::format("{}: leap-frog with the step found for it: {}", plan.name, failure));
     context.plainMethod = model.solver.integrator;
@@ -92,7 +92,7 @@ std::vector<Generators> generatorsToDrop(const PlanContext& context, const PlanR
     });
     std::vector<std::size_t> order(all.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return change[a] < change[b]; });
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return change[a] < change[b]; });
 
     Generators idle, dear;
     for (const std::size_t i : order) {
@@ -122,8 +122,8 @@ void judgeGenerators(Plan& plan) {
     if (!plan.chosen) return;
     const Generators& without = plan.trials[*plan.chosen].candidate.without;
     for (GeneratorTrial& trial : plan.generators) {
-        trial.isLeftOut = std::any_of(without.begin(), without.end(),
-                                      [&](const Generator& generator) { return generator.name == trial.name; });
+        trial.isLeftOut =
+            std::ranges::any_of(without, [&](const Generator& generator) { return generator.name == trial.name; });
         trial.verdict = trial.isLeftOut                   ? "left out"
                         : trial.change < plan.need.target ? "stays: nothing that meets the need is cheaper without it"
                                                           : "needed: it changes more than the target";
@@ -154,7 +154,7 @@ void verify(const PlanContext& context, Plan& plan) {
     PlanRun chosen = context.run(model);
     std::vector<double> seconds{chosen.seconds};
     for (int i = 0; i < 2; ++i) seconds.push_back(context.run(model).seconds);
-    std::sort(seconds.begin(), seconds.end());
+    std::ranges::sort(seconds);
     plan.trials[*plan.chosen].milliseconds = 1e3 * seconds[1] / context.grid.frames();
     plan.secondsAnEvaluation =
         seconds[1] / static_cast<double>(std::max<std::int64_t>(1, chosen.work.evaluations + chosen.work.iterations));

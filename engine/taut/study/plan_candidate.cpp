@@ -11,6 +11,7 @@
 #include "taut/bodies/rope.h"
 #include "taut/body/body.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/forces/wind.h"
 #include "taut/scene/fabrics.h"
 #include "taut/scene/private/by_key.h"
@@ -60,7 +61,7 @@ void limitCells(const SceneSpec& spec, Resolution& resolution) {
     if (!world::bodiesTouch(spec)) return;
     for (const world::Body& body : world::buildBodies(withoutJitter(spec))) {
         const auto& scalable = resolution.scalable;
-        const bool isScalable = std::find(scalable.begin(), scalable.end(), body.spec->fullName()) != scalable.end();
+        const bool isScalable = core::contains(scalable, body.spec->fullName());
         if (!isScalable || body.spec->touch == world::Touch::nothing || !(body.spec->thickness > 0)) continue;
         const double finer = std::max(1.0, world::shortestEdge(body) / (2 * body.spec->thickness));
         resolution.most = static_cast<int>(
@@ -74,9 +75,7 @@ int scaled(int count, double scale, int least) {
 
 void scaleBodies(SceneSpec& spec, const Resolution& resolution, int count) {
     const double scale = static_cast<double>(count) / resolution.count;
-    const auto isScalable = [&](const std::string& name) {
-        return std::find(resolution.scalable.begin(), resolution.scalable.end(), name) != resolution.scalable.end();
-    };
+    const auto isScalable = [&](const std::string& name) { return core::contains(resolution.scalable, name); };
     for (world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>())
         if (isScalable(cloth.fullName()))
             for (int i = 0; i < 2; ++i) cloth.cells[i] = scaled(cloth.cells[i], scale, leastCells);
@@ -119,8 +118,7 @@ Resolution resolutionOf(const SceneSpec& spec) {
     tieBodies(spec, resolution.fixed);
     const auto add = [&](const world::BodySpec& body, int count) {
         const std::string name = body.fullName();
-        if (std::any_of(body.hold.begin(), body.hold.end(), namesPlaces))
-            resolution.fixed.emplace(name, "it is held at single points");
+        if (std::ranges::any_of(body.hold, namesPlaces)) resolution.fixed.emplace(name, "it is held at single points");
         if (resolution.fixed.contains(name)) return;
         resolution.scalable.push_back(name);
         resolution.count = std::max(resolution.count, count);

@@ -61,7 +61,7 @@ std::vector<int> ladder(int count, int most) {
         if (c == 2) break;
     }
     if (counts.empty()) counts.push_back(count);
-    std::reverse(counts.begin(), counts.end());
+    std::ranges::reverse(counts);
     for (int c = 2 * count; c <= std::min(mostTimesFiner * count, most); c *= 2) counts.push_back(c);
     if (most < mostTimesFiner * count && most > counts.back()) counts.push_back(most);
     return counts;
@@ -109,7 +109,7 @@ ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double
     for (int finer = 2; finer <= mostFiner; finer *= 2) {
         if (finer > 2 && context.left(effortShare) < 3 * result.run.effort) break;
         PlanRun next = runAt(finer);
-        if (!next.isWhole()) break;
+        if (!next.hasEnded()) break;
         const double change = difference(result.run, next);
         // Halving shrinks the error by 2 to 16, as the order is 1 to 4: as the last halvings have shown, or as little
         // as may be. Where points touch something two runs may agree by chance: the halving before has a say.
@@ -126,7 +126,7 @@ ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double
 
 void expectWhole(const PlanContext& context, const ExactRun& exact) {
     if (exact.run.isTooExpensive) failForEffort(context);
-    if (!exact.run.isWhole())
+    if (!exact.run.hasEnded())
         throw core::Error(core::ErrorKind::diverged, context.spec.file + ": even the reference: " + exact.run.failure);
 }
 
@@ -195,7 +195,7 @@ PlanReference makePlanReference(const PlanContext& context) {
         ExactRun exact = exactRun(context, count, shareOfReference);
         spent -= context.left();
         if (isFirst) expectWhole(context, exact);
-        if (!exact.run.isWhole()) break;
+        if (!exact.run.hasEnded()) break;
         reference.runs[count] = exact.run;
         reference.limit = exact.run;
         reference.error = reference.unknown = exact.error;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "taut/bodies/block.h"
@@ -10,6 +9,8 @@
 #include "taut/bodies/rope.h"
 #include "taut/body/body.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/ecs/registry.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/ticks.h"
@@ -114,7 +115,7 @@ class Watcher {
     static std::vector<Place> placesOf(const world::Body& body, const Resolution& resolution) {
         const std::string name = body.spec->fullName();
         const auto& scalable = resolution.scalable;
-        if (std::find(scalable.begin(), scalable.end(), name) == scalable.end()) return freePoints(body.model);
+        if (!core::contains(scalable, name)) return freePoints(body.model);
         if (body.kind() == world::ClothSpec::kindName)
             return placesOfGrid({body.model.grid[0], body.model.grid[1], 0}, {partsOfCloth, partsOfCloth, 0});
         if (body.kind() == world::RopeSpec::kindName)
@@ -182,7 +183,6 @@ class SightBounds {
 
 void advance(world::World& world, const world::SceneSpec& model, const Resolution& resolution, const PlanGrid& grid,
              const RunLimits& limits, PlanRun& run) {
-    using Clock = std::chrono::steady_clock;
     const Watcher watcher(world, resolution);
     const double atStart = costSoFar(world);
     const bool bodiesTouch = world::bodiesTouch(model);
@@ -199,15 +199,15 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
                (costSoFar(world) - atStart > limits.cost || costSoFar(world, costOfCall) > limits.effort);
     };
     for (int sample = 0; sample < grid.samples; ++sample) {
-        const auto start = Clock::now();
+        const core::Stopwatch watch;
         for (int tick = 0; tick < grid.every && run.failure.empty() && !run.isTooExpensive; ++tick) {
             if (const auto divergence = world.advance())
                 run.failure = "diverged at " + std::to_string(divergence->time) + " s";
             const bool isLast = sample + 1 == grid.samples && tick + 1 == grid.every;
             run.isTooExpensive = !isLast && run.failure.empty() && isTooExpensive();
         }
-        run.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-        if (!run.isWhole()) return;
+        run.seconds += watch.seconds();
+        if (!run.hasEnded()) return;
         run.at.push_back(watcher.look());
         const Sight& seen = run.at.back();
         if (limits.withScales) {
@@ -262,7 +262,7 @@ PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const 
 }
 
 double difference(const PlanRun& a, const PlanRun& b) {
-    return a.isWhole() && b.isWhole() && !a.at.empty() ? differenceOf(a, b, a.at.size()) : HUGE_VAL;
+    return a.hasEnded() && b.hasEnded() && !a.at.empty() ? differenceOf(a, b, a.at.size()) : HUGE_VAL;
 }
 
 int samplesWithin(const PlanRun& a, const PlanRun& b, double most) {

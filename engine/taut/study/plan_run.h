@@ -45,7 +45,7 @@ struct PlanRun {
     bool hasContacts = false;
     Scales scales;  // filled on demand
 
-    bool isWhole() const { return failure.empty() && !isTooExpensive; }
+    bool hasEnded() const { return failure.empty() && !isTooExpensive; }
 };
 
 struct RunLimits {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/core/private/contains.h"
 #include "taut/ode/method_table.h"
 #include "taut/spec/spec.h"
 
@@ -116,7 +117,7 @@ class Search {
     std::vector<std::string> methods() {
         std::vector<std::string> names{context_.spec.solver.integrator};
         const auto add = [&](std::string_view name) {
-            if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+            if (!core::contains(names, name)) names.emplace_back(name);
         };
         add("leapfrog");
         preferred_ = names.size();

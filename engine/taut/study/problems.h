@@ -1,4 +1,4 @@
-// The reference problems by name. A new one is a function here and a line in problems.cpp.
+// The reference problems by name. A new one is a line in problems.cpp and its function.
 #pragma once
 
 #include <memory>
@@ -20,23 +20,7 @@ std::span<const ProblemInfo> problems();
 // nullptr when there is none of that name.
 const ProblemInfo* findProblem(std::string_view name);
 
-// The slides' own equations.
-std::unique_ptr<Subject> makeGrowth();
-std::unique_ptr<Subject> makeQuotient();
-
-// One point mass.
-std::unique_ptr<Subject> makeProjectile();
-std::unique_ptr<Subject> makeUndamped();
-std::unique_ptr<Subject> makeUnderdamped();
-std::unique_ptr<Subject> makeCritical();
-std::unique_ptr<Subject> makeOverdamped();
-std::unique_ptr<Subject> makePendulum();
-
-// Many.
-std::unique_ptr<Subject> makeChain();
-std::unique_ptr<Subject> makeNet();
-std::unique_ptr<Subject> makeClothTop();
-std::unique_ptr<Subject> makeClothCorners();
-std::unique_ptr<Subject> makeClothEdge();
+// The subject of one of them.
+std::unique_ptr<Subject> makeProblem(std::string_view name);
 
 }  // namespace taut::study

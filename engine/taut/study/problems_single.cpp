@@ -9,16 +9,6 @@ namespace {
 
 using glm::dvec3;
 
-int addPoint(mechanics::Model& model, const dvec3& position, double mass, bool isHeld) {
-    model.positions.push_back(position);
-    model.velocities.emplace_back(0.0);
-    model.masses.push_back(mass);
-    model.dragRates.push_back(0.0);
-    model.held.push_back(isHeld);
-    model.uv.emplace_back(0.0);
-    return model.pointCount() - 1;
-}
-
 // x'' + 2ζω x' + ω² x = 0 with x(0) = d, x'(0) = 0:
 //   ζ < 1: e^{-at} [d cos ω_d t + (a d/ω_d) sin ω_d t], a = ζω, ω_d = √(ω² - a²); ζ = 1: e^{-at} d (1 + a t);
 //   ζ > 1: cosh and sinh with √(a² - ω²), written as two decays so that nothing overflows.
@@ -39,8 +29,20 @@ void oscillation(double omega, double zeta, double d, double t, double& x, doubl
     }
 }
 
+}  // namespace
+
+int addPoint(mechanics::Model& model, const dvec3& position, double mass, bool isHeld) {
+    model.positions.push_back(position);
+    model.velocities.emplace_back(0.0);
+    model.masses.push_back(mass);
+    model.dragRates.push_back(0.0);
+    model.held.push_back(isHeld);
+    model.uv.emplace_back(0.0);
+    return model.pointCount() - 1;
+}
+
 // A spring of zero rest length is exactly linear; 1 kg, ω = 6/s, so that no sample time falls on a turning point.
-std::unique_ptr<Subject> oscillator(const char* name, const char* title, double zeta) {
+std::unique_ptr<Subject> makeOscillator(const char* name, const char* title, double zeta) {
     constexpr double omega = 6.0;
     const dvec3 start(1.0, 0.5, -0.25);
     MechanicalProblem problem;
@@ -57,8 +59,6 @@ std::unique_ptr<Subject> oscillator(const char* name, const char* title, double 
     };
     return makeMechanicalSubject(std::move(problem));
 }
-
-}  // namespace
 
 // v' = g - γ v: v = v_T + (v0 - v_T) e^{-γt}, v_T = g/γ.
 std::unique_ptr<Subject> makeProjectile() {
@@ -78,19 +78,6 @@ std::unique_ptr<Subject> makeProjectile() {
         x[0] = dvec3(0.0, 1.5, 0.0) + terminal * t + (launch - terminal) * (share / drag);
     };
     return makeMechanicalSubject(std::move(problem));
-}
-
-std::unique_ptr<Subject> makeUndamped() {
-    return oscillator("oscillator", "Oscillator without damping, 5 s at 6 rad/s", 0.0);
-}
-std::unique_ptr<Subject> makeUnderdamped() {
-    return oscillator("underdamped", "Oscillator, damping ratio 0.1, 5 s at 6 rad/s", 0.1);
-}
-std::unique_ptr<Subject> makeCritical() {
-    return oscillator("critical", "Oscillator, critically damped, 5 s at 6 rad/s", 1.0);
-}
-std::unique_ptr<Subject> makeOverdamped() {
-    return oscillator("overdamped", "Oscillator, damping ratio 2, 5 s at 6 rad/s", 2.0);
 }
 
 // 1 kg on a string of 1 m and 40 N/m: ω_z = √(k/m) is about twice ω_x = √(g/l0), so that swinging and bouncing trade

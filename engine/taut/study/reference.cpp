@@ -1,13 +1,14 @@
 #include "taut/study/reference.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "taut/core/error.h"
 #include "taut/core/private/parallel.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/errors.h"
 #include "taut/study/fehlberg78.h"
@@ -25,8 +26,7 @@ struct Pair {
 };
 
 bool hasTouched(const std::vector<Observation>& seen) {
-    return std::any_of(
-        seen.begin(), seen.end(), [](const Observation& one) { return one.hasTouched; });
+    return std::ranges::any_of(seen, &Observation::hasTouched);
 }
 
 // Empty when it diverged.
@@ -49,10 +49,10 @@ Pair playBoth(const Subject& subject, const RunPlan& coarse, const RunPlan& fine
 double secondsOf(const Subject& subject, RunPlan plan) {
     plan.grid.samples = std::max(1, plan.grid.samples / 10);
     const std::unique_ptr<Trial> trial = subject.begin(plan);
-    const auto start = std::chrono::steady_clock::now();
+    const core::Stopwatch watch;
     for (int i = 0; i < plan.grid.samples; ++i)
         if (!trial->advance()) break;
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() * 10;
+    return watch.seconds() * 10;
 }
 
 void measureScales(const Subject& subject, Reference& reference) {
@@ -108,14 +108,10 @@ Pair steppedRuns(const Subject& subject, const Grid& grid, double seconds, Refer
 
 std::string methodOf(const Reference& reference, const std::string& unit) {
     if (reference.isExact) return "exact";
-    const auto pair = [](const char* pattern, double coarse, double fine) {
-        char text[96];
-        std::snprintf(text, sizeof text, pattern, coarse, fine);
-        return std::string(text);
-    };
-    if (!reference.isControlled) return pair("RK4 at steps of %.3g and %.3g s", 2 * reference.step, reference.step);
-    return pair("Fehlberg 7(8) at tolerances of %.3g and %.3g ", 100 * reference.tolerance, reference.tolerance) +
-           unit + "/s";
+    if (!reference.isControlled)
+        return fmt::format("RK4 at steps of {:.3g} and {:.3g} s", 2 * reference.step, reference.step);
+    return fmt::format("Fehlberg 7(8) at tolerances of {:.3g} and {:.3g} {}/s", 100 * reference.tolerance,
+                       reference.tolerance, unit);
 }
 
 Reference makeReference(const Subject& subject, const Grid& grid, int window, double seconds) {

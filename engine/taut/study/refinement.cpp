@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/study/statics.h"
 
 namespace taut::study {
 namespace {
 
 bool isChosen(const RefinementSettings& settings, const RefinementBody& body) {
-    return settings.bodies.empty() ||
-           std::find(settings.bodies.begin(), settings.bodies.end(), body.name) != settings.bodies.end();
+    return settings.bodies.empty() || core::contains(settings.bodies, body.name);
 }
 
 bool applies(const RefinementBody& body, const Treatment& treatment) {

@@ -1,8 +1,10 @@
 #include "taut/study/refinement_chart.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <set>
 
 namespace taut::study {
 namespace {
@@ -11,12 +13,6 @@ using report::Panel;
 using report::Scale;
 
 constexpr double leastError = 1e-5, mostError = 1.0;  // of the axis
-
-std::string number(const char* format, double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 
 struct Extremes {
     double least = HUGE_VAL, most = -HUGE_VAL;
@@ -39,10 +35,8 @@ report::Axis cellsAxis(const RefinementStudy& study) {
     axis.scale = Scale::log;
     axis.least = cells.least / 1.3;
     axis.most = cells.most * 1.3;
-    std::vector<int> all;
-    for (const RefinementRun& run : study.runs) all.push_back(run.cells);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    std::set<int> all;
+    for (const RefinementRun& run : study.runs) all.insert(run.cells);
     for (const int n : all) axis.ticks.push_back({static_cast<double>(n), std::to_string(n), false});
     return axis;
 }
@@ -78,15 +72,15 @@ std::string ordersText(const RefinementStudy& study, const RefinementBody& body)
     const double naive =
         measuredOrder(study, body.name, body.hasEdgeSprings ? treatments().back().name : treatments()[1].name);
     if (std::isnan(own)) return "";
-    return "order " + number("%.1f", own) + " weighted" +
-           (std::isnan(naive) ? "" : ", " + number("%.1f", naive) + " naive");
+    return "order " + fmt::format("{:.1f}", own) + " weighted" +
+           (std::isnan(naive) ? "" : ", " + fmt::format("{:.1f}", naive) + " naive");
 }
 
 // "errors below 1e-10": the power of ten above the largest.
 std::string boundText(const RefinementFacts& facts) {
     double most = 0;
     for (const double error : facts.strongest) most = std::fmax(most, error);
-    return most > 0 ? "errors below " + number("%.0e", std::pow(10, std::ceil(std::log10(most)))) : "no error";
+    return most > 0 ? "errors below " + fmt::format("{:.0e}", std::pow(10, std::ceil(std::log10(most)))) : "no error";
 }
 
 // A line of slope -p through (x, y), to compare with.
@@ -108,11 +102,8 @@ Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, boo
     for (const auto& [at, text] :
          {std::pair{1e-5, "0.001 %"}, {1e-4, "0.01 %"}, {1e-3, "0.1 %"}, {1e-2, "1 %"}, {1e-1, "10 %"}, {1.0, "100 %"}})
         panel.y.ticks.push_back({at, isFirst ? text : "", false});
-    report::Region good;
-    good.y1 = 0.01;
-    good.colour = "#009e73";
-    panel.regions.push_back(good);
-    const bool isExact = !(*std::max_element(facts.strongest.begin(), facts.strongest.end(), [](double a, double b) {
+    panel.regions.push_back({.y1 = 0.01, .colour = "#009e73"});
+    const bool isExact = !(*std::ranges::max_element(facts.strongest, [](double a, double b) {
         return a < b || std::isnan(a);
     }) > refinementFloor);
     const Extremes cells = cellsOf(study);
@@ -144,14 +135,10 @@ Panel drapePanel(const RefinementStudy& study, const RefinementFacts& facts, boo
     const double room = 0.12 * (percent.most - percent.least);
     panel.y.least = percent.least - room;
     panel.y.most = percent.most + room;
-    report::Region good;
-    good.y0 = -1.0;
-    good.y1 = 1.0;
-    good.colour = "#009e73";
-    good.opacity = 0.16;
-    panel.regions.push_back(good);
+    panel.regions.push_back({.y0 = -1.0, .y1 = 1.0, .colour = "#009e73", .opacity = 0.16});
     addCurves(panel, study, body.name, [](const RefinementRun& run) { return 100.0 * run.error; });
-    panel.note(0.97, 0.05, body.quantity + ", limit " + number("%.4g mm", 1e3 * facts.reference), report::Align::right);
+    panel.note(0.97, 0.05, body.quantity + ", limit " + fmt::format("{:.4g} mm", 1e3 * facts.reference),
+               report::Align::right);
     const std::string orders = ordersText(study, body);
     if (!orders.empty()) panel.note(0.97, 0.13, orders, report::Align::right);
     return panel;

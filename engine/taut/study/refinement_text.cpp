@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "taut/core/private/contains.h"
 #include "taut/report/column.h"
 
 namespace taut::study {
@@ -13,9 +15,8 @@ namespace {
 using report::In;
 
 const RefinementFacts& factsOf(const RefinementStudy& study, const std::string& body) {
-    return *std::find_if(
-        study.bodies.begin(), study.bodies.end(),
-        [&](const RefinementFacts& facts) { return facts.body->name == body; });
+    return *std::ranges::find_if(
+        study.bodies, [&](const RefinementFacts& facts) { return facts.body->name == body; });
 }
 
 report::Columns<RefinementRun> runColumns(const RefinementStudy& study) {
@@ -44,10 +45,8 @@ std::string refinementCsv(const RefinementStudy& study) {
 std::string refinementSummary(const RefinementStudy& study) {
     report::TextTable table;
     table.columns = {"body", "edges"};
-    std::vector<int> cells;
-    for (const RefinementRun& run : study.runs)
-        if (std::find(cells.begin(), cells.end(), run.cells) == cells.end()) cells.push_back(run.cells);
-    std::sort(cells.begin(), cells.end());
+    std::set<int> cells;
+    for (const RefinementRun& run : study.runs) cells.insert(run.cells);
     for (const int n : cells) table.columns.push_back(fmt::format("[%] at {}", n));
     table.columns.emplace_back("order");
     for (const RefinementFacts& facts : study.bodies)

@@ -26,8 +26,7 @@ world::SceneSpec played(const world::SceneSpec& spec, std::string_view method, P
 
 // In place, or on a collider.
 bool isHeld(const world::Body& body, std::size_t point) {
-    return body.model.held[point] ||
-           std::binary_search(body.carried.begin(), body.carried.end(), static_cast<int>(point));
+    return body.model.held[point] || std::ranges::binary_search(body.carried, static_cast<int>(point));
 }
 
 bool hasFreePoint(world::World& world) {

@@ -7,8 +7,10 @@
 #include <mutex>
 
 #include "taut/core/private/bisect.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 namespace {
@@ -95,9 +97,7 @@ class Measurement {
 
   private:
     void addPanels() {
-        const auto& wanted = settings_.methods;
-        for (const ode::MethodInfo& method : ode::methods()) {
-            if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), method.name) == wanted.end()) continue;
+        for (const ode::MethodInfo& method : chosenMethods(settings_.methods)) {
             const bool isAlike =
                 predictedLimit(method, 0.5, Damping::drag) == predictedLimit(method, 0.5, Damping::dashpot);
             for (const Damping damping : {Damping::drag, Damping::dashpot}) {

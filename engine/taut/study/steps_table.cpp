@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/ode/method_table.h"
 
 namespace taut::study {
@@ -23,12 +24,9 @@ double endError(const Subject& subject, const std::string& method, long long ste
 
 std::vector<StepsRow> stepsTable(const Subject& subject, double tolerance, const std::vector<std::string>& methods) {
     const auto error = [&](const std::string& method, long long steps) { return endError(subject, method, steps); };
-    const auto isWanted = [&](std::string_view name) {
-        return methods.empty() || std::find(methods.begin(), methods.end(), name) != methods.end();
-    };
     std::vector<StepsRow> rows;
-    for (const ode::MethodInfo& info : ode::methods()) {
-        if (!info.isFirstOrder() || !isWanted(info.name)) continue;
+    for (const ode::MethodInfo& info : chosenMethods(methods)) {
+        if (!info.isFirstOrder()) continue;
         StepsRow row;
         row.method = info.name;
         row.tolerance = tolerance;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/core/private/contains.h"
+#include "taut/ode/method_table.h"
+
 namespace taut::study {
 
 std::string_view nameOf(Precision precision) {
@@ -15,6 +18,13 @@ long long Subject::quantum(const Grid&) const {
 
 std::optional<Observation> Subject::exact(double) const {
     return std::nullopt;
+}
+
+std::vector<ode::MethodInfo> chosenMethods(const std::vector<std::string>& names) {
+    std::vector<ode::MethodInfo> chosen;
+    for (const ode::MethodInfo& method : ode::methods())
+        if (names.empty() || core::contains(names, method.name)) chosen.push_back(method);
+    return chosen;
 }
 
 long long stepsPerSample(const Subject& subject, const Grid& grid, double step) {

@@ -94,6 +94,9 @@ class Subject {
     virtual std::string caution() const { return ""; }
 };
 
+// The methods of these names, or all, in the order of the table.
+std::vector<ode::MethodInfo> chosenMethods(const std::vector<std::string>& names);
+
 // Steps a sample with which the step is at most `step` [s].
 long long stepsPerSample(const Subject& subject, const Grid& grid, double step);
 

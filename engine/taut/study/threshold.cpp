@@ -6,10 +6,12 @@
 #include <cmath>
 #include <mutex>
 
+#include "taut/core/private/contains.h"
 #include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
 #include "taut/spec/spec.h"
 #include "taut/study/one_method.h"
+#include "taut/study/subject.h"
 #include "taut/world/world.h"
 
 namespace taut::study {
@@ -51,9 +53,7 @@ class ThresholdSearch {
         settings_.listener.report(0.0, "the reference run");
         lookAtIslands();
         playReference();
-        for (const ode::MethodInfo& method : ode::methods()) {
-            const auto& wanted = settings_.methods;
-            if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), method.name) == wanted.end()) continue;
+        for (const ode::MethodInfo& method : chosenMethods(settings_.methods)) {
             MethodThreshold threshold;
             threshold.method = method.name;
             threshold.title = method.title;

@@ -6,6 +6,7 @@
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/forces/anchor.h"
 #include "taut/spec/spec.h"
 #include "taut/study/threshold.h"
@@ -17,9 +18,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // 2 √(k/m) cos(π/2(n+1)): n free masses between two walls, nothing but springs from each to the next.
 double ropeFrequency(const world::RopeSpec& rope) {
-    const auto holds = [&](const char* group) {
-        return std::find(rope.hold.begin(), rope.hold.end(), group) != rope.hold.end();
-    };
+    const auto holds = [&](const char* group) { return core::contains(rope.hold, group); };
     const bool isHeld = holds("ends") || (holds("start") && holds("end"));
     const double distance = glm::length(rope.end - rope.start);
     const bool isStraight = rope.through.empty() && (rope.length == 0.0 || rope.length <= distance);

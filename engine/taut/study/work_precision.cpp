@@ -1,26 +1,22 @@
 #include "taut/study/work_precision.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <span>
 
 #include "taut/core/error.h"
+#include "taut/core/private/contains.h"
 #include "taut/core/private/parallel.h"
+#include "taut/core/private/stopwatch.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/errors.h"
 
 namespace taut::study {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double coarse = 3e-2;  // of the motion's size: larger errors do not show a method's order
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The errors of a run, gathered sample by sample.
 class Gathering {
@@ -126,9 +122,9 @@ RunPoint Sweep::run(const RunPlan& plan, double& seconds) {
     int sample = 0;
     for (; sample < plan.grid.samples; ++sample) {
         const ode::Work before = trial->work();
-        const auto start = Clock::now();
+        const core::Stopwatch watch;
         const bool goesOn = trial->advance();
-        spent += secondsSince(start);
+        spent += watch.seconds();
         const ode::Work after = trial->work();
         work.evaluations += after.evaluations - before.evaluations;
         work.iterations += after.iterations - before.iterations;
@@ -154,12 +150,12 @@ void Sweep::time(const RunPlan& plan, double estimate, RunPoint& point) {
     std::vector<double> times;
     for (int i = 0; i < repeats; ++i) {
         const std::unique_ptr<Trial> trial = subject_.begin(plan);
-        const auto start = Clock::now();
+        const core::Stopwatch watch;
         for (int sample = 0; sample < plan.grid.samples; ++sample)
             if (!trial->advance()) break;
-        times.push_back(secondsSince(start));
+        times.push_back(watch.seconds());
     }
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     const auto at = [&](double part) { return times[static_cast<std::size_t>(part * (repeats - 1) + 0.5)]; };
     point.fastSeconds = at(0.25);
     point.seconds = at(0.5);
@@ -190,7 +186,7 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
         const double expected = 2 * lastRun;
         // A curve needs a slope: three points, unless they are out of all proportion.
         if (!isFixed && expected > runLimit * (good < 3 ? 4 : 1)) break;
-        const auto start = Clock::now();
+        const core::Stopwatch watch;
         double seconds = 0;
         RunPoint point = run(plan, seconds);
         lastRun = point.status == RunStatus::diverged ? std::max(lastRun, seconds) : seconds;
@@ -199,7 +195,7 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
             if (!isFixed) time(plan, seconds, point);
         }
         study_.points.push_back(point);
-        spent += secondsSince(start);
+        spent += watch.seconds();
         if (report) report(std::min(0.95, spent / secondsPerCurve_));
         // Smaller steps tell nothing new.
         const bool isUnresolved = study_.points.size() > first + 1 && std::prev(study_.points.end(), 2)->isAtFloor;
@@ -210,31 +206,24 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
     for (RunPoint& point : floorOf(curve, &RunPoint::energyError, coarse, method.order)) point.isEnergyAtFloor = true;
 }
 
-std::vector<MethodFacts> chosenMethods(const Subject& subject, const StudySettings& settings) {
+std::vector<MethodFacts> factsOfMethods(const Subject& subject, const std::vector<std::string>& names) {
     const auto fail = [](const std::string& what) { throw core::Error(core::ErrorKind::usage, what); };
-    for (const std::string& name : settings.methods) {
+    for (const std::string& name : names) {
         const ode::MethodInfo* info = ode::findMethod(name);
         if (info == nullptr)
             fail("there is no method '" + name + "'");
         else if (!subject.accepts(*info))
             fail(std::string(info->title) + " needs x'' = a(t, x, v); " + subject.name() + " is of first order");
     }
-    std::vector<MethodFacts> chosen;
-    for (const ode::MethodInfo& info : ode::methods()) {
-        const bool isWanted = settings.methods.empty() || std::find(settings.methods.begin(), settings.methods.end(),
-                                                                    info.name) != settings.methods.end();
-        if (isWanted && subject.accepts(info))
-            chosen.push_back({std::string(info.name), std::string(info.title), info.order, subject.stepLimit(info)});
-    }
-    return chosen;
+    std::vector<MethodFacts> facts;
+    for (const ode::MethodInfo& info : chosenMethods(names))
+        if (subject.accepts(info))
+            facts.push_back({std::string(info.name), std::string(info.title), info.order, subject.stepLimit(info)});
+    return facts;
 }
 
 void addRemarks(const Subject& subject, WorkPrecision& study) {
-    const auto number = [](double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.2g", value);
-        return std::string(text);
-    };
+    const auto number = [](double value) { return fmt::format("{:.2g}", value); };
     const double duration = study.grid.duration();
     if (!study.reference.isExact)
         study.remarks.push_back("Errors are taken against " + methodOf(study.reference, study.unit) +
@@ -247,9 +236,8 @@ void addRemarks(const Subject& subject, WorkPrecision& study) {
                                 number(duration) + " s only energy, extent and mean height are compared.");
     if (study.window < 10)
         study.remarks.push_back("Only " + std::to_string(study.window) + " sample times lie within the horizon.");
-    const bool anyUnresolved = std::any_of(study.points.begin(), study.points.end(), [&](const RunPoint& point) {
-        return point.rmsError < study.reference.floor;
-    });
+    const bool anyUnresolved = std::ranges::any_of(
+        study.points, [&](const RunPoint& point) { return point.rmsError < study.reference.floor; });
     if (anyUnresolved)
         study.remarks.push_back("Errors below " + number(study.reference.floor) +
                                 ", 100 times the reference's own, are marked: they are not resolved.");
@@ -270,7 +258,7 @@ WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& se
     study.unit = subject.unit();
     study.dimensions = subject.dimensions();
     study.hasEnergy = subject.hasEnergy();
-    study.methods = chosenMethods(subject, settings);
+    study.methods = factsOfMethods(subject, settings.methods);
     double duration = settings.seconds > 0 ? settings.seconds : subject.duration();
 
     settings.listener.report(0.0, "horizon");
@@ -282,8 +270,7 @@ WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& se
         std::clamp(static_cast<int>(study.horizon.seconds / study.grid.spacing + 1e-6), 1, study.grid.samples);
     settings.listener.report(0.02, "reference");
     study.reference = makeReference(subject, study.grid, study.window, 0.1 * settings.budget);
-    study.hasContacts = std::any_of(study.reference.at.begin(), study.reference.at.end(),
-                                    [](const Observation& seen) { return seen.hasTouched; });
+    study.hasContacts = std::ranges::any_of(study.reference.at, &Observation::hasTouched);
     study.frame = subject.frame();
 
     const double before = 0.12;  // of the budget

@@ -1,8 +1,9 @@
 #include "taut/study/work_precision_chart.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 #include "taut/report/palette.h"
@@ -15,14 +16,7 @@ using report::Panel;
 using report::Scale;
 
 std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
-// "1/60 s".
-std::string frameText(double frame) {
-    return "1/" + number(1 / frame) + " s";
+    return fmt::format("{:.3g}", value);
 }
 
 // The quantities on the axes of a chart.
@@ -37,8 +31,7 @@ struct Quantities {
 std::vector<Precision> precisionsOf(const WorkPrecision& study) {
     std::vector<Precision> found;
     for (const Precision precision : {Precision::single_, Precision::double_})
-        if (std::any_of(study.points.begin(), study.points.end(),
-                        [&](const RunPoint& p) { return p.precision == precision; }))
+        if (std::ranges::any_of(study.points, [&](const RunPoint& p) { return p.precision == precision; }))
             found.push_back(precision);
     return found;
 }
@@ -95,8 +88,7 @@ class Drawing {
         if (y_.isEmpty()) y_ = {1e-3, 1};
         x_.least /= 1.4, x_.most *= 1.4, y_.least /= 2, y_.most *= 2;
         // Room for the strip of failed runs above the curves.
-        if (std::any_of(study.points.begin(), study.points.end(), isFailed))
-            rows_ = static_cast<int>(study.methods.size());
+        if (std::ranges::any_of(study.points, isFailed)) rows_ = static_cast<int>(study.methods.size());
         const double strip = rows_ > 0 ? (rows_ * 11 + 12) / height : 0;
         y_.most *= std::pow(y_.most / y_.least, strip / (1 - strip));
     }
@@ -154,14 +146,8 @@ class Drawing {
                                     report::Align::right, 0, 0, 10.5, false, true});
             return;
         }
-        report::Region slow;
-        slow.x0 = 1;
-        slow.opacity = 0.06;
-        panel.regions.push_back(slow);
-        report::Guide guide;
-        guide.x = 1;
-        guide.label = "real time: " + number(1e3 * study_.frame) + " ms a frame";
-        panel.guides.push_back(guide);
+        panel.regions.push_back({.x0 = 1, .opacity = 0.06});
+        panel.guides.push_back({.x = 1, .label = "real time: " + number(1e3 * study_.frame) + " ms a frame"});
     }
 
     // Each method's limit as a bar in its row of the strip; that of leap-frog, the default, over the whole panel.
@@ -177,17 +163,11 @@ class Drawing {
                 panel.strip.marks.push_back({limit, at, style});
             }
             if (method.name != "leapfrog" && rows_ > 0) continue;
-            report::Guide guide;
-            guide.x = limit;
-            guide.label = "limit of " + method.title;
-            panel.guides.push_back(guide);
+            panel.guides.push_back({.x = limit, .label = "limit of " + method.title});
         }
         if (study_.frame <= x_.most && study_.frame >= x_.least) {
-            report::Guide guide;
-            guide.x = study_.frame;
-            guide.label = "a frame, " + frameText(study_.frame);
-            guide.style.dash = report::Dash::dotted;
-            panel.guides.push_back(guide);
+            panel.guides.push_back({.x = study_.frame, .label = "a frame, 1/" + number(1 / study_.frame) + " s"});
+            panel.guides.back().style.dash = report::Dash::dotted;
         }
     }
 
@@ -239,16 +219,15 @@ Chart chartOf(const WorkPrecision& study, const Quantities& quantities, const st
 }
 
 Quantities errorOverTime(const WorkPrecision& study) {
-    Quantities time;
-    time.x = [&study](const RunPoint& p) {
-        return (p.status == RunStatus::ok ? p.seconds : secondsOf(study, p)) / study.grid.duration();
-    };
-    time.y = [](const RunPoint& p) { return p.rmsError; };
-    time.isAtFloor = [](const RunPoint& p) { return p.isAtFloor; };
-    time.xLabel = study.unit.empty() ? "wall time for a unit of t [s]" : "wall time for a second of motion [s]";
-    time.yLabel = "RMS error of " + (study.unit.empty() ? "y" : "positions [" + study.unit + "]");
-    time.hasTimes = true;
-    return time;
+    return {.x =
+                [&study](const RunPoint& p) {
+                    return (p.status == RunStatus::ok ? p.seconds : secondsOf(study, p)) / study.grid.duration();
+                },
+            .y = &RunPoint::rmsError,
+            .xLabel = study.unit.empty() ? "wall time for a unit of t [s]" : "wall time for a second of motion [s]",
+            .yLabel = "RMS error of " + (study.unit.empty() ? "y" : "positions [" + study.unit + "]"),
+            .hasTimes = true,
+            .isAtFloor = &RunPoint::isAtFloor};
 }
 
 Quantities errorOverEvaluations(const WorkPrecision& study) {
@@ -262,14 +241,12 @@ Quantities errorOverEvaluations(const WorkPrecision& study) {
 }
 
 Quantities energyOverStep() {
-    Quantities energy;
-    energy.x = [](const RunPoint& p) { return p.step; };
-    energy.y = [](const RunPoint& p) { return p.energyError; };
-    energy.isAtFloor = [](const RunPoint& p) { return p.isEnergyAtFloor; };
-    energy.xLabel = "step h [s]";
-    energy.yLabel = "energy drift / largest kinetic energy";
-    energy.hasSteps = true;
-    return energy;
+    return {.x = &RunPoint::step,
+            .y = &RunPoint::energyError,
+            .xLabel = "step h [s]",
+            .yLabel = "energy drift / largest kinetic energy",
+            .hasSteps = true,
+            .isAtFloor = &RunPoint::isEnergyAtFloor};
 }
 
 }  // namespace
@@ -278,17 +255,15 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
     std::vector<NamedChart> charts;
     const double simulated = study.grid.duration();
     const std::string what = study.unit.empty() ? "y" : "positions";
-    const bool hasFailed = std::any_of(study.points.begin(), study.points.end(), isFailed);
+    const bool hasFailed = std::ranges::any_of(study.points, isFailed);
     const std::string failures =
         hasFailed ? "Top strip: runs that diverged, or whose error exceeds the whole motion." : "";
     const std::string floors =
         " White dot: at a floor of rounding, solver or reference, which smaller steps hardly better.";
     const std::string ring = " Ring: the largest step within the method's stability bound.";
-    const bool hasFloor = std::any_of(
-        study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.isAtFloor; });
-    const bool hasLimit = std::any_of(study.methods.begin(), study.methods.end(), [](const MethodFacts& m) {
-        return m.stepLimit > 0 && std::isfinite(m.stepLimit);
-    });
+    const bool hasFloor = std::ranges::any_of(study.points, &RunPoint::isAtFloor);
+    const bool hasLimit = std::ranges::any_of(
+        study.methods, [](const MethodFacts& m) { return m.stepLimit > 0 && std::isfinite(m.stepLimit); });
     const std::string marks = failures + (hasLimit ? ring : "") + (hasFloor ? floors : "");
 
     const std::string error = "RMS error of " + what + " at " + spanText(study) + ", ";
@@ -296,8 +271,7 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
                                       {marks + " Times: median, bars over the middle half of the repeats."}, notes)});
 
     const Quantities evaluations = errorOverEvaluations(study);
-    const bool hasSolver =
-        std::any_of(study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.iterations > 0; });
+    const bool hasSolver = std::ranges::any_of(study.points, [](const RunPoint& p) { return p.iterations > 0; });
     std::string counted = marks;
     if (hasSolver) counted += " Each product with the stiffness in a solver counts as an evaluation.";
     charts.push_back(
@@ -316,7 +290,7 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
     }
     if (study.window < study.grid.samples) {
         Quantities beyond = evaluations;
-        beyond.y = [](const RunPoint& p) { return p.heightError; };
+        beyond.y = &RunPoint::heightError;
         beyond.isAtFloor = [](const RunPoint&) { return false; };
         beyond.yLabel = "error of the mean height [m]";
         charts.push_back(

@@ -16,6 +16,7 @@ namespace taut::view {
 // All colours are linear RGB, 1 is white paper in full light. Lengths in metres, angles in radians, y up.
 
 enum class Pattern { plain, checker, stripes, tartan, image };
+enum class Binding { plain, twill, satin, rib, knit };
 
 // How a surface looks.
 struct Finish {
@@ -23,9 +24,12 @@ struct Finish {
     glm::vec3 back{0.8F};    // the other side of a cloth
     glm::vec3 accent{0.2F};  // second colour of a pattern
     Pattern pattern = Pattern::plain;
-    float repeat = 0.2F;        // [m] length after which a pattern repeats along uv
-    float weave = 0.0F;         // strength of the weave normal, 0 (smooth) … 1 (coarse linen)
+    float repeat = 0.2F;  // [m] length after which a pattern repeats along uv
+    float weave = 0.0F;   // strength of the weave normal, 0 (smooth) … 1 (coarse linen)
+    Binding binding = Binding::plain;
     float thread = 0.0015F;     // [m] distance between two threads of the weave
+    float slub = 0.0F;          // unevenness of the threads, 0 … 1
+    float fuzz = 0.0F;          // fibres that stand up from the surface, 0 … 1
     float roughness = 0.7F;     // 0 mirror … 1 chalk
     float sheen = 0.0F;         // bright rim of fabric, 0 … 1
     float translucency = 0.2F;  // share of the light on the other side of a cloth that comes through, in its colour

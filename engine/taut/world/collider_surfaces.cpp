@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "taut/core/error.h"
 #include "taut/spec/private/motion.h"
@@ -120,8 +121,7 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double end, 
                             contact::Elements& elements, std::span<dvec3> v) {
     bool hasJumped = false;
     for (Collider& own : colliders_) {
-        const bool moved = own.moves;
-        own.moves = false;
+        own.hasMoved = std::exchange(own.moves, false);
         own.from = own.to;
         for (const ColliderMotion& motion : moving) {
             if (motion.collider != own.collider) continue;
@@ -131,7 +131,7 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double end, 
         }
         if (own.figure != nullptr) setEnds(own, end);
         for (int s = own.firstSurface; s < own.lastSurface; ++s) elements.setStill(s, !own.moves);
-        if (!own.moves && !moved) continue;
+        if (!own.moves && !own.hasMoved) continue;
         const Placing from(own.from), to(own.to);
         const std::span<dvec3> velocities = v.subspan(own.firstPoint, own.vertices.size());
         double square = 0;
@@ -152,7 +152,7 @@ bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double end, 
 
 void ColliderSurfaces::place(double share, std::span<dvec3> x) const {
     for (const Collider& own : colliders_) {
-        if (!own.moves) continue;
+        if (!own.moves && !own.hasMoved) continue;
         const std::span<dvec3> places = x.subspan(own.firstPoint, own.vertices.size());
         const Placing place(between(own.from, own.to, share));
         for (std::size_t i = 0; i < places.size(); ++i)

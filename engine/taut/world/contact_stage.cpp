@@ -238,7 +238,7 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
             std::swap(x0_, x1_);
             vStart_ = v_;
             if (!advance(time, moving, step, step + 1, faults)) return;
-            if (step == first) last = first + openBlock(step, last - first, usual);
+            if (step == first) last = first + openBlock(time, step, last - first, usual);
             // Without rows there are no impulses until the block ends.
             if (!group_->hasRows()) {
                 pressed_.clear();
@@ -279,7 +279,9 @@ double ContactStage::mostWayOfPair() const {
 
 // Whether a body in contact may roll.
 bool ContactStage::mayRoll() const {
-    return !rigidPairs_.empty() ||
+    return std::any_of(
+               rigidPairs_.begin(), rigidPairs_.end(),
+               [](const auto& pair) { return pair.kind == contact::ContactConstraint::Kind::contact; }) ||
            std::any_of(
                kinematic_.begin(), kinematic_.end(),
                [](const auto& contact) { return contact.isWhole && contact.used().size() == 1; });
@@ -315,7 +317,7 @@ void ContactStage::findWays(double h) {
 
 // Begins a block of so many steps, after the first of them, which tells where all of them lead. Returns how many it
 // has: fewer where something is fast.
-int ContactStage::openBlock(int step, int steps, int usual) {
+int ContactStage::openBlock(const TickTime& time, int step, int steps, int usual) {
     const auto start = Clock::now();
     const double h = tickSeconds_ / steps_;
     findWays(h);
@@ -337,6 +339,7 @@ int ContactStage::openBlock(int step, int steps, int usual) {
     const double from = static_cast<double>(step) / steps_;
     findTouches(x0_, ahead_, from, std::min(1.0, from + static_cast<double>(steps) / steps_));
     addTouches();
+    addJoints(time.at(step, steps_));
     const int longest = steps;
     if (mayRoll()) steps = std::min(steps, usual);  // normals turn with what rolls
     for (const ElementTouch& touch : elementTouches_)

@@ -5,11 +5,12 @@
 
 #include "taut/contact/penetration.h"
 #include "taut/contact/rigid_side.h"
+#include "taut/plan/constraint.h"
 
 namespace taut::world {
 namespace {
 
-constexpr int ofElement = 1 << 28;  // in the name of a pair
+constexpr int ofElement = 1 << 28, ofJoint = 1 << 29;  // in the name of a pair
 
 }  // namespace
 
@@ -208,6 +209,74 @@ void ContactStage::addTouches() {
         contact.weights = touch.weights;
         if (!contact::mayYield(contact.used(), std::span(contact.weights).first(contact.used().size()), inverseMass_))
             kinematic_.pop_back();
+    }
+}
+
+// Rows of the joints of solids at t [s], where their block begins -> rigidPairs_. A pin has one along each axis. Joints
+// of sides that touch have none: beside the axle of a lid, contact that overlaps by rounding would hold it open.
+void ContactStage::addJoints(double t) {
+    using Kind = contact::ContactConstraint::Kind;
+    const auto isOfSolid = [&](int point) {
+        return std::any_of(solids_.begin(), solids_.end(), [&](const std::vector<int>& points) {
+            return std::binary_search(points.begin(), points.end(), point);
+        });
+    };
+    int number = 0;
+    for (const Part& part : parts_) {
+        const IslandPlan& plan = part.island->plan();
+        if (plan.solids.empty() || plan.ties.empty() || part.island->isStill()) continue;
+        std::set<std::pair<int, int>> touching;  // constraint and tie
+        for (const JointTie& tie : plan.ties)
+            for (const JointTie::Part& own : tie.parts)
+                if (tie.touch) touching.emplace(own.constraint, own.tie);
+        for (std::size_t c = 0; c < plan.constraints.size(); ++c) {
+            const auto& constraint = plan.constraints[c];
+            for (const Constraint::Pair& tie : constraint->copy()->pairs(t)) {
+                if (touching.contains({static_cast<int>(c), tie.tie})) continue;
+                // An end has a place, and points of the group if anything may move it.
+                struct End {
+                    dvec3 place{0.0};
+                    std::vector<Spot::Share> shares{};
+                    bool isOfSolid = false;
+                };
+                const auto endOf = [&](const Spot& spot) {
+                    const int count = static_cast<int>(constraint->points().size());
+                    if (const int own = spot.nearest(); own >= count) {
+                        const Constraint::Place& place = constraint->places()[static_cast<std::size_t>(own - count)];
+                        const auto frame = pathOf(plan, place.collider).at(t);
+                        return End{frame.place + frame.arm(place.offset)};
+                    }
+                    const Spot here = spot.renumbered(
+                        [&](int own) { return part.first + constraint->points()[static_cast<std::size_t>(own)]; });
+                    End end{here.of(xStart_), {here.shares().begin(), here.shares().end()}, isOfSolid(here.nearest())};
+                    if (end.isOfSolid) end.shares = {{here.nearest(), 1.0}};
+                    return end;
+                };
+                End first = endOf(tie.a), second = endOf(tie.b);
+                if (!first.isOfSolid) std::swap(first, second);
+                if (!first.isOfSolid || second.shares.size() > 3) continue;
+                contact::ContactConstraint row{};
+                row.points.fill(first.shares.front().point);
+                row.weights = {1.0, 0.0, 0.0, 0.0};
+                for (std::size_t k = 0; k < second.shares.size(); ++k) {
+                    row.points[k + 1] = second.shares[k].point;
+                    row.weights[k + 1] = -second.shares[k].weight;
+                }
+                row.isPoint = row.isActive = true;
+                row.places = {{first.place, second.place}};
+                row.a = ofJoint | number++;
+                const dvec3 between = second.place - first.place;
+                const double length = std::sqrt(glm::dot(between, between));
+                row.kind = tie.isMost ? Kind::leash : Kind::joint;
+                row.distance = tie.length - length;
+                for (row.b = 0; row.b < (tie.length > 0 ? 1 : 3); ++row.b) {
+                    row.normal = dvec3(0.0);
+                    row.normal[row.b] = 1.0;
+                    if (tie.length > 0 && length > 0) row.normal = between / length;
+                    rigidPairs_.push_back(row);
+                }
+            }
+        }
     }
 }
 

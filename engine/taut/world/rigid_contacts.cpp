@@ -61,26 +61,31 @@ void RigidContacts::findPairs(const MayTouch& mayTouch) {
         if (first.surface < 0 || !mayTouch(first.surface, second.surface, second.collider)) return;
         pairs_.push_back(std::minmax(a, b));
     };
-    order_.clear();
+    swept_.clear();
     core::Aabb all;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
         if (shapes_[k].convex->isHalfSpace()) continue;
-        order_.push_back(static_cast<int>(k));
+        swept_.push_back({shapes_[k].box, static_cast<int>(k)});
         all.add(shapes_[k].box.centre());
     }
     // A half-space has no box, so every other shape is a pair with it.
     for (std::size_t plane = 0; plane < shapes_.size(); ++plane)
         if (shapes_[plane].convex->isHalfSpace())
-            for (const int k : order_) take(k, static_cast<int>(plane));
+            for (const Swept& own : swept_) take(own.shape, static_cast<int>(plane));
     const dvec3 size = all.halfSize();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto box = [&](int k) -> const core::Aabb& { return shapes_[k].box; };
-    std::sort(order_.begin(), order_.end(), [&](int a, int b) {
-        return box(a).low[axis] < box(b).low[axis] || (box(a).low[axis] == box(b).low[axis] && a < b);
+    const auto overlap = [](const core::Aabb& a, const core::Aabb& b, int k) {
+        return a.low[k] <= b.high[k] && b.low[k] <= a.high[k];
+    };
+    std::sort(swept_.begin(), swept_.end(), [axis](const Swept& a, const Swept& b) {
+        return a.box.low[axis] < b.box.low[axis] || (a.box.low[axis] == b.box.low[axis] && a.shape < b.shape);
     });
-    for (std::size_t i = 0; i < order_.size(); ++i)
-        for (std::size_t k = i + 1; k < order_.size() && box(order_[k]).low[axis] <= box(order_[i]).high[axis]; ++k)
-            if (box(order_[i]).overlaps(box(order_[k]), 0.0)) take(order_[i], order_[k]);
+    for (auto own = swept_.begin(); own != swept_.end(); ++own) {
+        const double end = own->box.high[axis];
+        for (auto other = own + 1; other != swept_.end() && other->box.low[axis] <= end; ++other)
+            if (overlap(own->box, other->box, (axis + 1) % 3) && overlap(own->box, other->box, (axis + 2) % 3))
+                take(own->shape, other->shape);
+    }
     std::sort(pairs_.begin(), pairs_.end());
 }
 

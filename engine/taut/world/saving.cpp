@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "taut/core/private/contains.h"
 #include "taut/spec/kinds.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/private/bodies.h"
@@ -107,7 +108,7 @@ std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added
     static const Kinds known = builtIn();
     std::vector<std::string> names;
     const auto need = [&](const std::string& name) {
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        if (!core::contains(names, name)) names.push_back(name);
     };
     for (const auto& force : added) need("force " + force->name());
     for (const ForceSpec& force : scene.forces)

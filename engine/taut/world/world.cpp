@@ -118,6 +118,10 @@ std::optional<Divergence> World::advance() {
 ecs::Registry& World::registry() {
     return impl_->registry;
 }
+
+const ecs::Registry& World::registry() const {
+    return impl_->registry;
+}
 void World::addForce(std::shared_ptr<const Force> force) {
     TAUT_EXPECTS(force != nullptr);
     WorldImpl& w = *impl_;

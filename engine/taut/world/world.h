@@ -120,6 +120,7 @@ class World {
     // Entities with their components (components.h), open to new kinds: a component added here together with
     // a system below needs no change in this class.
     ecs::Registry& registry();
+    const ecs::Registry& registry() const;
 
     // Adds a system. The world calls it at the start of every tick with the time at the end of the tick and its length
     // [s]: after it has set keyframed placements, before forces act. Systems run in the order of adding.

@@ -37,7 +37,10 @@ class JoinedBodies {
     void addBody(const core::RigidMotion& body, std::span<const std::size_t> points);
     void addPair(const Pair& pair) { pairs_.push_back(pair); }
     bool isEmpty() const;  // no pair holds a body
-    bool hasLeash() const { return std::ranges::any_of(pairs_, &Pair::isMost); }
+    bool hasLeash() const {
+        return std::any_of(
+            pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.isMost; });
+    }
 
     // at (points) [m] where impulses act; inverseMass (points) [1/kg]. Returns false if all pairs hold to `settled` of
     // values (points), which are places or velocities; else finds impulses.

@@ -23,6 +23,7 @@ enum TextureUnit : int {
     shapesUnit = 6,
     materialsUnit = 7,
     environmentUnit = 8,
+    hiddenUnit = 9,  // and before it is drawn, the depth that it is made from
     lampsUnit = 10,  // three of each lamp that throws shadows
 };
 

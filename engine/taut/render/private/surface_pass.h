@@ -34,10 +34,10 @@ class SurfacePass {
     // Draws the visible parts into the target of surfaces.
     void draw(std::span<const DrawItem> items, const MeshCache& meshes);
 
-    // The light on it, in a part of the bound picture, which shows everything `shift` [pixels] to the right and up; the
-    // frame block and the shadow maps must be in place.
-    void light(const LightKind& kind, const view::Camera& camera, const PixelBox& part, glm::ivec2 size,
-               glm::vec2 shift);
+    // The light on it, in a part of the shaded picture, which shows everything `shift` [pixels] to the right and up;
+    // the frame block and the shadow maps must be in place. `occlusion`: surfaces take light from each other.
+    void light(const LightKind& kind, const view::Camera& camera, const PixelBox& part, const Targets& targets,
+               glm::vec2 shift, bool occlusion);
 
     // The table of the drawn surfaces, for shaders that read `materials`.
     void bindMaterials();
@@ -47,7 +47,7 @@ class SurfacePass {
     struct Material {
         glm::vec4 backRoughness;
         glm::vec4 kind;    // sheen, dulled less greyed, translucency, woven
-        glm::vec4 fibres;  // anisotropy; rest 0
+        glm::vec4 fibres;  // anisotropy, fuzz; rest 0
         bool operator==(const Material&) const = default;
     };
 
@@ -58,8 +58,9 @@ class SurfacePass {
     const Gl* gl_;
     const ShaderFolder* shaders_;
     TextureCache textures_;
-    std::map<std::tuple<view::Pattern, bool, bool, bool>, Program> programs_;  // pattern, woven, two-sided, fibres
+    std::map<std::vector<std::string>, Program> programs_;  // by their definitions
     std::map<LightKind, Program> lights_;
+    Program occlusion_;
     std::vector<Material> materials_;
     GlObject materialTexture_, empty_;
 };

@@ -21,7 +21,10 @@ class Targets {
 
     void bindSurfaces() const;  // target for visible surfaces, with the depth of the picture; bytes are kept as they
                                 // are
-    void bindShading() const;   // target with one sample per pixel; the visible surfaces are bound to its units
+    void bindHidden() const;  // target for the share of light that surfaces nearby leave, a pixel for 2 × 2; depth and
+                              // visible surfaces are bound to its units
+    void bindShading() const;  // target with one sample per pixel; the visible surfaces, and the share of light, are
+                               // bound to its units
 
     // The shaded picture: bytes red, green, blue, mark from the lowest on; rows from below.
     void colours(std::vector<std::uint32_t>& to) const;               // (width · height)
@@ -35,14 +38,15 @@ class Targets {
     void put(std::span<const std::uint32_t> colours);
 
   private:
-    GlObject texture(GLenum format, GLenum layout, GLenum type) const;
-    void bind(const GlObject& target) const;
+    GlObject texture(GLenum format, GLenum layout, GLenum type, int width, int height) const;
+    void bind(const GlObject& target, int width, int height) const;
     void bindTexture(int unit, const GlObject& object) const;
 
     const Gl* gl_;
     int width_, height_;
     GlObject colour_, depth_, target_;
     GlObject tints_, shapes_, surfaceTarget_;
+    GlObject hidden_, hiddenTarget_;
     GlObject putColour_, putTarget_;
 };
 

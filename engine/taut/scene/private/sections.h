@@ -1,6 +1,10 @@
 // The field table of a scene file by topic: each function is the table of one section.
 #pragma once
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "taut/fields/field.h"
 #include "taut/spec/common_rows.h"
 #include "taut/spec/kinds.h"
@@ -58,39 +62,44 @@ SceneSection goldenSection();
 // Keys must ascend in t. Reports each that does not.
 void checkAscending(const CheckInput& input);
 
-// Enters a new element with a name and a source.
+// The section of a part of the scene that exists once.
+template <class Part>
+SceneSection sectionOf(const char* name, const char* help, Part world::SceneSpec::*part, std::vector<Field> fields) {
+    SceneSection section;
+    section.name = name;
+    section.help = help;
+    section.fields = std::move(fields);
+    section.enter = [part](world::SceneSpec& scene, const std::string&, const world::Source&) -> void* {
+        return &(scene.*part);
+    };
+    section.existing = [part](world::SceneSpec& scene, const std::string&) -> void* { return &(scene.*part); };
+    return section;
+}
+
+// The section of elements: with names, or one after the other.
 template <class Spec>
-auto enterNamed(std::vector<Spec> world::SceneSpec::*list) {
-    return [list](world::SceneSpec& scene, const std::string& name, const world::Source& source) -> void* {
+SceneSection sectionOf(const char* name, const char* help, std::vector<Spec> world::SceneSpec::*list,
+                       std::vector<Field> fields, Layout layout = Layout::named) {
+    SceneSection section;
+    section.name = name;
+    section.layout = layout;
+    section.help = help;
+    section.fields = std::move(fields);
+    section.enter = [list](world::SceneSpec& scene, const std::string& title, const world::Source& source) -> void* {
         Spec& spec = (scene.*list).emplace_back();
         if constexpr (
             requires { spec.name; })
-            spec.name = name;
+            spec.name = title;
         spec.source = source;
         return &spec;
     };
-}
-
-// Finds an element by its name.
-template <class Spec>
-auto findNamed(std::vector<Spec> world::SceneSpec::*list) {
-    return [list](world::SceneSpec& scene, const std::string& name) -> void* {
-        for (Spec& spec : scene.*list)
-            if (spec.name == name) return &spec;
-        return nullptr;
-    };
-}
-
-template <class Part>
-auto findPart(Part world::SceneSpec::*part) {
-    return [part](world::SceneSpec& scene, const std::string&) -> void* { return &(scene.*part); };
-}
-
-// Enters a part of the scene that exists once.
-template <class Part>
-auto enterPart(Part world::SceneSpec::*part) {
-    return
-        [part](world::SceneSpec& scene, const std::string&, const world::Source&) -> void* { return &(scene.*part); };
+    if constexpr (requires(Spec spec) { spec.name; })
+        section.existing = [list](world::SceneSpec& scene, const std::string& title) -> void* {
+            const auto found = std::find_if((scene.*list).begin(), (scene.*list).end(),
+                                            [&](const Spec& own) { return own.name == title; });
+            return found == (scene.*list).end() ? nullptr : &*found;
+        };
+    return section;
 }
 
 }  // namespace taut::scene

@@ -29,8 +29,8 @@ std::vector<UsedFile> pictureFiles(const world::SceneSpec& scene);
 // The files that differ now: "sail.obj has changed", "sail.obj is gone".
 std::vector<std::string> changedSince(std::span<const UsedFile> files);
 
-// Writes the files as bytes, and reads them.
-void addUsedFiles(core::ByteWriter& writer, std::span<const UsedFile> files);
-std::vector<UsedFile> nextUsedFiles(core::ByteReader& reader);
+inline void visit(core::Bytes& bytes, UsedFile& file) {
+    bytes(file.path, file.content);
+}
 
 }  // namespace taut::scene

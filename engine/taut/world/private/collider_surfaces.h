@@ -41,7 +41,8 @@ class ColliderSurfaces {
     // its motion at once.
     bool move(std::span<const ColliderMotion> moving, double end, double tickSeconds, contact::Elements& elements,
               std::span<dvec3> v);
-    // Sets the places (points) [m] of moving colliders at a share of the tick; at its end those of all colliders.
+    // Sets the places (points) [m] of colliders that move or have just stopped, at a share of the tick.
+    // placeAll: those of all, at its end.
     void place(double share, std::span<dvec3> x) const;
     void placeAll(std::span<dvec3> x) const;
 
@@ -54,7 +55,7 @@ class ColliderSurfaces {
         int firstPoint;                 // of the group
         int firstSurface, lastSurface;  // of the group
         collision::Pose from, to;       // in this tick
-        bool moves = false;
+        bool moves = false, hasMoved = false;  // in this tick, in the last
         std::vector<dvec3> xFrom, xTo;  // [m] vertices of a figure in this tick
     };
     static void setEnds(Collider& own, double end);

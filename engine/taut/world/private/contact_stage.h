@@ -156,6 +156,7 @@ class ContactStage {
                      bool alsoOfStill = false);
     void findPresentTouches();
     void addTouches();
+    void addJoints(double t);
     template <class Each>
     void forEachNearCollider(double past, double ahead, const Each& each,
                              const std::function<bool(int surface)>& isWanted = nullptr) const;
@@ -179,9 +180,9 @@ class ContactStage {
     bool advance(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last,
                  std::vector<std::optional<Fault>>& faults);
     void findWays(double h);
-    int openBlock(int step, int steps, int usual);
     int nextLength(int steps, int usual) const;
     double mostWayOfPair() const;
+    int openBlock(const TickTime& time, int step, int steps, int usual);
     bool mayRoll() const;
     void closeBlock();
     void place(std::span<const int> points);

@@ -60,7 +60,11 @@ class RigidContacts {
     std::vector<Solid> solids_;
     std::vector<ShapeInMotion> shapes_;       // of solids, then of colliders
     std::vector<std::pair<int, int>> pairs_;  // of shapes, ascending
-    std::vector<int> order_;                  // scratch
+    struct Swept {
+        core::Aabb box;
+        int shape;
+    };
+    std::vector<Swept> swept_;  // scratch: boxes one after another, as the sweep reads them
     std::vector<std::vector<RigidTouch>> perTask_;
     std::vector<RigidTouch> touches_;
 };

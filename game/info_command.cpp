@@ -84,7 +84,8 @@ TickCost measuredCost(world::World& world, std::int64_t ticks) {
 
 bool mayHaveContacts(const world::SceneSpec& spec) {
     const auto collides = [](const world::BodySpec& body) { return body.collide; };
-    return world::bodiesTouch(spec) || (!spec.colliders.empty() && std::ranges::any_of(spec.bodies, collides));
+    return world::bodiesTouch(spec) ||
+           (!spec.colliders.empty() && std::any_of(spec.bodies.begin(), spec.bodies.end(), collides));
 }
 
 struct Facts {

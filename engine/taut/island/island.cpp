@@ -219,7 +219,7 @@ int Island::inParts(int substeps) const {
 int Island::stepsToPress(bool bounces) const {
     const int substeps = quietSubsteps();
     if (bounces || !std::isfinite(choice_.limit)) return substeps;
-    const double turn = choice_.mode.omega * tickSeconds_ / substeps;
+    const double turn = choice_.mode.omega * tickSeconds_ / ownSubsteps_;
     const int each = turn < longestTurn ? static_cast<int>(std::min(longestTurn / turn, 1.0 * substeps)) : 1;
     return std::clamp((substeps + each - 1) / each, quietParts_, std::max(quietParts_, mostToPress));
 }

@@ -21,7 +21,9 @@
 // Position correction. A pair that overlaps (g < 0) is moved apart by a share of the overlap in a block, as a shift of
 // places, in equal parts in all its steps. The shift is no velocity, so it adds no energy of motion (split impulses, as
 // in Bullet). In one part it would strain springs at once. Deformable bodies may overlap by a fifth of their thickness:
-// a heap of towels that is moved until its layers barely touch never rests (2e-4 J in place of 5e-6 J).
+// a heap of towels that is moved until its layers barely touch never rests (2e-4 J in place of 2e-6 J). Corrections are
+// soft, so two that contradict each other, as in a fold that is pressed flat, cancel out. Else they would stretch its
+// springs in every block, for ever (2e-5 J).
 //
 // Clusters are sets of pairs that share movable points. They are solved in parallel, each in the order of its pairs:
 // the bits do not depend on threads. Large clusters are coloured: rows of one colour share no velocity

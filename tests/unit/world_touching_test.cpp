@@ -44,24 +44,6 @@ SceneSpec sceneOf(const ClothSpec& cloth, const NetSpec& net) {
     return scene;
 }
 
-// A point lies on a held square, and so a micrometre above the ground. In a step without contact it would fall further
-// than that, and the ground would stop it: an impulse that it does not need once the square holds it.
-TEST(TouchingWorld, LiesStillBarelyAboveACollider) {
-    constexpr double above = 1e-6;
-    SceneSpec scene =
-        sceneOf(square(thickness + above - keep, {"all"}), ball({0.6, thickness + above, 0.3}, dvec3(0.0), 0.1));
-    scene.bodies.of<ClothSpec>()[0].collide = false;
-    ColliderSpec ground;
-    ground.name = "ground";
-    ground.shape = "plane";
-    scene.colliders = {ground};
-    World world(scene);
-    for (int i = 0; i < 30; ++i) {
-        EXPECT_FALSE(world.advance());
-        EXPECT_NEAR(positionsOf(world, "net.ball")[0].y, thickness + above, 1e-9) << i;
-    }
-}
-
 // In 0.5 s it falls by 1.2 m.
 TEST(TouchingWorld, LetsThroughWhereACutTakesTrianglesAway) {
     for (const bool isCut : {false, true}) {

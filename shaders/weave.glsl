@@ -6,11 +6,17 @@ uniform float fuzz;
 uniform vec3 weftColour;
 in vec3 place;
 
+#ifdef WEAVE
+#define BINDING WEAVE
+#else
+#define BINDING 0  // browsers refuse to compare what is not defined
+#endif
+
 // The bindings: along a thread of the warp, one crossing of binding.x shows the weft, and that place moves by binding.y
 // from thread to thread.
-#if WEAVE == 1
+#if BINDING == 1
 const vec2 binding = vec2(4.0, 1.0);  // twill
-#elif WEAVE == 2
+#elif BINDING == 2
 const vec2 binding = vec2(5.0, 2.0);  // satin
 #else
 const vec2 binding = vec2(2.0, 1.0);  // plain
@@ -39,7 +45,7 @@ vec2 unevenness(vec2 cell, vec2 fine, vec2 size) {
 // The colour as threads vary it.
 vec3 threadColour(vec2 uv, vec2 pixel, vec3 colour) {
     vec2 cell = uv / thread, fine = pixel / thread;
-#if WEAVE == 1
+#if BINDING == 1
     float across = dot(cell, binding.yx) / binding.x, wide = max(dot(fine, binding.yx) / binding.x, 1e-3);
     colour = mix(colour, weftColour, band(across, wide, 0.0, 1.0 / binding.x));
 #endif
@@ -61,14 +67,14 @@ vec3 threadColour(vec2 uv, vec2 pixel, vec3 colour) {
 float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     vec2 cell = uv / thread;
     vec2 fine = pixel / thread;  // threads a pixel; gaps are finer than threads and fade first, into their mean
-#if WEAVE == 4
+#if BINDING == 4
     float lean = 2.0 * mod(floor(cell.x), 2.0) - 1.0;  // of a leg of a loop
     cell.y += lean * fract(cell.x);
 #endif
     vec2 middle = fract(cell) - 0.5;
-#if WEAVE == 4
+#if BINDING == 4
     vec2 rise = vec2(0.8 * middle.x + 2.0 * lean * middle.y, 2.0 * middle.y);
-#elif WEAVE == 3
+#elif BINDING == 3
     vec2 rise = vec2(2.0 * middle.x, 0.0);
     middle.y = 0.0;
 #else

@@ -235,12 +235,9 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
     std::vector<dvec3> x;
     for (int i = 0; i < elements.pointCount(); ++i) x.push_back(stage.position(i));
     contact::Bvh patches(elements);
-    patches.start(x, x);
-    patches.followAll(x, x);
-    std::vector<core::Aabb> boxes;
-    for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
     std::vector<contact::LeafPair> near;
-    patches.findNear(boxes, 0.0, near);
+    patches.fit(x, x);
+    patches.findNear(near);
     const auto at = [&](int i) { return x[i]; };
     // Notes the points of a that lie on a triangle or an edge of b.
     std::map<std::pair<int, int>, std::set<int>> found;

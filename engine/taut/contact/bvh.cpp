@@ -10,7 +10,7 @@
 namespace taut::contact {
 namespace {
 
-constexpr int atOnce = 32, travelAtOnce = 256;  // leaves per task
+constexpr int atOnce = 32;  // leaves per task
 
 constexpr double alike = 1e-6;       // sizes that differ by less than this share count as equal
 constexpr double middleShare = 0.2;  // of the items: a node may be split this far from the middle
@@ -81,7 +81,6 @@ Bvh::Bvh(const Elements& elements)
     : elements_(elements),
       leafOfPoint_(static_cast<std::size_t>(elements.pointCount()), -1),
       leafOfEdge_(static_cast<std::size_t>(elements.edgesWithoutBalls()), -1) {
-    // Over 60 lines: it builds the parts of the tree one after the other, then the arrays that have their size.
     std::vector<int> roots;
     const std::vector<dvec3>& rest = elements.rest();
     const auto at = [&](int i) { return rest[static_cast<std::size_t>(i)]; };
@@ -93,62 +92,38 @@ Bvh::Bvh(const Elements& elements)
         edgeCentres.push_back(0.5 * (at(edge.a) + at(edge.b)));
     }
     // For each surface one tree of triangles, one of lines, and one leaf for other points.
-    planes_.resize(elements.surfaces().size());
-    planeRoots_.resize(elements.surfaces().size(), -1);
     for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s) {
         if (!elements.meetsAny(s)) continue;
         const Axes axes = axesOf(elements, s);
-        findPlane(s, axes[0]);
         std::vector<int> triangles, lines;
         for (int t = elements.firstTriangleOf(s); t < elements.firstTriangleOf(s + 1); ++t) triangles.push_back(t);
         for (int e = elements.firstEdgeOf(s); e < elements.firstEdgeOf(s + 1); ++e)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
-        if (!triangles.empty()) {
-            roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
-            planeRoots_[static_cast<std::size_t>(s)] = roots.back();
-        }
+        if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
         if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, axes, false));
         // Points of no triangle and no line. Damage has made them balls, or may do so later.
-        std::vector<int> others;
+        BvhLeaf others;
+        others.surface = s;
         for (int i : elements.surface(s).points)
-            if (elements.surfaceOf(i) == s && leafOfPoint_[static_cast<std::size_t>(i)] < 0) others.push_back(i);
-        if (others.empty()) continue;
-        BvhLeaf leaf;
-        leaf.surface = s;
-        leaf.points = leaf.corners = std::move(others);
-        for (int i : leaf.points) leafOfPoint_[static_cast<std::size_t>(i)] = count();
-        leaves_.push_back(std::move(leaf));
-        nodes_.push_back({-1, -1, count() - 1, s, elements.surface(s).thickness});
-        roots.push_back(static_cast<int>(nodes_.size()) - 1);
+            if (elements.surfaceOf(i) == s && leafOfPoint_[static_cast<std::size_t>(i)] < 0) others.points.push_back(i);
+        if (others.points.empty()) continue;
+        for (int i : others.points) leafOfPoint_[static_cast<std::size_t>(i)] = count();
+        others.corners = others.points;
+        roots.push_back(addNode(std::move(others)));
     }
     if (!roots.empty()) root_ = joinRoots(roots);
     motions_.resize(leaves_.size());
-    references_.resize(leaves_.size());
-    // Reference shapes, and the leaves at each point.
-    std::size_t corners = 0;
-    for (const BvhLeaf& leaf : leaves_) {
-        firstReference_.push_back(corners);
-        corners += leaf.corners.size();
-    }
-    referenceShape_.assign(corners, dvec3(1e150));
+    boxes_.resize(nodes_.size());
+    // The leaves at each point.
     firstAt_.assign(static_cast<std::size_t>(elements.pointCount()) + 1, 0);
     for (const BvhLeaf& leaf : leaves_)
         for (int i : leaf.corners) ++firstAt_[static_cast<std::size_t>(i) + 1];
-    for (std::size_t i = 1; i < firstAt_.size(); ++i) firstAt_[i] += firstAt_[i - 1];
-    leavesAt_.resize(corners);
+    std::partial_sum(firstAt_.begin(), firstAt_.end(), firstAt_.begin());
+    leavesAt_.resize(firstAt_.back());
     std::vector<std::size_t> next(firstAt_.begin(), firstAt_.end() - 1);
     for (int p = 0; p < count(); ++p)
         for (int i : leaves_[static_cast<std::size_t>(p)].corners) leavesAt_[next[static_cast<std::size_t>(i)]++] = p;
-    boxes_.resize(nodes_.size());
-    flatness_.resize(leaves_.size());
-    isMeasured_.assign(leaves_.size(), 0);
-    isFollowed_.assign(leaves_.size(), 0);
-    travel_.assign(leaves_.size(), 0.0);
-    all_.resize(leaves_.size());
-    std::iota(all_.begin(), all_.end(), 0);
-    isStillFollowed_.assign(leaves_.size(), 0);
-    prepareFlatness();
-    takeBalls();
+    refresh();
 }
 
 int Bvh::addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, const Axes& axes,
@@ -219,8 +194,12 @@ int Bvh::addLeaf(const std::vector<int>& items, int surface, bool areTriangles) 
         std::sort(list->begin(), list->end());
         list->erase(std::unique(list->begin(), list->end()), list->end());
     }
+    return addNode(std::move(leaf));
+}
+
+int Bvh::addNode(BvhLeaf leaf) {
+    nodes_.push_back({-1, -1, count(), leaf.surface, elements_.surface(leaf.surface).thickness});
     leaves_.push_back(std::move(leaf));
-    nodes_.push_back({-1, -1, number, surface, elements_.surface(surface).thickness});
     return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -233,150 +212,68 @@ int Bvh::joinRoots(std::span<const int> roots) {
     return static_cast<int>(nodes_.size()) - 1;
 }
 
-void Bvh::takeBalls() {
+void Bvh::refresh() {
     for (BvhLeaf& leaf : leaves_) std::erase_if(leaf.edges, [&](int e) { return e >= elements_.edgesWithoutBalls(); });
     for (std::size_t e = static_cast<std::size_t>(elements_.edgesWithoutBalls()); e < elements_.edges().size(); ++e) {
         const int owner = leafOfPoint_[static_cast<std::size_t>(elements_.edges()[e].a)];
         leaves_[static_cast<std::size_t>(owner)].edges.push_back(static_cast<int>(e));
     }
+    isStillAndKnown_.assign(leaves_.size(), 0);
 }
 
-void Bvh::takeReference(std::size_t number, std::span<const dvec3> x) {
-    const LeafMotion& motion = motions_[number];
-    dvec3* shape = referenceShape_.data() + firstReference_[number];
-    for (int i : leaves_[number].corners) *shape++ = x[static_cast<std::size_t>(i)] - motion.centre;
-    ++references_[number];
+void Bvh::fit(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    core::parallelFor(
+        count(), atOnce,
+        [&](int leaf) {
+            const auto p = static_cast<std::size_t>(leaf);
+            if (isStillAndKnown_[p] != 0) return;
+            isStillAndKnown_[p] = elements_.isStill(leaves_[p].surface) ? 1 : 0;
+            LeafMotion& motion = motions_[p];
+            motion = {};
+            for (int i : leaves_[p].corners) {
+                const dvec3 &from = x0[static_cast<std::size_t>(i)], &to = x1[static_cast<std::size_t>(i)];
+                motion.box.add(from);
+                motion.box.add(to);
+                motion.way += to - from;
+            }
+            motion.way /= static_cast<double>(leaves_[p].corners.size());
+            double square = 0;
+            for (int i : leaves_[p].corners) {
+                const dvec3 own = x1[static_cast<std::size_t>(i)] - x0[static_cast<std::size_t>(i)] - motion.way;
+                square = std::max(square, glm::dot(own, own));
+            }
+            motion.deviation = std::sqrt(square);
+        });
 }
 
-void Bvh::findWay(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    const BvhLeaf& leaf = leaves_[number];
-    LeafMotion& motion = motions_[number];
-    dvec3 sum(0.0), ways(0.0);
-    motion.before = {};
-    for (int i : leaf.corners) {
-        const dvec3 &from = x0[static_cast<std::size_t>(i)], &to = x1[static_cast<std::size_t>(i)];
-        motion.before.add(from);
-        motion.box.add(to);
-        sum += from;
-        ways += to - from;
-    }
-    motion.box.add(motion.before);
-    // The mean way, then how far points deviate from it and from the reference shape.
-    const double share = 1.0 / static_cast<double>(leaf.corners.size());
-    motion.centre = share * sum;
-    motion.way = share * ways;
-    const dvec3* shape = referenceShape_.data() + firstReference_[number];
-    double deviation = 0, deformation = 0;
-    for (int i : leaf.corners) {
-        const dvec3 before = x0[static_cast<std::size_t>(i)] - motion.centre, after = x1[static_cast<std::size_t>(i)];
-        const dvec3 own = after - motion.centre - motion.way - before;
-        const dvec3 bend = before - *shape++, bendAfter = bend + own;
-        deviation = std::max(deviation, glm::dot(own, own));
-        deformation = std::max(deformation, std::max(glm::dot(bend, bend), glm::dot(bendAfter, bendAfter)));
-    }
-    motion.deviation = std::sqrt(deviation);
-    motion.deformation = std::sqrt(deformation);
-}
-
-void Bvh::correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    isCorrected_.assign(leaves_.size(), 0);
-    for (int i : points) {
-        const auto k = static_cast<std::size_t>(i);
-        for (std::size_t at = firstAt_[k]; at < firstAt_[k + 1]; ++at)
-            isCorrected_[static_cast<std::size_t>(leavesAt_[at])] = 1;
-        ways_[k] = glm::dot(x1[k] - x0[k], x1[k] - x0[k]);
-    }
-    core::parallelFor(count(), atOnce, [&](int leaf) {
-        const auto p = static_cast<std::size_t>(leaf);
-        if (isCorrected_[p] == 0) return;
-        findTravel(p);
-        if (isFollowed_[p] != 0) findWay(p, x0, x1);
-        isMeasured_[p] = 0;
-    });
-}
-
-void Bvh::addShifts(std::span<const int> points, std::span<const dvec3> from, std::span<const dvec3> to,
-                    std::span<double> shifts) const {
-    for (int i : points) {
-        const auto k = static_cast<std::size_t>(i);
-        const double shift = length(to[k] - from[k]);
-        for (std::size_t at = firstAt_[k]; at < firstAt_[k + 1]; ++at) {
-            double& most = shifts[static_cast<std::size_t>(leavesAt_[at])];
-            most = std::max(most, shift);
-        }
-    }
-}
-
-void Bvh::findTravel(std::size_t number) {
-    double most = 0;
-    for (int i : leaves_[number].corners) most = std::max(most, ways_[static_cast<std::size_t>(i)]);
-    travel_[number] = std::sqrt(most);
-}
-
-void Bvh::start(std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    ways_.resize(x0.size());
-    for (std::size_t i = 0; i < x0.size(); ++i) ways_[i] = glm::dot(x1[i] - x0[i], x1[i] - x0[i]);
-    core::parallelFor(count(), travelAtOnce, [&](int p) { findTravel(static_cast<std::size_t>(p)); });
-    std::fill(isMeasured_.begin(), isMeasured_.end(), 0);
-    std::fill(isFollowed_.begin(), isFollowed_.end(), 0);
-}
-
-void Bvh::follow(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1, double most) {
-    toFollow_.clear();
-    for (int p : leaves) {
-        char& isFollowed = isFollowed_[static_cast<std::size_t>(p)];
-        if (isFollowed == 0) toFollow_.push_back(p);
-        isFollowed = 1;
-    }
-    core::parallelFor(static_cast<int>(toFollow_.size()), atOnce, [&](int k) {
-        const auto p = static_cast<std::size_t>(toFollow_[static_cast<std::size_t>(k)]);
-        const bool isStill = elements_.isStill(leaves_[p].surface);
-        char& isStillFollowed = isStillFollowed_[p];
-        if (isStill && isStillFollowed != 0) return;
-        isStillFollowed = isStill ? 1 : 0;
-        LeafMotion& motion = motions_[p];
-        motion.box = {};
-        findWay(p, x0, x1);
-        if (most > 0 && !(motion.deformation <= most)) {
-            takeReference(p, x0);
-            motion.deformation = motion.deviation;
-        }
-        motion.reference = references_[p];
-    });
-}
-
-void Bvh::followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double most) {
-    follow(all_, x0, x1, most);
-}
-
-void Bvh::findNear(std::span<const core::Aabb> boxes, double more, std::vector<LeafPair>& pairs) {
+void Bvh::findNear(std::vector<LeafPair>& pairs) {
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
         const Node& node = nodes_[n];
         if (node.leaf >= 0) {
-            boxes_[n] = boxes[static_cast<std::size_t>(node.leaf)];
+            boxes_[n] = motions_[static_cast<std::size_t>(node.leaf)].box;
         } else {
             boxes_[n] = boxes_[static_cast<std::size_t>(node.left)];
             boxes_[n].add(boxes_[static_cast<std::size_t>(node.right)]);
         }
     }
     pairs.clear();
-    if (root_ >= 0) findPairsWithin(root_, more, pairs);
+    if (root_ >= 0) findPairsWithin(root_, pairs);
     std::sort(pairs.begin(), pairs.end());
 }
 
-void Bvh::findPairsWithin(int number, double more, std::vector<LeafPair>& pairs) const {
+void Bvh::findPairsWithin(int number, std::vector<LeafPair>& pairs) const {
     const Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.surface >= 0 && !elements_.mayMeet(node.surface, node.surface)) return;
     if (node.leaf >= 0) return pairs.push_back(leafPair(node.leaf, node.leaf));
-    findPairsWithin(node.left, more, pairs);
-    findPairsWithin(node.right, more, pairs);
-    findPairsBetween(node.left, node.right, more, pairs);
+    findPairsWithin(node.left, pairs);
+    findPairsWithin(node.right, pairs);
+    findPairsBetween(node.left, node.right, pairs);
 }
 
-void Bvh::findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pairs) const {
+void Bvh::findPairsBetween(int a, int b, std::vector<LeafPair>& pairs) const {
     const Node &first = nodes_[static_cast<std::size_t>(a)], &second = nodes_[static_cast<std::size_t>(b)];
     const core::Aabb &boxA = boxes_[static_cast<std::size_t>(a)], &boxB = boxes_[static_cast<std::size_t>(b)];
-    if (!boxA.overlaps(boxB, nearShare * (first.thickness + second.thickness) + more)) return;
+    if (!boxA.overlaps(boxB, nearShare * (first.thickness + second.thickness))) return;
     if (first.surface >= 0 && second.surface >= 0 && !elements_.mayMeet(first.surface, second.surface)) return;
     if (first.leaf >= 0 && second.leaf >= 0) {
         pairs.push_back(leafPair(first.leaf, second.leaf));
@@ -387,11 +284,11 @@ void Bvh::findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pai
         return size.x + size.y + size.z;
     };
     if (second.leaf >= 0 || (first.leaf < 0 && sizeOf(boxA) >= sizeOf(boxB))) {
-        findPairsBetween(first.left, b, more, pairs);
-        findPairsBetween(first.right, b, more, pairs);
+        findPairsBetween(first.left, b, pairs);
+        findPairsBetween(first.right, b, pairs);
     } else {
-        findPairsBetween(a, second.left, more, pairs);
-        findPairsBetween(a, second.right, more, pairs);
+        findPairsBetween(a, second.left, pairs);
+        findPairsBetween(a, second.right, pairs);
     }
 }
 

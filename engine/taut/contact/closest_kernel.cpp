@@ -14,8 +14,6 @@
 namespace taut::contact::TAUT_ISA {
 namespace {
 
-constexpr int room = 64;  // boxes or pairs at a time
-
 constexpr int sixteen = static_cast<int>(boxesAtOnce);
 
 // A bit for each of sixteen numbers that is at most, or at least, the limit.
@@ -96,72 +94,51 @@ void onSegments(ClosestLanes& lanes, int n) {
         lanes, n, [](const Place& a, const Place& b, const Place& c, const Place& d) { return onSegment(a, b, c, d); });
 }
 
+// A bit for each of sixteen boxes that overlaps the box from low to high.
+inline unsigned overlap(const BoxLanes& boxes, int at, const float* low, const float* high) {
+    unsigned own = 0xffff;
+    for (int k = 0; k < 3; ++k) own &= atMost(boxes.low[k] + at, high[k]) & atLeast(boxes.high[k] + at, low[k]);
+    return own;
+}
+
+// Likewise of 64, or of those that there are.
+inline std::uint64_t overlapMany(const BoxLanes& boxes, int from, const float* low, const float* high) {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 64 && from + i < boxes.n; i += sixteen)
+        bits |= static_cast<std::uint64_t>(overlap(boxes, from + i, low, high)) << static_cast<unsigned>(i);
+    return bits;
+}
+
 bool findOverlapping(const BoxLanes& boxes, const float* low, const float* high, std::uint64_t* hits) {
     std::uint64_t any = 0;
-    for (int from = 0; from < boxes.n; from += 64) {
-        const int n = boxes.n - from < 64 ? boxes.n - from : 64;
-        std::uint64_t bits = 0;
-        for (int i = 0; i < n; i += sixteen) {
-            unsigned own = 0xffff;
-            for (int k = 0; k < 3; ++k)
-                own &= atMost(boxes.low[k] + from + i, high[k]) & atLeast(boxes.high[k] + from + i, low[k]);
-            bits |= static_cast<std::uint64_t>(own) << static_cast<unsigned>(i);
-        }
-        *hits++ = bits;
-        any |= bits;
-    }
+    for (int from = 0; from < boxes.n; from += 64) any |= * hits++ = overlapMany(boxes, from, low, high);
     return any != 0;
 }
 
-// Minima are computed as maxima of negative numbers, because the wide vectors only have maxima.
-int findDue(CandidateRows& rows) {
-    using core::TAUT_ISA::larger, core::TAUT_ISA::load;
-    using V = core::TAUT_ISA::WideVector<double>;
-    constexpr int width = sizeof(V) / sizeof(double);
-    alignas(64) double byTravelled[room], byApproached[room];  // negative budgets of the pairs that are not due
-    alignas(64) std::int64_t isDue[room];
-    int count = 0;
-    for (int from = 0; from < rows.n; from += room) {
-        const int n = rows.n - from < room ? rows.n - from : room;
-        const double *travel = rows.travelBudget + from, *approach = rows.approachBudget + from;
-        const double travelled = rows.travelled, approached = rows.approached;
-        // Which pairs are due. A pair that is not due counts its larger budget.
-        TAUT_INDEPENDENT
-        for (int i = 0; i < n; ++i) {
-            const double left = travel[i] - travelled, leftApproach = approach[i] - approached;
-            const bool hasBudget = (left > 0) | (leftApproach > 0), isFurther = left > leftApproach;
-            isDue[i] = hasBudget ? 0 : 1;
-            byTravelled[i] = (hasBudget & isFurther) ? -travel[i] : -1e300;
-            byApproached[i] = (hasBudget & !isFurther) ? -approach[i] : -1e300;
+int findPairs(const BoxSets& sets, int word, ElementPair* found) {
+    constexpr float outwards = 2e-7F;  // at least as far out as the sum, whichever way it was rounded
+    ElementPair* next = found;
+    for (std::uint64_t left = sets.firsts[word]; left != 0; left &= left - 1) {
+        const int i = 64 * word + __builtin_ctzll(left), own = sets.firstItems[i];
+        float low[3], high[3];
+        for (int k = 0; k < 3; ++k) {
+            low[k] = sets.first.low[k][i] + sets.low[k];
+            high[k] = sets.first.high[k][i] + sets.high[k];
+            low[k] -= outwards * __builtin_fabsf(low[k]);
+            high[k] += outwards * __builtin_fabsf(high[k]);
         }
-        // The least budgets: first in whole vectors, then the rest.
-        int full = 0;
-        if (n >= width) {
-            V most = load<V>(byTravelled), mostApproach = load<V>(byApproached);
-            for (full = width; full + width <= n; full += width) {
-                most = larger(load<V>(byTravelled + full), most);
-                mostApproach = larger(load<V>(byApproached + full), mostApproach);
-            }
-            for (int k = 0; k < width; ++k) {
-                rows.leastTravelBudget = -larger(-rows.leastTravelBudget, most[k]);
-                rows.leastApproachBudget = -larger(-rows.leastApproachBudget, mostApproach[k]);
-            }
-        }
-        for (int i = full; i < n; ++i) {
-            rows.leastTravelBudget = -larger(-rows.leastTravelBudget, byTravelled[i]);
-            rows.leastApproachBudget = -larger(-rows.leastApproachBudget, byApproached[i]);
-        }
-        // The numbers of the due pairs, without a branch.
-        for (int i = 0; i < n; ++i) {
-            rows.due[count] = from + i;
-            count += static_cast<int>(isDue[i]);
+        for (int from = sets.areOne ? 64 * word : 0; from < sets.second.n; from += 64) {
+            std::uint64_t bits = sets.seconds[from / 64];
+            if (sets.areOne && from == 64 * word) bits &= ~std::uint64_t{1} << static_cast<unsigned>(i % 64);
+            for (bits &= overlapMany(sets.second, from, low, high); bits != 0; bits &= bits - 1)
+                *next++ = {own, sets.secondItems[from + __builtin_ctzll(bits)]};
         }
     }
-    return count;
+    return static_cast<int>(next - found);
 }
 
 }  // namespace
 
-extern const ClosestKernels closest{onTriangles, onSegments, findOverlapping, findDue};
+extern const ClosestKernels closest{onTriangles, onSegments, findOverlapping, findPairs};
 
 }  // namespace taut::contact::TAUT_ISA

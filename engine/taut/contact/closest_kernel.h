@@ -1,5 +1,5 @@
-// Kernels that work on many pairs at once: closest points of points and triangles, or of segments; overlap of boxes;
-// budgets of candidates. One copy for each instruction set. All copies give the same bits.
+// Kernels that work on many pairs at once: closest points of points and triangles, or of segments; overlap of boxes.
+// One copy for each instruction set. All copies give the same bits.
 // Plain data only.
 #pragma once
 
@@ -14,7 +14,8 @@ inline constexpr int closestBatch = 64;  // pairs at most
 inline constexpr int closestRow = closestBatch + 8;
 
 struct ClosestLanes {
-    alignas(64) double at[4][3][closestRow];  // [m] a point and the corners of a triangle, or the ends of two segments
+    alignas(64) double at[4][3][closestRow];   // [m] a point and the corners of a triangle, or the ends of two segments
+    alignas(64) double way[4][3][closestRow];  // [m] of these in a block
     alignas(64) double weights[4][closestRow];     // as of a ContactConstraint
     alignas(64) double separation[3][closestRow];  // [m] from the second side to the first
     alignas(64) double distance[closestRow];       // [m]
@@ -31,15 +32,17 @@ struct BoxLanes {
     const float* high[3];
 };
 
-// The budgets of a list's pairs (CandidateList). A pair is due when both budgets are used up.
-struct CandidateRows {
-    int n;
-    const double* travelBudget;
-    const double* approachBudget;
-    double travelled, approached;
-    int* due;  // (n) gets the numbers of the pairs that are due
-    // [m] Least over the other pairs, of the budget that has more left.
-    double leastTravelBudget = 1e300, leastApproachBudget = 1e300;
+// Two elements by their numbers.
+struct ElementPair {
+    int first, second;
+};
+// Two sets of boxes, of elements with these numbers. Bits choose those that take part.
+struct BoxSets {
+    BoxLanes first, second;
+    const int *firstItems, *secondItems;
+    const std::uint64_t *firsts, *seconds;
+    float low[3], high[3];  // [m] added to the sides of the first set's boxes
+    bool areOne;            // both sets are the same: boxes are paired with those after them
 };
 
 struct ClosestKernels {
@@ -48,7 +51,9 @@ struct ClosestKernels {
     // hits (n / 64, rounded up) gets a bit for each box that overlaps the box from low to high (3) [m]. Returns whether
     // there is any.
     bool (*findOverlapping)(const BoxLanes& boxes, const float* low, const float* high, std::uint64_t* hits);
-    int (*findDue)(CandidateRows& rows);  // returns how many
+    // The elements of which boxes overlap, those of one word of bits of the first set -> found, which has room for 64
+    // times as many as the second set has. Returns how many.
+    int (*findPairs)(const BoxSets& sets, int word, ElementPair* found);
 };
 
 // For the instruction set in use.

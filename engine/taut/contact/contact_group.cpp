@@ -14,8 +14,8 @@ namespace taut::contact {
 namespace {
 
 constexpr int mostSlides = 8, mostZones = 12;
-constexpr double apartSpeed = 0.3;      // [m/s] at which crossings come apart
-constexpr int mostSqueezes = 3;         // rounds of letting through
+constexpr double apartSpeed = 0.3;  // [m/s] at which crossings come apart
+constexpr int mostSqueezes = 3;     // rounds of letting through
 
 // Sorts, and removes duplicates. Usually there is nothing to do.
 void makeAscending(std::vector<int>& points) {
@@ -35,8 +35,6 @@ ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dve
     v_.resize(count);
     shift_.resize(count);
     marks_.assign(count, unmarked);
-    all_.resize(count);
-    std::iota(all_.begin(), all_.end(), 0);
 }
 
 void ContactGroup::setSolids(std::vector<Solid> solids) {
@@ -50,17 +48,16 @@ void ContactGroup::setCarried(CarriedPoints carried) {
 }
 
 void ContactGroup::drop() {
-    broadPhase_.drop();
+    broadPhase_.refresh();
     active_.clear();
     solver_.clear();
     isCertified_ = false;
 }
 
-void ContactGroup::rewind(std::span<const dvec3> from, std::span<const dvec3> to, std::span<const KeptForce> kept) {
-    broadPhase_.advance(from, to);
+void ContactGroup::rewind(std::span<const dvec3> x, std::span<const KeptForce> kept) {
     solver_.startFrom(kept);
     isCertified_ = crossings_.empty();
-    xCertified_.assign(to.begin(), to.end());
+    xCertified_.assign(x.begin(), x.end());
 }
 
 void ContactGroup::begin(std::span<const dvec3> x, std::span<const KeptForce> kept) {
@@ -90,13 +87,13 @@ int ContactGroup::open(const Block& block) {
     block_ = block;
     result_ = {};
     moved_.clear();
-    pending_.clear();
     squeezed_.clear();
     // Something else has moved points since.
     isCertified_ = isCertified_ && std::equal(block.x0.begin(), block.x0.end(), xCertified_.begin(), xCertified_.end());
-    detect(block.x0, block.ahead);
+    detect();
     selectActive();
     block_.steps = measureWays();
+    setExpected(static_cast<double>(block_.steps) / block.steps);
     beginRows();
     return block_.steps;
 }
@@ -156,9 +153,8 @@ bool ContactGroup::close(std::span<dvec3> x, std::span<dvec3> v) {
 bool ContactGroup::certify(std::span<dvec3> x, std::span<dvec3> v) {
     const Step whole{block_.x0, x, v, {}};
     bool movesAny = false;
-    pending_ = all_;
     for (int round = 0; options_.certifies; ++round) {
-        if (!pending_.empty()) detectAgain(x);
+        detectAgain(x);
         const std::vector<const ContactConstraint*> bad = uncertified(x);
         result_.uncertified = static_cast<int>(bad.size());
         if (bad.empty() || round == mostSlides + mostZones) break;
@@ -172,18 +168,24 @@ bool ContactGroup::certify(std::span<dvec3> x, std::span<dvec3> v) {
     return movesAny;
 }
 
-// The motion of the points in this block counts against the budgets of the lists.
 void ContactGroup::finish(std::span<const dvec3> x) {
-    broadPhase_.finish(pending_, block_.x0, x);
     isCertified_ = isCertified_ && options_.certifies && result_.uncertified == 0 && squeezed_.empty() &&
                    std::all_of(tested_.begin(), tested_.end(), [](const auto& pair) { return pair.hasSides(); });
     if (isCertified_) xCertified_.assign(x.begin(), x.end());
 }
 
-void ContactGroup::detect(std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    broadPhase_.find(x0, x1);
+// Where the points are after this share of their way ahead -> expected_.
+void ContactGroup::setExpected(double share) {
+    expected_.resize(block_.x0.size());
+    for (std::size_t i = 0; i < expected_.size(); ++i)
+        expected_[i] = block_.x0[i] + share * (block_.ahead[i] - block_.x0[i]);
+}
+
+void ContactGroup::detect() {
+    setExpected(openWay());
+    broadPhase_.find(block_.x0, expected_);
     tested_.clear();
-    runNarrowPhase(x0, x1, true);
+    runNarrowPhase({block_.x0, block_.ahead, true});
 }
 
 // Selects the active pairs that contact can move.
@@ -370,10 +372,7 @@ std::vector<int> ContactGroup::movedBy(std::span<const int> points) const {
 // Hands these points (ascending) to their islands. The islands place them, and may change x1 and v once more.
 void ContactGroup::handOver(const Step& step, std::span<const int> points) {
     if (points.empty()) return;
-    const auto take = [&](std::span<const int> own) {
-        moved_.insert(moved_.end(), own.begin(), own.end());
-        pending_.insert(pending_.end(), own.begin(), own.end());
-    };
+    const auto take = [&](std::span<const int> own) { moved_.insert(moved_.end(), own.begin(), own.end()); };
     take(points);
     if (block_.place) block_.place(points);
     if (carried_.isEmpty()) return;
@@ -425,9 +424,8 @@ std::vector<const ContactConstraint*> ContactGroup::uncertified(std::span<const 
 // Points were moved after the detection, which may have brought new pairs into reach. These get a certificate; impulses
 // they may get in the next block.
 void ContactGroup::detectAgain(std::span<const dvec3> x) {
-    if (!broadPhase_.findAgain(pending_, block_.x0, x)) broadPhase_.find(block_.x0, x);
-    runNarrowPhase(block_.x0, x, false);
-    pending_.clear();
+    broadPhase_.findAstray(expected_, block_.x0, x);
+    runNarrowPhase({block_.x0, x, false});
 }
 
 // Moves pairs that have no certificate. Returns the points that it moved, ascending.
@@ -477,8 +475,7 @@ std::uint64_t ContactGroup::bytes() const {
 double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dvec3> x,
                        const std::function<bool(int surface)>& isFirst,
                        const std::function<bool(int surface)>& isSecond) {
-    leaves.start(x, x);
-    leaves.followAll(x, x);
+    leaves.fit(x, x);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
     double least = 1e300;
     // Calls each(a, b, bound) for leaves of both kinds whose boxes are closer than the least distance so far.

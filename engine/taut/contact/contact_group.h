@@ -18,9 +18,8 @@
 // which finds the time of impact).
 //
 // Memory. Each block starts from the contact forces of the previous one. begin() takes the forces for the first block
-// of a tick, which are part of the state. The broad phase keeps lists from block to block, but a list only selects
-// pairs to measure, and never leaves out a pair in reach (broad_phase.h). So the result of a tick depends on its start
-// alone. A restored world that has no lists yet goes on with the same bits.
+// of a tick, which are part of the state. Nothing else is remembered, so the result of a tick depends on its start
+// alone, and a restored world goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
 // in the block (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as
@@ -102,10 +101,10 @@ class ContactGroup {
     Elements& elements() { return elements_; }
     const Elements& elements() const { return elements_; }
 
-    // Forgets all lists. Call it when points have jumped, or elements were removed.
+    // Call it when points have jumped, or elements were removed.
     void drop();
-    // Call it before the tick is repeated: the points went back from `from` to `to`, without contact.
-    void rewind(std::span<const dvec3> from, std::span<const dvec3> to, std::span<const KeptForce> kept = {});
+    // Call it before the tick is repeated: the points went back to x, without contact.
+    void rewind(std::span<const dvec3> x, std::span<const KeptForce> kept = {});
     // Call it before the blocks of a tick. It finds the edges that pierce triangles; their pairs are untangled in
     // this tick, not solved. Where the last tick began without any and was certified, there are none while the points
     // are where it left them.
@@ -122,7 +121,7 @@ class ContactGroup {
     // moved points since. Both return whether they moved any.
     bool close(std::span<dvec3> x, std::span<dvec3> v);
     bool certify(std::span<dvec3> x, std::span<dvec3> v);
-    // After both: the lists of pairs live on.
+    // After both.
     void finish(std::span<const dvec3> x);
     const BlockResult& result() const { return result_; }
     // How far the sides of a row go from one another or past in a step, at most, over their thickness; as it was
@@ -150,13 +149,13 @@ class ContactGroup {
     const std::map<int, int>& squeezed() const { return squeezed_; }
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
     std::size_t activeCount() const { return active_.size(); }  // pairs that went to the solver
-    std::size_t listsMade() const { return broadPhase_.listsMade(); }
     std::uint64_t bytes() const;
 
   private:
     // Each part passes its result to the next in the member that it names.
-    void detect(std::span<const dvec3> x0, std::span<const dvec3> x1);  // broad and narrow phase -> tested_
-    void selectActive();                                                // tested_ -> active_
+    void setExpected(double share);
+    void detect();        // broad and narrow phase -> tested_
+    void selectActive();  // tested_ -> active_
     int measureWays();
     void beginRows();                    // active_ -> rows of solver_
     void load(const Step& step);         // -> u0_, u_, start_
@@ -170,20 +169,24 @@ class ContactGroup {
                                     const std::function<void()>& change) const;
     std::vector<int> movedBy(std::span<const int> points) const;
     void handOver(const Step& step, std::span<const int> points);
-    void detectAgain(std::span<const dvec3> x);  // pairs that pending_ may have brought into reach -> tested_
+    void detectAgain(std::span<const dvec3> x);  // pairs that points astray may have brought into reach -> tested_
     std::vector<const ContactConstraint*> uncertified(std::span<const dvec3> x) const;
     std::vector<int> separate(const Step& step, std::span<const ContactConstraint* const> pairs, int round);
 
     // narrow_phase.cpp
-    void runNarrowPhase(std::span<const dvec3> x0, std::span<const dvec3> x1, bool mayPress);
+    struct Ways {
+        std::span<const dvec3> x0, x1;  // (points) [m]
+        bool mayPress;                  // pairs may become active
+    };
     struct Measured;
-    struct NarrowPhaseScratch;
-    void gather(BroadPhase::CandidateList& list, std::span<const dvec3> x0, const ClosestKernels& kernels,
-                NarrowPhaseScratch& scratch) const;
-    void classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
-                  const NarrowPhaseScratch& scratch, bool mayPress, std::vector<ContactConstraint>& pairs) const;
-    ContactConstraint constraintOf(const Measured& measured, const NarrowPhaseScratch& scratch,
-                                   std::span<const dvec3> x0) const;
+    void runNarrowPhase(const Ways& ways);
+    void measure(LeafPair leaves, std::span<const CandidatePair> candidates, bool isPoint, const Ways& ways,
+                 const ClosestKernels& kernels, std::vector<ContactConstraint>& pairs) const;
+    void classify(Measured& measured, const Ways& ways, std::vector<ContactConstraint>& pairs) const;
+    double thicknessOf(const Measured& measured) const;
+    static double motionOf(const Measured& measured, const Ways& ways);
+    double openWay() const;
+    static ContactConstraint constraintOf(const Measured& measured, std::span<const dvec3> x0);
     double convexity(const ContactConstraint& pair, std::int64_t where, std::span<const dvec3> x) const;
     bool meetInside(const CandidatePair& pair, bool isPoint, const std::array<double, 4>& weights,
                     std::int64_t where) const;
@@ -219,8 +222,8 @@ class ContactGroup {
     // (points) [m/s] mean velocity in the step before and after the solver; [m/s] velocity at its start; [m/s] stored
     // velocity after it; [m] position correction. Set where active pairs or crossings have points.
     std::vector<dvec3> u0_, u_, start_, v_, shift_;
-    std::vector<int> all_;              // points
-    std::vector<int> moved_, pending_;  // points that were handed over in this step; since tested_ was found
+    std::vector<int> moved_;       // points that were handed over in this step
+    std::vector<dvec3> expected_;  // (points) [m] at the end of the block; before, twice as far ahead
     double wayOfStep_ = 0;
     BlockResult result_;
 };

@@ -205,17 +205,6 @@ void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vect
     }
 }
 
-// Refits the leaves to these places. Returns the pairs whose boxes overlap.
-std::vector<LeafPair> overlapping(Bvh& leaves, std::span<const dvec3> x) {
-    leaves.start(x, x);
-    leaves.followAll(x, x);
-    std::vector<core::Aabb> boxes;
-    for (int p = 0; p < leaves.count(); ++p) boxes.push_back(leaves.motion(p).box);
-    std::vector<LeafPair> near;
-    leaves.findNear(boxes, 0.0, near);
-    return near;
-}
-
 }  // namespace
 
 dvec3 acrossEdge(const Edge& edge, int beside, std::span<const dvec3> x) {
@@ -254,22 +243,22 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
                          {}});
     };
     // All pairs of leaves, then sorted so that the order does not depend on the tree, nor on threads.
-    std::vector<FloatBox> ofPoints;
-    findPointBoxes(x, ofPoints);
     std::vector<LeafBoxes> boxes(static_cast<std::size_t>(leaves.count()));
     core::parallelFor(leaves.count(), boxedAtOnce,
-                      [&](int p) { boxes[static_cast<std::size_t>(p)].find(elements, leaves[p], ofPoints); });
-    const ClosestKernels kernels = closestKernels();
-    const std::vector<LeafPair> near = overlapping(leaves, x);
+                      [&](int p) { boxes[static_cast<std::size_t>(p)].find(elements, leaves[p], x, x, dvec3(0.0)); });
+    std::vector<LeafPair> near;
+    leaves.fit(x, x);
+    leaves.findNear(near);
     std::vector<std::vector<Crossing>> perPair(near.size());
     core::parallelFor(static_cast<int>(near.size()), pairsAtOnce, [&](int k) {
         std::vector<Crossing>& found = perPair[static_cast<std::size_t>(k)];
-        BoxQuery query(kernels, 0.0);
+        BoxQuery query;
         const int a = lowOf(near[static_cast<std::size_t>(k)]), b = highOf(near[static_cast<std::size_t>(k)]);
         const auto pierce = [&](int ofEdges, int ofTriangles) {
-            query.forEach(boxes[static_cast<std::size_t>(ofEdges)].edges, leaves.motion(ofEdges).box,
-                          boxes[static_cast<std::size_t>(ofTriangles)].triangles, leaves.motion(ofTriangles).box,
-                          [&](int e, int t) { test(e, t, found); });
+            const LeafBoxes &own = boxes[static_cast<std::size_t>(ofEdges)],
+                            &other = boxes[static_cast<std::size_t>(ofTriangles)];
+            for (const auto& [e, t] : query.find(0.0, own.edges, own.whole, other.triangles, other.whole, dvec3(0.0)))
+                test(e, t, found);
         };
         pierce(a, b);
         if (a != b) pierce(b, a);

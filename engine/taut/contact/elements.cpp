@@ -41,6 +41,7 @@ void Elements::addSurface(int number) {
     firstEdgeOf_.push_back(edges_.size());
     if (!meetsAny(number)) {
         shortest_.push_back(0.0);
+        longest_.push_back(0.0);
         return;
     }
     std::map<std::array<int, 2>, int> known;
@@ -59,12 +60,14 @@ void Elements::addSurface(int number) {
         const auto e = static_cast<std::size_t>(edgeOf(line[0], line[1], true));
         if (l < surface.wings.size()) edges_[e].wings = surface.wings[l];
     }
-    double shortest = std::numeric_limits<double>::infinity();
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
     for (std::size_t e = firstEdgeOf_.back(); e < edges_.size(); ++e) {
         const dvec3 d = rest_[static_cast<std::size_t>(edges_[e].b)] - rest_[static_cast<std::size_t>(edges_[e].a)];
         shortest = std::min(shortest, std::sqrt(glm::dot(d, d)));
+        longest = std::max(longest, std::sqrt(glm::dot(d, d)));
     }
     shortest_.push_back(std::isfinite(shortest) ? shortest : 0.0);
+    longest_.push_back(longest);
 }
 
 void Elements::setGone(int number, const std::function<bool(std::size_t triangle)>& isTriangleGone,

@@ -48,11 +48,11 @@ class Elements {
         return oneOf_[static_cast<std::size_t>(a)] == oneOf_[static_cast<std::size_t>(b)];
     }
     bool areNeighbours(int point, const Triangle& triangle) const {
-        return std::any_of(
-            triangle.points.begin(), triangle.points.end(), [&](int i) { return areOne(point, i); });
+        const std::array<int, 3>& c = triangle.points;
+        return areOne(point, c[0]) | areOne(point, c[1]) | areOne(point, c[2]);
     }
     bool areNeighbours(const Edge& a, const Edge& b) const {
-        return areOne(a.a, b.a) || areOne(a.a, b.b) || areOne(a.b, b.a) || areOne(a.b, b.b);
+        return areOne(a.a, b.a) | areOne(a.a, b.b) | areOne(a.b, b.a) | areOne(a.b, b.b);
     }
 
     const std::vector<ContactSurface>& surfaces() const { return surfaces_; }
@@ -76,6 +76,7 @@ class Elements {
     // The lowest triangle at a point; -1: none.
     int firstTriangle(int point) const { return firstTriangle_[static_cast<std::size_t>(point)]; }
     double shortestEdge(int surface) const { return shortest_[static_cast<std::size_t>(surface)]; }  // [m] at rest
+    double longestEdge(int surface) const { return longest_[static_cast<std::size_t>(surface)]; }    // [m] at rest
 
     bool shareBond(int surfaceA, int surfaceB) const {
         return surface(surfaceA).bond == surface(surfaceB).bond && !isRigid(surfaceA) && !isRigid(surfaceB);
@@ -127,9 +128,9 @@ class Elements {
     std::vector<int> oneOf_;       // (points) the lowest point that it is sewn to, with all between; else itself
     std::vector<int> ring_, firstTriangle_;
     std::vector<std::size_t> ringStart_;
-    std::vector<double> shortest_;  // (surfaces)
-    std::vector<char> isStill_;     // (surfaces)
-    std::vector<char> meetsAny_;    // (surfaces) else it has no elements
+    std::vector<double> shortest_, longest_;  // (surfaces)
+    std::vector<char> isStill_;               // (surfaces)
+    std::vector<char> meetsAny_;              // (surfaces) else it has no elements
 };
 
 }  // namespace taut::contact

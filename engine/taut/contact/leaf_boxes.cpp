@@ -4,53 +4,64 @@
 #include <cmath>
 
 namespace taut::contact {
-namespace {
 
-// At least as far out as the number, whichever way it was rounded.
-constexpr double outwards = 2e-7;
+FloatBox floatBox(const core::Aabb& box) {
+    constexpr double outwards = 2e-7;  // at least as far out as the number, whichever way it was rounded
 
-float below(double x) {
-    return static_cast<float>(x - outwards * std::abs(x));
-}
-float above(double x) {
-    return static_cast<float>(x + outwards * std::abs(x));
-}
-
-}  // namespace
-
-FloatBox floatBox(const core::Aabb& box, double reach) {
     FloatBox own{};
     for (int k = 0; k < 3; ++k) {
-        own.low[k] = below(box.low[k] - reach);
-        own.high[k] = above(box.high[k] + reach);
+        own.low[k] = static_cast<float>(box.low[k] - outwards * std::abs(box.low[k]));
+        own.high[k] = static_cast<float>(box.high[k] + outwards * std::abs(box.high[k]));
     }
     return own;
-}
-
-void findPointBoxes(std::span<const dvec3> x, std::vector<FloatBox>& boxes) {
-    boxes.resize(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-        boxes[i] = {{below(x[i].x), below(x[i].y), below(x[i].z), 0}, {above(x[i].x), above(x[i].y), above(x[i].z), 0}};
-}
-
-FloatBox ElementBoxes::box(int i, float reach) const {
-    FloatBox box{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double low = row(k)[i], high = row(k + 3)[i];
-        box.low[k] = below(low - reach);
-        box.high[k] = above(high + reach);
-    }
-    return box;
 }
 
 bool ElementBoxes::findHits(const FloatBox& box, const ClosestKernels& kernels,
                             std::vector<std::uint64_t>& hits) const {
     hits.resize((stride_ + 63) / 64);
-    const BoxLanes lanes{static_cast<int>(stride_), {row(0), row(1), row(2)}, {row(3), row(4), row(5)}};
-    return kernels.findOverlapping(lanes, box.low, box.high, hits.data());
+    return kernels.findOverlapping(lanes(), box.low, box.high, hits.data());
 }
 
-void LeafBoxes::find(const Elements& elements, const BvhLeaf& leaf, std::span<const FloatBox> ofPoints) {
+std::span<const ElementPair> BoxQuery::find(double reach, const ElementBoxes& first, const core::Aabb& wholeFirst,
+                                            const ElementBoxes& second, const core::Aabb& wholeSecond,
+                                            const dvec3& way) {
+    const ClosestKernels kernels = closestKernels();
+    const core::Aabb by{glm::min(way, dvec3(0.0)) - reach, glm::max(way, dvec3(0.0)) + reach};
+    // Elements that may meet any element of the other leaf.
+    if (!second.findHits(floatBox({wholeFirst.low + by.low, wholeFirst.high + by.high}), kernels, seconds_)) return {};
+    const bool areOne = &first == &second;
+    if (areOne)
+        firsts_ = seconds_;
+    else if (!first.findHits(floatBox({wholeSecond.low - by.high, wholeSecond.high - by.low}), kernels, firsts_))
+        return {};
+    BoxSets sets{first.lanes(), second.lanes(), first.items(), second.items(), firsts_.data(), seconds_.data(), {}, {},
+                 areOne};
+    const FloatBox out = floatBox(by);
+    for (int k = 0; k < 3; ++k) {
+        sets.low[k] = out.low[k];
+        sets.high[k] = out.high[k];
+    }
+    std::size_t count = 0;
+    for (std::size_t word = 0; word < firsts_.size(); ++word) {
+        found_.resize(std::max(found_.size(), count + 64 * static_cast<std::size_t>(sets.second.n)));
+        count += static_cast<std::size_t>(kernels.findPairs(sets, static_cast<int>(word), found_.data() + count));
+    }
+    return std::span(found_).first(count);
+}
+
+void LeafBoxes::find(const Elements& elements, const BvhLeaf& leaf, std::span<const dvec3> x0,
+                     std::span<const dvec3> x1, const dvec3& way) {
+    thread_local std::vector<FloatBox> ofPoints;
+    ofPoints.resize(std::max(ofPoints.size(), x0.size()));
+    whole = {};
+    for (int point : leaf.corners) {
+        const auto i = static_cast<std::size_t>(point);
+        core::Aabb own;
+        own.add(x0[i]);
+        own.add(x1[i] - way);
+        whole.add(own);
+        ofPoints[i] = floatBox(own);
+    }
     const auto at = [&](int i) -> const FloatBox& { return ofPoints[static_cast<std::size_t>(i)]; };
     points.fill(leaf.points, at);
     triangles.fill(leaf.triangles, [&](int t) {

@@ -1,15 +1,14 @@
-// Narrow phase: measures the distance of each candidate pair that is due, and decides which pairs become constraints.
+// Narrow phase: measures the distance of each candidate pair, and decides which pairs become constraints.
 //
-// Each task has some lists. It gathers their pairs that are due, measures them all at once (closest_kernel.h), and
-// classifies each. A pair is active if its gap is closed, or would close along its normal in this block. Its feature
-// must also be the closest: in a sheet one point is close to several triangles and edges, and only the closest feature
-// of all pushes.
+// Each task has some pairs of leaves. It measures their candidates many at once (closest_kernel.h), and classifies
+// those that come close. A pair is active if its gap is closed, or would close along its normal in this block. Its
+// feature must also be the closest: in a sheet one point is close to several triangles and edges, and only the closest
+// feature of all pushes.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "taut/contact/certificate.h"
-#include "taut/contact/closest_batch.h"
 #include "taut/contact/closest_points.h"
 #include "taut/contact/contact_group.h"
 #include "taut/contact/rigid_side.h"
@@ -19,21 +18,12 @@
 namespace taut::contact {
 namespace {
 
-constexpr int listsAtOnce = 16;
+constexpr int leavesAtOnce = 16;      // pairs of leaves per task
 constexpr double activeShare = 0.05;  // of the thickness: a gap below it is a contact
 constexpr double leastTurn = 1e-3;    // of thickness and distance: what goes by less does not turn
 constexpr double leastAlike = 0.5;    // cosine of the normals before and after
-constexpr double openWay = 2.0;       // times the way that is expected of several steps: springs and impulses change it
+constexpr double mostOpenWay = 2.0;
 constexpr double drivenSoftness = 0.01;  // of pairs with a driven surface: see solver.h
-constexpr double rounding = 1e-9;        // relative error of the list's sums of motion
-
-// The list is due when the first of its pairs is due. The larger of a pair's two budgets counts.
-void limitListTo(BroadPhase::CandidateList& list, double travelBudget, double approachBudget) {
-    if (travelBudget - list.travelled > approachBudget - list.approached)
-        list.leastTravelBudget = std::min(list.leastTravelBudget, travelBudget);
-    else
-        list.leastApproachBudget = std::min(list.leastApproachBudget, approachBudget);
-}
 
 }  // namespace
 
@@ -72,58 +62,32 @@ bool ContactGroup::isFeatureNearest(const ContactConstraint& pair, int feature, 
     return true;
 }
 
-// A candidate pair, and its slot in the batch that measures it.
+// A candidate pair as measured at x0.
 struct ContactGroup::Measured {
-    BroadPhase::CandidateList* list;
-    std::size_t pair;  // of the list
-    int slot;
+    const CandidatePair& candidate;
+    LeafPair leaves;
+    bool isPoint;
+    double thickness;     // [m] of the leaves' surfaces
+    double leeway = 0;    // [m] see BroadPhase::leeway()
+    double distance = 0;  // [m]
+    std::array<double, 4> weights{};
+    dvec3 separation{0.0};  // [m]
+    std::int64_t where = 0;
 };
-
-struct ContactGroup::NarrowPhaseScratch {
-    ClosestBatch points, edges;
-    std::vector<Measured> measured;  // list by list, pair by pair
-    std::vector<int> due;
-};
-
-// Adds the due pairs of a list to the batches.
-void ContactGroup::gather(BroadPhase::CandidateList& list, std::span<const dvec3> x0, const ClosestKernels& kernels,
-                          NarrowPhaseScratch& scratch) const {
-    // Find the pairs that have used up both budgets. The list gets the least budget of the others.
-    scratch.due.resize(list.pairs.size());
-    CandidateRows rows{static_cast<int>(list.pairs.size()),
-                       list.travelBudget.data(),
-                       list.approachBudget.data(),
-                       list.travelled,
-                       list.approached,
-                       scratch.due.data()};
-    const int dueCount = kernels.findDue(rows);
-    list.leastTravelBudget = rows.leastTravelBudget;
-    list.leastApproachBudget = rows.leastApproachBudget;
-    // Pairs of points and triangles go to one batch, pairs of edges to the other.
-    for (int n = 0; n < dueCount; ++n) {
-        const auto k = static_cast<std::size_t>(scratch.due[static_cast<std::size_t>(n)]);
-        ClosestBatch& batch = k < list.pointPairs ? scratch.points : scratch.edges;
-        const int slot = batch.add(x0, list.pairs[k].points);
-        scratch.measured.push_back({&list, k, slot});
-    }
-}
 
 // The constraint of a measured pair: points, weights, normal, distance. classify() decides whether it is active.
-ContactConstraint ContactGroup::constraintOf(const Measured& measured, const NarrowPhaseScratch& scratch,
-                                             std::span<const dvec3> x0) const {
-    const CandidatePair& candidate = measured.list->pairs[measured.pair];
+ContactConstraint ContactGroup::constraintOf(const Measured& measured, std::span<const dvec3> x0) {
     ContactConstraint pair;
-    pair.isPoint = measured.pair < measured.list->pointPairs;
-    const ClosestBatch& batch = pair.isPoint ? scratch.points : scratch.edges;
-    pair.leaves = leafPair(measured.list->a, measured.list->b);
-    pair.a = candidate.a;
-    pair.b = candidate.b;
-    pair.thickness = candidate.thickness;
-    pair.distance = batch.distance(measured.slot);
-    pair.weights = batch.weights(measured.slot);
-    pair.points = candidate.points;
+    pair.isPoint = measured.isPoint;
+    pair.leaves = measured.leaves;
+    pair.a = measured.candidate.a;
+    pair.b = measured.candidate.b;
+    pair.points = measured.candidate.points;
+    pair.thickness = measured.thickness;
+    pair.distance = measured.distance;
+    pair.weights = measured.weights;
     if (pair.hasSides()) {
-        pair.normal = batch.separation(measured.slot) / pair.distance;
+        pair.normal = measured.separation / pair.distance;
     } else {
         // The two touch or cross, so the distance has no direction. Take the normal of the triangle, or of both edges;
         // of an edge and a ball, a normal of that edge.
@@ -188,45 +152,57 @@ double ContactGroup::slackOf(const ContactConstraint& pair, const dvec3& way, st
     return std::max(0.0, distance - std::max(pair.distance + along, 0.0));
 }
 
-// Appends the pair if it is active, or close enough to need a certificate. mayPress: it may become active.
-void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
-                            const NarrowPhaseScratch& scratch, bool mayPress,
-                            std::vector<ContactConstraint>& pairs) const {
-    BroadPhase::CandidateList& list = *measured.list;
-    const CandidatePair& candidate = list.pairs[measured.pair];
-    const bool isPoint = measured.pair < list.pointPairs;
-    const ClosestBatch& batch = isPoint ? scratch.points : scratch.edges;
-    const double distance = batch.distance(measured.slot), gap = distance - candidate.thickness;
+// [m] The distance that the pair keeps. Elements of one body may be closer at rest than their thickness: they keep at
+// most restShare of their distance at rest.
+double ContactGroup::thicknessOf(const Measured& measured) const {
+    const std::array<int, 4>& points = measured.candidate.points;
+    const int a = elements_.surfaceOf(points[0]), b = elements_.surfaceOf(points[3]);
+    if (!elements_.shareBond(a, b)) return measured.thickness;
+    Corners rest;
+    for (std::size_t k = 0; k < 4; ++k) rest[k] = elements_.rest()[static_cast<std::size_t>(points[k])];
+    const double far =
+        measured.thickness / restShare + elements_.longestEdge(b) + (measured.isPoint ? 0.0 : elements_.longestEdge(a));
+    const dvec3 between = rest[0] - rest[2];
+    if (glm::dot(between, between) > far * far) return measured.thickness;
+    return std::min(measured.thickness, restShare * length(closestPoints(rest, measured.isPoint).separation));
+}
 
-    // The distance is the new budget: no matter how the two sides move, they are not in reach before the sum of their
-    // motions is this large.
-    double& travelBudget = list.travelBudget[measured.pair];
-    travelBudget = std::max(travelBudget, distance + list.travelledBefore - nearShare * candidate.thickness);
-    limitListTo(list, travelBudget, list.approachBudget[measured.pair]);
-    // The leaves do not move enough in this block to close the gap.
-    const double motion = (1 + rounding) * list.relativeMotion;
-    if (gap > std::max(activeShare * candidate.thickness, motion)) return;
+// [m] The largest way of a point of one side from one of the other, at x1.
+double ContactGroup::motionOf(const Measured& measured, const Ways& ways) {
+    std::array<dvec3, 4> way;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto i = static_cast<std::size_t>(measured.candidate.points[k]);
+        way[k] = ways.x1[i] - ways.x0[i];
+    }
+    double square = 0;
+    const std::size_t firstSide = measured.isPoint ? 1 : 2;
+    for (std::size_t a = 0; a < firstSide; ++a)
+        for (std::size_t b = firstSide; b < 4; ++b)
+            square = std::max(square, glm::dot(way[a] - way[b], way[a] - way[b]));
+    return std::sqrt(square);
+}
 
-    // Active pairs are closed or closing along the normal, on a feature of their own, and do not pass by. Cheap tests
-    // come first.
-    const bool needsCertificate = distance <= motion + watchShare * candidate.thickness;
-    const std::int64_t where = batch.where(measured.slot);
-    const std::array<double, 4> weights = batch.weights(measured.slot);
-    const bool mayPush = mayPress && meetInside(candidate, isPoint, weights, where);
+// Appends the pair if it is active, or close enough to need a certificate. Active pairs are closed or closing along the
+// normal, on a feature of their own, and do not pass by. Cheap tests come first.
+void ContactGroup::classify(Measured& measured, const Ways& ways, std::vector<ContactConstraint>& pairs) const {
+    const auto& [x0, x1, mayPress] = ways;
+    const CandidatePair& candidate = measured.candidate;
+    const bool needsCertificate = measured.distance <= motionOf(measured, ways) + measured.leeway;
+    const bool mayPush = mayPress && meetInside(candidate, measured.isPoint, measured.weights, measured.where);
     if (!mayPush && !needsCertificate) return;
+    measured.thickness = thicknessOf(measured);
+    const double gap = measured.distance - measured.thickness;
+    const bool isClosed = gap < activeShare * measured.thickness;
     dvec3 way(0.0);
     for (std::size_t k = 0; k < 4; ++k) {
         const auto i = static_cast<std::size_t>(candidate.points[k]);
-        way += weights[k] * (x1[i] - x0[i]);
+        way += measured.weights[k] * (x1[i] - x0[i]);
     }
-    const bool isClosed = gap < activeShare * candidate.thickness;
-    const auto closing = [&](const dvec3& normal) {
-        return (block_.steps > 1 ? openWay : 1.0) * -glm::dot(normal, way);
-    };
-    if (!needsCertificate && !isClosed && !(gap < closing(batch.separation(measured.slot) / distance))) return;
-    ContactConstraint pair = constraintOf(measured, scratch, x0);
+    const auto closing = [&](const dvec3& normal) { return openWay() * -glm::dot(normal, way); };
+    if (!needsCertificate && !isClosed && !(gap < closing(measured.separation / measured.distance))) return;
+    ContactConstraint pair = constraintOf(measured, x0);
     const bool pushes = mayPush && (isClosed || gap < closing(pair.normal));
-    if (pushes) pair.recovery = convexity(pair, where, x0);
+    if (pushes) pair.recovery = convexity(pair, measured.where, x0);
     pair.isActive = pushes && pair.recovery >= 0 && (isClosed || !misses(pair, x0, x1, 1.0 - activeShare));
     if (!pair.isActive && !needsCertificate) return;
     if (!crossings_.empty() && isTangled(pair)) return;
@@ -241,25 +217,63 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     pairs.push_back(pair);
 }
 
-// The pairs of the lists that are due -> tested_. Those that it has stay as they are.
-void ContactGroup::runNarrowPhase(std::span<const dvec3> x0, std::span<const dvec3> x1, bool mayPress) {
-    const int count = static_cast<int>(broadPhase_.dueCount());
-    const int tasks = (count + listsAtOnce - 1) / listsAtOnce;
+// By how many of its expected way a pair may close: in several steps springs and impulses change it.
+double ContactGroup::openWay() const {
+    return block_.steps > 1 ? mostOpenWay : 1.0;
+}
+
+// Measures candidates of two leaves, many at once, and classifies those that come close.
+void ContactGroup::measure(LeafPair leaves, std::span<const CandidatePair> candidates, bool isPoint, const Ways& ways,
+                           const ClosestKernels& kernels, std::vector<ContactConstraint>& pairs) const {
+    thread_local ClosestLanes lanes;
+    const double thickness = broadPhase_.thickness(leaves), leeway = broadPhase_.leeway(leaves);
+    // No pair of the leaves needs more than a look that is further apart.
+    const double motion = broadPhase_.motionBetween(leaves);
+    const double reach = std::max(leeway, thickness + activeShare * thickness) + motion;
+    for (std::size_t first = 0; first < candidates.size(); first += closestBatch) {
+        const std::span<const CandidatePair> some =
+            candidates.subspan(first, std::min<std::size_t>(closestBatch, candidates.size() - first));
+        for (std::size_t lane = 0; lane < some.size(); ++lane)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto i = static_cast<std::size_t>(some[lane].points[k]);
+                for (int axis = 0; axis < 3; ++axis) lanes.at[k][axis][lane] = ways.x0[i][axis];
+            }
+        (isPoint ? kernels.onTriangles : kernels.onSegments)(lanes, static_cast<int>(some.size()));
+        for (std::size_t lane = 0; lane < some.size(); ++lane) {
+            if (lanes.distance[lane] > reach) continue;
+            Measured measured{.candidate = some[lane], .leaves = leaves, .isPoint = isPoint, .thickness = thickness};
+            measured.leeway = leeway;
+            measured.distance = lanes.distance[lane];
+            measured.where = lanes.where[lane];
+            for (std::size_t k = 0; k < 4; ++k) measured.weights[k] = lanes.weights[k][lane];
+            for (int axis = 0; axis < 3; ++axis) measured.separation[axis] = lanes.separation[axis][lane];
+            classify(measured, ways, pairs);
+        }
+    }
+}
+
+// The pairs of the near leaves -> tested_. Those that it has stay as they are.
+void ContactGroup::runNarrowPhase(const Ways& ways) {
+    const std::span<const LeafPair> near = broadPhase_.near();
+    const int count = static_cast<int>(near.size()), tasks = (count + leavesAtOnce - 1) / leavesAtOnce;
     const ClosestKernels kernels = closestKernels();
     perTask_.resize(static_cast<std::size_t>(std::max(tasks, static_cast<int>(perTask_.size()))));
+    const auto isBefore = [](const ContactConstraint& a, const ContactConstraint& b) { return a.comesBefore(b); };
     core::parallelFor(tasks, [&](int task) {
         std::vector<ContactConstraint>& own = perTask_[static_cast<std::size_t>(task)];
         own.clear();
-        thread_local NarrowPhaseScratch scratch;
-        scratch.points.clear();
-        scratch.edges.clear();
-        scratch.measured.clear();
-        // Gather, measure all together, classify in order.
-        for (int k = task * listsAtOnce; k < std::min((task + 1) * listsAtOnce, count); ++k)
-            gather(broadPhase_.due(static_cast<std::size_t>(k)), x0, kernels, scratch);
-        scratch.points.solve(kernels.onTriangles);
-        scratch.edges.solve(kernels.onSegments);
-        for (const Measured& measured : scratch.measured) classify(measured, x0, x1, scratch, mayPress, own);
+        thread_local std::vector<CandidatePair> candidates;
+        thread_local BoxQuery query;
+        for (int k = task * leavesAtOnce; k < std::min((task + 1) * leavesAtOnce, count); ++k) {
+            const LeafPair leaves = near[static_cast<std::size_t>(k)];
+            candidates.clear();
+            broadPhase_.addPoints(leaves, query, candidates);
+            measure(leaves, candidates, true, ways, kernels, own);
+            candidates.clear();
+            broadPhase_.addEdges(leaves, query, candidates);
+            measure(leaves, candidates, false, ways, kernels, own);
+        }
+        std::sort(own.begin(), own.end(), isBefore);
     });
     // Collect task by task, so that the order does not depend on threads.
     found_.clear();
@@ -267,7 +281,6 @@ void ContactGroup::runNarrowPhase(std::span<const dvec3> x0, std::span<const dve
         const std::vector<ContactConstraint>& own = perTask_[static_cast<std::size_t>(task)];
         found_.insert(found_.end(), own.begin(), own.end());
     }
-    const auto isBefore = [](const ContactConstraint& a, const ContactConstraint& b) { return a.comesBefore(b); };
     if (tested_.empty()) return std::swap(tested_, found_);
     merged_.clear();
     std::set_union(tested_.begin(), tested_.end(), found_.begin(), found_.end(), std::back_inserter(merged_), isBefore);

@@ -116,7 +116,7 @@ void BodySurfaces::look() {
     for (int i = carried_.first(); i < carried_.end(); ++i) x_[i] = carried_.valueAt(i, x_);
     if (!isOther) return;
     elements_->refresh();
-    patches_->takeBalls();
+    patches_->refresh();
 }
 
 bool BodySurfaces::cross(const std::vector<bool>& first, const std::vector<bool>& second) {

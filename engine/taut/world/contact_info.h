@@ -24,7 +24,6 @@ struct ContactInfo {
     double seconds = 0;                  // [s] wall time of detections and certificates
     int lastTestedPairs = 0;             // of the last detection
     int lastImpulses = 0;                // pairs with an impulse in the last step
-    std::int64_t candidateLists = 0;     // candidate lists made
     std::int64_t slides = 0, zones = 0;  // pairs that were slid apart; rounds in which impact zones moved
     std::int64_t uncertified = 0;        // pairs that may have passed through each other
     std::uint64_t bytes = 0;

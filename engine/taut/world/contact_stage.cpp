@@ -209,7 +209,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
         readAll();
         colliders_.place(0.0, x1_);
-        group_->rewind(xStart_, x1_, keptForces_);
+        group_->rewind(x1_, keptForces_);
         if (!reached_.empty()) wake(time, reached_);
         if (!islands_.front()->keepsStep()) chooseSteps(time);
     }
@@ -468,7 +468,6 @@ ContactInfo ContactStage::info() const {
     info.lastDetections = blocks_;
     info.lastTestedPairs = static_cast<int>(group_->testedCount());
     info.lastImpulses = group_->result().impulses;
-    info.candidateLists = static_cast<std::int64_t>(group_->listsMade());
     info.bytes = group_->bytes();
     return info;
 }

@@ -16,7 +16,7 @@
 
 namespace taut::contact {
 
-inline constexpr std::size_t leafSize = 36;  // triangles, or edges, at most
+inline constexpr std::size_t leafSize = 48;  // triangles, or edges, at most
 
 using Axes = std::array<dvec3, 3>;
 

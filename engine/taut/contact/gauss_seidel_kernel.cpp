@@ -267,6 +267,7 @@ inline void start(const Sweeps& batch) {
 int sweep(const Sweeps& batch) {
     if (batch.start == Start::guessed) start(batch);
     if (batch.start == Start::kept) startStep(batch);
+    const bool extrapolates = batch.most > 2;  // the first sweep has no direction yet, the last needs none
     double squareBefore = 0;
     for (int sweep = 1;; ++sweep) {
         // A sweep. It records the largest squared change of a velocity [(m/s)²], and the squared changes of impulses
@@ -279,13 +280,14 @@ int sweep(const Sweeps& batch) {
             const Lanes own = dot(change, change) + load(pack.change[3]) * load(pack.change[3]);
             const Lanes gain = load(pack.largestGain), fastest = gain * gain * own;
             largest = fastest > largest ? fastest : largest;
-            storePerRow(batch, pack, own);
+            if (extrapolates) storePerRow(batch, pack, own);
             const double turned = visitRolls(pack, batch);
             largest[0] = turned > largest[0] ? turned : largest[0];
         }
         bool isSettled = true;
         for (int lane = 0; lane < 4; ++lane) isSettled = isSettled && largest[lane] < batch.tolerance * batch.tolerance;
         if (sweep == batch.most || isSettled) return sweep;
+        if (!extrapolates) continue;
 
         // How far to extrapolate, after Fletcher and Reeves. If the changes grow, the direction starts anew.
         const double square = sumOf(batch), share = squareBefore > 0 ? square / squareBefore : 0.0;

@@ -18,7 +18,7 @@
 namespace taut::contact {
 namespace {
 
-constexpr int leavesAtOnce = 16;      // pairs of leaves per task
+constexpr int leavesAtOnce = 8;       // pairs of leaves per task
 constexpr double activeShare = 0.05;  // of the thickness: a gap below it is a contact
 constexpr double leastTurn = 1e-3;    // of thickness and distance: what goes by less does not turn
 constexpr double leastAlike = 0.5;    // cosine of the normals before and after

@@ -1,8 +1,9 @@
 // Nearest places, certificates and piercings, against sampling.
+#include <set>
+
 #include "contact_support.h"
 #include "taut/contact/broad_phase.h"
 #include "taut/contact/certificate.h"
-#include "taut/contact/closest_batch.h"
 #include "taut/contact/closest_points.h"
 #include "taut/contact/rigid_side.h"
 #include "taut/core/private/instruction_set.h"
@@ -46,32 +47,29 @@ TEST(ContactNearest, OnATriangleNoSampleIsNearer) {
     }
 }
 
-// A third of a batch more than one, so that vectors have remainders.
+// One less than a batch, so that vectors have remainders.
 TEST(ContactNearest, KernelsGiveTheBitsOfOnePairOnEveryInstructionSet) {
     const core::InstructionSet before = core::instructionSet();
     for (const core::InstructionSet set :
          {core::InstructionSet::sse2, core::InstructionSet::avx2, core::InstructionSet::avx512}) {
         if (!core::isSupported(set)) continue;
         core::useInstructionSet(set);
-        Dice dice(3);
-        ClosestBatch triangles, segments;
-        std::vector<std::array<dvec3, 4>> places;
-        for (int n = 0; n < closestBatch * 4 / 3; ++n) {
-            const auto& p = places.emplace_back(fourPoints(dice, n));
-            triangles.add(p, {0, 1, 2, 3});
-            segments.add(p, {0, 1, 2, 3});
-        }
-        triangles.solve(closestKernels().onTriangles);
-        segments.solve(closestKernels().onSegments);
-        for (int n = 0; n < triangles.count(); ++n) {
-            const auto& p = places[n];
-            const Closest on = closestPoints(p, true), beside = closestPoints(p, false);
-            EXPECT_EQ(triangles.weights(n), on.weights) << n;
-            EXPECT_EQ(triangles.separation(n), on.separation) << n;
-            EXPECT_EQ(triangles.where(n), on.where) << n;
-            EXPECT_EQ(segments.weights(n), beside.weights) << n;
-            EXPECT_EQ(segments.separation(n), beside.separation) << n;
-            EXPECT_EQ(segments.where(n), beside.where) << n;
+        for (const bool isPoint : {true, false}) {
+            Dice dice(3);
+            ClosestLanes lanes{};
+            std::vector<std::array<dvec3, 4>> places;
+            for (int n = 0; n < closestBatch - 1; ++n) {
+                places.push_back(fourPoints(dice, n));
+                for (int k = 0; k < 4; ++k)
+                    for (int axis = 0; axis < 3; ++axis) lanes.at[k][axis][n] = places.back()[k][axis];
+            }
+            (isPoint ? closestKernels().onTriangles : closestKernels().onSegments)(lanes, closestBatch - 1);
+            for (int n = 0; n < closestBatch - 1; ++n) {
+                const Closest on = closestPoints(places[n], isPoint);
+                for (int k = 0; k < 4; ++k) EXPECT_EQ(lanes.weights[k][n], on.weights[k]) << n;
+                for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(lanes.separation[axis][n], on.separation[axis]) << n;
+                EXPECT_EQ(lanes.where[n], on.where) << n;
+            }
         }
     }
     core::useInstructionSet(before);
@@ -202,18 +200,65 @@ TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
         if (i > 0) surface.lines.push_back({i - 1, i});
     }
     const Elements elements({surface}, rest);
+    for (int e = 1; e < segments; ++e) {
+        const Edge &first = elements.edges()[0], &second = elements.edges()[e];
+        EXPECT_NEAR(elements.thicknessOf({first.a, first.b, second.a, second.b}, false),
+                    std::min(2 * thickness, 0.7 * (e - 1) * L), 1e-15);
+    }
+}
+
+// All elements of two crumpled sheets that go where they like, against all others at 33 times of their straight ways.
+TEST(ContactBroadPhase, LeavesOutNoPairThatComesWithinReachOnItsWay) {
+    Dice dice(11);
+    Flight flight;
+    for (int k = 0; k < 2; ++k)
+        flight.addSheet({0.01 * k, 0.03 * k, 0.0}, {0.3, 0, 0}, {0, 0, 0.3}, 8, dvec3(0.0), 1e-3, 0.004).meetsItself =
+            true;
+    std::vector<dvec3> x0, x1;
+    for (const dvec3& x : flight.x) {
+        x0.push_back(x + 0.02 * dice.vector());
+        x1.push_back(x0.back() + dvec3(0.1, -0.2, 0.0) + 0.03 * dice.vector());
+    }
+    const Elements elements(flight.surfaces, flight.x);
     BroadPhase near(elements);
-    near.find(rest, rest);
-    int listed = 0;
-    for (std::size_t r = 0; r < near.dueCount(); ++r)
-        for (std::size_t k = 0; k < near.due(r).pairs.size(); ++k) {
-            const CandidatePair& pair = near.due(r).pairs[k];
-            const int between = std::abs(pair.a - pair.b) - 1;  // segments
-            EXPECT_NEAR(pair.thickness, std::min(2 * thickness, 0.7 * between * L), 1e-15) << pair.a << ", " << pair.b;
-            EXPECT_NEAR(near.due(r).approachBudget[k] + nearShare * pair.thickness, between * L, 1e-15);
-            ++listed;
+    near.find(x0, x1);
+    std::set<std::array<int, 3>> found;  // 1: edges
+    BoxQuery query;
+    std::vector<CandidatePair> candidates;
+    for (const LeafPair pair : near.near()) {
+        candidates.clear();
+        near.addPoints(pair, query, candidates);
+        for (const CandidatePair& own : candidates) found.insert({0, own.a, own.b});
+        candidates.clear();
+        near.addEdges(pair, query, candidates);
+        for (const CandidatePair& own : candidates) found.insert({1, own.a, own.b});
+    }
+    const double reach = nearShare * 2 * 0.004;
+    int inReach = 0;
+    const auto look = [&](const std::array<int, 4>& points, bool isPoint, int a, int b) {
+        for (int n = 0; n <= 32; ++n) {
+            Corners now;
+            for (int k = 0; k < 4; ++k) now[k] = x0[points[k]] + n / 32.0 * (x1[points[k]] - x0[points[k]]);
+            if (length(closestPoints(now, isPoint).separation) > reach) continue;
+            ++inReach;
+            EXPECT_TRUE(found.contains({isPoint ? 0 : 1, a, b})) << a << ", " << b;
+            return;
         }
-    EXPECT_GE(listed, 4 + 3);  // pairs up to 2 L apart
+    };
+    for (std::size_t t = 0; t < elements.triangles().size(); ++t)
+        for (int i = 0; i < elements.pointCount(); ++i) {
+            const Triangle& triangle = elements.triangles()[t];
+            const std::array<int, 3>& c = triangle.points;
+            if (!elements.areNeighbours(i, triangle)) look({i, c[0], c[1], c[2]}, true, i, static_cast<int>(t));
+        }
+    for (std::size_t f = 0; f < elements.edges().size(); ++f)
+        for (std::size_t e = 0; e < f; ++e) {
+            const Edge &first = elements.edges()[e], &second = elements.edges()[f];
+            if (!elements.areNeighbours(first, second))
+                look({first.a, first.b, second.a, second.b}, false, static_cast<int>(e), static_cast<int>(f));
+        }
+    EXPECT_GT(inReach, 1000);
+    EXPECT_LT(found.size(), elements.triangles().size() * static_cast<std::size_t>(elements.pointCount()) / 4);
 }
 
 // So nothing of it is in contact as it was built, however thick it is.

@@ -183,7 +183,6 @@ class ContactGroup {
     void measure(LeafPair leaves, std::span<const CandidatePair> candidates, bool isPoint, const Ways& ways,
                  const ClosestKernels& kernels, std::vector<ContactConstraint>& pairs) const;
     void classify(Measured& measured, const Ways& ways, std::vector<ContactConstraint>& pairs) const;
-    double thicknessOf(const Measured& measured) const;
     static double motionOf(const Measured& measured, const Ways& ways);
     double openWay() const;
     static ContactConstraint constraintOf(const Measured& measured, std::span<const dvec3> x0);

@@ -7,6 +7,8 @@
 #include <map>
 #include <numeric>
 
+#include "taut/contact/closest_points.h"
+
 namespace taut::contact {
 
 Elements::Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest)
@@ -68,6 +70,18 @@ void Elements::addSurface(int number) {
     }
     shortest_.push_back(std::isfinite(shortest) ? shortest : 0.0);
     longest_.push_back(longest);
+}
+
+double Elements::thicknessOf(const std::array<int, 4>& points, bool isPoint) const {
+    const int a = surfaceOf(points[0]), b = surfaceOf(points[3]);
+    const double thickness = surface(a).thickness + surface(b).thickness;
+    if (!shareBond(a, b)) return thickness;
+    Corners rest;
+    for (std::size_t k = 0; k < 4; ++k) rest[k] = rest_[static_cast<std::size_t>(points[k])];
+    const double far = thickness / restShare + longestEdge(b) + (isPoint ? 0.0 : longestEdge(a));
+    const dvec3 between = rest[0] - rest[2];
+    if (glm::dot(between, between) > far * far) return thickness;
+    return std::min(thickness, restShare * length(closestPoints(rest, isPoint).separation));
 }
 
 void Elements::setGone(int number, const std::function<bool(std::size_t triangle)>& isTriangleGone,

@@ -40,7 +40,7 @@ class Elements {
                  const std::function<bool(int a, int b)>& isEdgeSevered);
     // Call it after the last setGone().
     void refresh();
-    // Two points of a seam: their elements count as neighbours and never touch. To be called before any list is made.
+    // Two points of a seam: their elements count as neighbours and never touch. To be called before any block.
     void sew(int a, int b);
     // Two surfaces that do not touch each other, as bodies that a joint ties. Likewise.
     void keepApart(int surfaceA, int surfaceB);
@@ -81,6 +81,9 @@ class Elements {
     bool shareBond(int surfaceA, int surfaceB) const {
         return surface(surfaceA).bond == surface(surfaceB).bond && !isRigid(surfaceA) && !isRigid(surfaceB);
     }
+    // [m] The distance that a point and a triangle, or two edges, keep (their four points). Elements of one body may be
+    // closer at rest than their thickness: they keep at most restShare of their distance at rest.
+    double thicknessOf(const std::array<int, 4>& points, bool isPoint) const;
     // Whether elements of two surfaces, or of one, may touch each other.
     bool mayMeet(int surfaceA, int surfaceB) const {
         const ContactSurface &a = surface(surfaceA), &b = surface(surfaceB);
@@ -105,9 +108,9 @@ class Elements {
     bool meetsAny(int surface) const { return meetsAny_[static_cast<std::size_t>(surface)] != 0; }
     bool isRigid(int number) const { return surface(number).isRigid; }
 
-    // A rigid surface, or one of points that do not move at all, stands still: its leaves need not be followed again.
-    // Two that stand still do not meet. After a surface that is not rigid began or ended to stand still, forget all
-    // lists.
+    // A rigid surface, or one of points that do not move at all, stands still: its leaves need not be fitted again.
+    // Two that stand still do not meet. After a surface that is not rigid began or ended to stand still, call drop() of
+    // the group.
     void setStill(int surface, bool isStill) { isStill_[static_cast<std::size_t>(surface)] = isStill ? 1 : 0; }
     bool isStill(int surface) const { return isStill_[static_cast<std::size_t>(surface)] != 0; }
 

@@ -152,21 +152,6 @@ double ContactGroup::slackOf(const ContactConstraint& pair, const dvec3& way, st
     return std::max(0.0, distance - std::max(pair.distance + along, 0.0));
 }
 
-// [m] The distance that the pair keeps. Elements of one body may be closer at rest than their thickness: they keep at
-// most restShare of their distance at rest.
-double ContactGroup::thicknessOf(const Measured& measured) const {
-    const std::array<int, 4>& points = measured.candidate.points;
-    const int a = elements_.surfaceOf(points[0]), b = elements_.surfaceOf(points[3]);
-    if (!elements_.shareBond(a, b)) return measured.thickness;
-    Corners rest;
-    for (std::size_t k = 0; k < 4; ++k) rest[k] = elements_.rest()[static_cast<std::size_t>(points[k])];
-    const double far =
-        measured.thickness / restShare + elements_.longestEdge(b) + (measured.isPoint ? 0.0 : elements_.longestEdge(a));
-    const dvec3 between = rest[0] - rest[2];
-    if (glm::dot(between, between) > far * far) return measured.thickness;
-    return std::min(measured.thickness, restShare * length(closestPoints(rest, measured.isPoint).separation));
-}
-
 // [m] The largest way of a point of one side from one of the other, at x1.
 double ContactGroup::motionOf(const Measured& measured, const Ways& ways) {
     std::array<dvec3, 4> way;
@@ -190,7 +175,7 @@ void ContactGroup::classify(Measured& measured, const Ways& ways, std::vector<Co
     const bool needsCertificate = measured.distance <= motionOf(measured, ways) + measured.leeway;
     const bool mayPush = mayPress && meetInside(candidate, measured.isPoint, measured.weights, measured.where);
     if (!mayPush && !needsCertificate) return;
-    measured.thickness = thicknessOf(measured);
+    measured.thickness = elements_.thicknessOf(candidate.points, measured.isPoint);
     const double gap = measured.distance - measured.thickness;
     const bool isClosed = gap < activeShare * measured.thickness;
     dvec3 way(0.0);

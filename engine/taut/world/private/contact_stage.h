@@ -20,8 +20,8 @@
 // stands still. Islands keep the state to go back to in beginTry().
 //
 // Deterministic. Each choice is a function of the state at the start of the tick and of the results of the tries. A
-// block depends only on its places and velocities (contact_group.h). Clocks, threads and the age of lists have no
-// influence; wall time is measured for reports only.
+// block depends only on its places and velocities (contact_group.h). Clocks and threads have no influence; wall time is
+// measured for reports only.
 //
 // Restorable. All that outlives a tick is saved by its owner: the states of the islands, the forces of contacts, and
 // the pace, which is the number of substeps that divides all islands' substeps. The stage itself saves nothing. It is

@@ -257,7 +257,7 @@ TEST(ContactBroadPhase, LeavesOutNoPairThatComesWithinReachOnItsWay) {
             if (!elements.areNeighbours(first, second))
                 look({first.a, first.b, second.a, second.b}, false, static_cast<int>(e), static_cast<int>(f));
         }
-    EXPECT_GT(inReach, 1000);
+    EXPECT_GT(inReach, 500);
     EXPECT_LT(found.size(), elements.triangles().size() * static_cast<std::size_t>(elements.pointCount()) / 4);
 }
 

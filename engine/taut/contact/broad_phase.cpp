@@ -24,6 +24,11 @@ void appendIf(std::span<const ElementPair> pairs, std::vector<CandidatePair>& ca
 
 }  // namespace
 
+BroadPhase::BroadPhase(const Elements& elements) : elements_(elements), bvh_(elements) {
+    for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s)
+        if (!elements.isRigid(s)) shortest_ = std::min(shortest_, elements.shortestEdge(s));
+}
+
 void BroadPhase::refresh() {
     bvh_.refresh();
     hasBoxes_.clear();
@@ -45,12 +50,13 @@ void BroadPhase::findAstray(std::span<const dvec3> expected, std::span<const dve
             most = std::max(most, own);
         }
     }
-    if (std::none_of(astray_.begin(), astray_.end(), [&](const double& most) {
-            const int surface = bvh_[static_cast<int>(&most - astray_.data())].surface;
-            return most >
-                   leewayShare * std::min(elements_.surface(surface).thickness, 0.5 * elements_.shortestEdge(surface));
-        }))
-        return;
+    const auto isAstray = [&](int leaf) {
+        const double thickness = elements_.surface(bvh_[leaf].surface).thickness;
+        return astray_[static_cast<std::size_t>(leaf)] > leewayShare * std::min(thickness, 0.5 * shortest_);
+    };
+    bool areAny = false;
+    for (int leaf = 0; leaf < bvh_.count(); ++leaf) areAny = areAny || isAstray(leaf);
+    if (!areAny) return;
     bvh_.fit(x0, x1);
     bvh_.findNear(near_);
     std::erase_if(near_, [&](LeafPair pair) {
@@ -69,8 +75,7 @@ double BroadPhase::motionBetween(LeafPair pair) const {
 // Elements of one body that are no neighbours may be as close at rest as its edges are long.
 double BroadPhase::leeway(LeafPair pair) const {
     const int a = bvh_[lowOf(pair)].surface, b = bvh_[highOf(pair)].surface;
-    const double least = std::min(elements_.shortestEdge(a), elements_.shortestEdge(b));
-    return leewayShare * (elements_.shareBond(a, b) ? std::min(thickness(pair), least) : thickness(pair));
+    return leewayShare * (elements_.shareBond(a, b) ? std::min(thickness(pair), shortest_) : thickness(pair));
 }
 
 // Of the leaves of near pairs -> boxes_.
@@ -78,7 +83,7 @@ void BroadPhase::findBoxes(std::span<const dvec3> x0, std::span<const dvec3> x1)
     boxes_.resize(static_cast<std::size_t>(bvh_.count()));
     hasBoxes_.resize(boxes_.size(), 0);
     for (int p = 0; p < bvh_.count(); ++p)
-        if (!elements_.isStill(bvh_[p].surface)) hasBoxes_[static_cast<std::size_t>(p)] = 0;
+        if (bvh_.isRefitted(p)) hasBoxes_[static_cast<std::size_t>(p)] = 0;
     toBox_.clear();
     for (LeafPair pair : near_)
         for (int p : {lowOf(pair), highOf(pair)})

@@ -31,7 +31,7 @@ struct CandidatePair {
 
 class BroadPhase {
   public:
-    explicit BroadPhase(const Elements& elements) : elements_(elements), bvh_(elements) {}
+    explicit BroadPhase(const Elements& elements);
 
     // Call it when points have jumped, or elements were removed.
     void refresh();
@@ -65,8 +65,9 @@ class BroadPhase {
     Bvh bvh_;
     std::vector<LeafPair> near_;
     std::vector<LeafBoxes> boxes_;  // (leaves) of those in near pairs
-    std::vector<char> hasBoxes_;    // (leaves) in this block; of what stands still for good
+    std::vector<char> hasBoxes_;    // (leaves) of the last fit
     std::vector<int> toBox_;        // leaves, scratch
+    double shortest_ = 1e300;       // [m] edge of a surface that is not rigid
     std::vector<double> astray_;    // (leaves) [m] of the point that is furthest from where it was expected
 };
 

@@ -218,7 +218,8 @@ void Bvh::refresh() {
         const int owner = leafOfPoint_[static_cast<std::size_t>(elements_.edges()[e].a)];
         leaves_[static_cast<std::size_t>(owner)].edges.push_back(static_cast<int>(e));
     }
-    isStillAndKnown_.assign(leaves_.size(), 0);
+    wasStill_.assign(leaves_.size(), 0);
+    isRefitted_.assign(leaves_.size(), 1);
 }
 
 void Bvh::fit(std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -226,9 +227,11 @@ void Bvh::fit(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         count(), atOnce,
         [&](int leaf) {
             const auto p = static_cast<std::size_t>(leaf);
-            if (isStillAndKnown_[p] != 0) return;
-            isStillAndKnown_[p] = elements_.isStill(leaves_[p].surface) ? 1 : 0;
-            LeafMotion& motion = motions_[p];
+            const bool isStill = elements_.isStill(leaves_[p].surface);
+        isRefitted_[p] = isStill && wasStill_[p] != 0 ? 0 : 1;
+        wasStill_[p] = isStill ? 1 : 0;
+        if (isRefitted_[p] == 0) return;
+        LeafMotion& motion = motions_[p];
             motion = {};
             for (int i : leaves_[p].corners) {
                 const dvec3 &from = x0[static_cast<std::size_t>(i)], &to = x1[static_cast<std::size_t>(i)];

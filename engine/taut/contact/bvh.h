@@ -61,6 +61,8 @@ class Bvh {
     // Finds the motion of all leaves on straight ways from x0 to x1 (points) [m].
     void fit(std::span<const dvec3> x0, std::span<const dvec3> x1);
     const LeafMotion& motion(int leaf) const { return motions_[static_cast<std::size_t>(leaf)]; }
+    // Whether the last fit() found its motion anew: not of what stands still, and stood still before.
+    bool isRefitted(int leaf) const { return isRefitted_[static_cast<std::size_t>(leaf)] != 0; }
     // Pairs a <= b of leaves that may meet, and whose boxes come within reach of each other; ascending.
     void findNear(std::vector<LeafPair>& pairs);
 
@@ -93,9 +95,9 @@ class Bvh {
     std::vector<std::size_t> firstAt_;  // (points + 1) in leavesAt_
     std::vector<Node> nodes_;           // children before parents
     int root_ = -1;
-    std::vector<LeafMotion> motions_;    // (leaves)
-    std::vector<core::Aabb> boxes_;      // (nodes) scratch
-    std::vector<char> isStillAndKnown_;  // (leaves) of surfaces that stand still: the motion is known for good
+    std::vector<LeafMotion> motions_;          // (leaves)
+    std::vector<core::Aabb> boxes_;            // (nodes) scratch
+    std::vector<char> wasStill_, isRefitted_;  // (leaves) in the last fit()
 };
 
 }  // namespace taut::contact

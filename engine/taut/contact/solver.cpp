@@ -21,7 +21,7 @@ constexpr int sweepsOfSolids = 60;  // of a step
 // Of the inverse mass of a row's heavier side, in a position correction: corrections that contradict each other end.
 // One alone is not less by it.
 constexpr double softnessOfShift = 2.0;
-constexpr int sweepsOfShift = 10;         // of a position correction
+constexpr int sweepsOfShift = 10;        // of a position correction
 constexpr double settledNearRest = 0.1;  // times the change that ends sweeps
 constexpr double nearRest = 4.0;         // times the speed below which nothing bounces
 

@@ -168,6 +168,13 @@ TEST(Rehearsal, WarnsOfABodyThatLeavesThePictureInTheFirstSecond) {
     EXPECT_EQ(printed(rehearse(scene).warnings),
               std::vector<std::string>{"rope.line leaves the picture in the first second: move the camera, or "
                                        "hold it in place"});
+    // Of a shorter run, and in the picture of a scene without cameras, too.
+    scene = heldRope();
+    scene.run.seconds = 0.5;
+    scene.bodies[0].hold.clear();
+    EXPECT_EQ(rehearse(scene).warnings.size(), 0U);
+    scene.bodies[0].velocity = {40, 0, 0};
+    EXPECT_EQ(rehearse(scene).warnings.size(), 1U);
 }
 
 // A mass of 1 kg that hangs by a spring of 1e6 N/m: ω = 1000 /s, of which leap-frog stands steps of 2 ms.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int turnsOfPlaces = 10000, turnsOfVelocities = 6;  // places alone keep the limit
 constexpr int turnsOfSome = 10;
-constexpr double straight = 0.999;  // cosine of the largest turn in a step that does not change a direction
+constexpr double straight = 0.995;  // cosine of the largest turn in a step that does not change a direction
 constexpr double nearly = 0.98;     // of the longest length
 // Of the longest length: by so much less springs are stopped, and by so much more a state may be off.
 constexpr double margin = 1e-3;

@@ -97,7 +97,8 @@ void GltfModel::parse(std::string& bytes) {
         errors += error.what();
     }
     // An extension may be why it could not be read.
-    for (const std::string& extension : model_.extensionsRequired)
+    const std::vector<std::string>& needed = isRead ? model_.extensionsRequired : model_.extensionsUsed;
+    for (const std::string& extension : needed)
         if (std::none_of(std::begin(harmless), std::end(harmless),
                          [&](std::string_view known) { return extension.starts_with(known); }))
             fail(fmt::format("it cannot be read without {}: export it without that extension", extension));

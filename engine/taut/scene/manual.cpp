@@ -1,6 +1,7 @@
 // The manual of the scene format, made from the field table.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "taut/check/check.h"
@@ -35,8 +36,13 @@ void writeFields(const Section& section, const std::string& title, void* target,
         out += fmt::format("{}{:<{}} {}\n", indent, field.key, 26 - static_cast<int>(indent.size()), facts);
         std::string help = field.help;
         if (!field.only.empty()) help += fmt::format(" Only for {}.", joined(field.only));
-        bool isFirst = true;
-        if (!field.inside.empty()) {
+        const std::string elsewhere = fmt::format("As in [{}].", field.key);
+        bool isFirst = field.inside.empty() || !std::ranges::all_of(field.inside.front().fields, [&](const Field& own) {
+                           return own.help == elsewhere;
+                       });
+        if (!isFirst) {
+            help += fmt::format(" {} Its keys: {}.", elsewhere, joined(field.inside.front().keys()));
+        } else if (!field.inside.empty()) {
             const std::string table = fmt::format("{}: {}", field.key, joined(field.inside.front().keys()));
             const auto [known, isNew] = titles.try_emplace(table, title);
             isFirst = isNew || known->second == title;

@@ -4,7 +4,9 @@
 
 #include <csignal>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -59,6 +61,12 @@ int runAction(const Action& action) {
         }
         printNote(
             "taut: not enough memory for a thread: raise the limit (ulimit -v, ulimit -u), or take fewer --threads\n");
+    } catch (const std::runtime_error& error) {  // oneTBB throws it for a thread that it cannot start
+        if (std::string_view(error.what()).find("pthread_create") == std::string_view::npos) throw;
+        printNote(
+            "taut: {}: not enough memory for a thread: raise the limit (ulimit -v, ulimit -u), or take fewer "
+            "--threads\n",
+            error.what());
     } catch (const std::bad_alloc&) {
         printNote("taut: not enough memory: raise the limit (ulimit -v), or take a smaller scene or picture\n");
     }

@@ -200,9 +200,9 @@ TEST(SceneManual, SaysTheKeysOfATableOnce) {
     EXPECT_EQ(count("\n  cg_tolerance "), 1);
     EXPECT_EQ(count("\n    cg_tolerance "), 0);  // of the solver of bodies
     EXPECT_GT(count("\n  solver "), 3);
-    EXPECT_EQ(count("Solver settings of this body. As in [solver]. Its keys: integrator, "), count("\n  solver "));
+    EXPECT_EQ(count("Solver settings of this body. As in [solver]. Its keys: integrator, "), 1);
     EXPECT_EQ(count("\n    roughness "), 1);  // of finish
-    EXPECT_GE(count("Its keys are those in [cloth.NAME]."), count("\n  finish ") - 1);
+    EXPECT_GE(count("Its keys are those in [cloth.NAME]."), count("\n  solver ") - 1 + count("\n  finish ") - 1);
 }
 
 TEST(SceneManual, ListsEverySectionAndField) {

@@ -97,12 +97,14 @@ void GltfModel::parse(std::string& bytes) {
         errors += error.what();
     }
     // An extension may be why it could not be read.
-    const std::vector<std::string>& needed = isRead ? model_.extensionsRequired : model_.extensionsUsed;
-    for (const std::string& extension : needed)
+    for (const std::string& extension : model_.extensionsRequired)
         if (std::none_of(std::begin(harmless), std::end(harmless),
                          [&](std::string_view known) { return extension.starts_with(known); }))
             fail(fmt::format("it cannot be read without {}: export it without that extension", extension));
     if (!isRead) {
+        for (const std::string_view packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"})
+            if (bytes.find(packed) != std::string::npos)  // tinygltf stops before the extensions that are only used
+                fail(fmt::format("it cannot be read without {}: export it without that extension", packed));
         std::string why = errors.empty() ? warnings : errors;
         why.erase(std::find(why.begin(), why.end(), '\n'), why.end());
         fail(why.empty() ? "this is not a glTF file" : why);

@@ -36,17 +36,17 @@ void writeFields(const Section& section, const std::string& title, void* target,
         out += fmt::format("{}{:<{}} {}\n", indent, field.key, 26 - static_cast<int>(indent.size()), facts);
         std::string help = field.help;
         if (!field.only.empty()) help += fmt::format(" Only for {}.", joined(field.only));
-        const std::string elsewhere = fmt::format("As in [{}].", field.key);
-        bool isFirst = field.inside.empty() || !std::ranges::all_of(field.inside.front().fields, [&](const Field& own) {
-                           return own.help == elsewhere;
-                       });
-        if (!isFirst) {
-            help += fmt::format(" {} Its keys: {}.", elsewhere, joined(field.inside.front().keys()));
-        } else if (!field.inside.empty()) {
-            const std::string table = fmt::format("{}: {}", field.key, joined(field.inside.front().keys()));
-            const auto [known, isNew] = titles.try_emplace(table, title);
+        bool isFirst = true;
+        if (!field.inside.empty()) {
+            const std::string keys = joined(field.inside.front().keys()),
+                              elsewhere = fmt::format("As in [{}].", field.key);
+            const auto [known, isNew] = titles.try_emplace(fmt::format("{}: {}", field.key, keys), title);
             isFirst = isNew || known->second == title;
+            const bool isElsewhere = std::ranges::all_of(field.inside.front().fields,
+                                                         [&](const Field& own) { return own.help == elsewhere; });
             if (!isFirst) help += fmt::format(" Its keys are those in {}.", known->second);
+            if (isFirst && isElsewhere) help += fmt::format(" {} Its keys: {}.", elsewhere, keys);
+            isFirst = isFirst && !isElsewhere;
         }
         out += fmt::format("{:<27}{}\n", "", help);
         const bool isRepeated = section.name == "material" && field.inside.size() == 1 &&

@@ -17,6 +17,7 @@ enum class ExitCode : int {
     needNotMet = 5,
     inputOutput = 6,
     noRenderer = 7,
+    noMemory = 7,
     goldenMissing = 8,  // or recorded by other bits
     interrupted = 130,
     terminated = 143,

@@ -4,7 +4,9 @@
 
 #include <csignal>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -53,12 +55,22 @@ int runAction(const Action& action) {
         printNote("taut: {}\n", failed.what());
         return codeOf(ExitCode::checkFailed);
     } catch (const std::system_error& error) {  // of files and threads
-        printNote("taut: {}\n", error.what());
-        return codeOf(ExitCode::inputOutput);
+        if (error.code() != std::errc::resource_unavailable_try_again && error.code() != std::errc::not_enough_memory) {
+            printNote("taut: {}\n", error.what());
+            return codeOf(ExitCode::inputOutput);
+        }
+        printNote(
+            "taut: not enough memory for a thread: raise the limit (ulimit -v, ulimit -u), or take fewer --threads\n");
+    } catch (const std::runtime_error& error) {  // oneTBB throws it for a thread that it cannot start
+        if (std::string_view(error.what()).find("pthread_create") == std::string_view::npos) throw;
+        printNote(
+            "taut: {}: not enough memory for a thread: raise the limit (ulimit -v, ulimit -u), or take fewer "
+            "--threads\n",
+            error.what());
     } catch (const std::bad_alloc&) {
-        printNote("taut: not enough memory\n");
-        return codeOf(ExitCode::badContent);
+        printNote("taut: not enough memory: raise the limit (ulimit -v), or take a smaller scene or picture\n");
     }
+    return codeOf(ExitCode::noMemory);
 }
 
 int runCommandLine(int argc, const char* const* argv, std::span<const Command> commands) {
@@ -67,7 +79,8 @@ int runCommandLine(int argc, const char* const* argv, std::span<const Command> c
          .description = "Simulates ropes, cloth, soft bodies and rigid bodies, and renders them without a display.",
          .version = versionText(),
          .footer = "Exit codes: 0 ok, 1 a check or golden failed, 2 usage, 3 bad content, 4 diverged, 5 need not met,\n"
-                   "6 input or output, 7 no renderer, 8 golden missing or of other bits, 130 and 143 interrupted."},
+                   "6 input or output, 7 no renderer or too little memory, 8 golden missing or of other bits, 130 and "
+                   "143 interrupted."},
         commands);
     const Request request = line.read(argc, argv);
     switch (request.kind) {

@@ -68,6 +68,9 @@ render::RendererOptions optionsFor(const world::PictureSpec& picture, const pipe
 std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads, const std::string& gl,
                                                const pipeline::PictureLayers& layers) {
     limitSoftwareRenderer(threads);
+    const int processors = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    if (const std::string shortage = pipeline::memoryShortage(processors); !shortage.empty())
+        throw core::Error(core::ErrorKind::noRenderer, "nothing here can draw: " + shortage);
     const GlChoice choice = glNamed(gl);
     render::RendererOptions options = optionsFor(picture, layers);
     options.device = choice.device;

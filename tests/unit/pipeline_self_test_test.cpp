@@ -59,11 +59,14 @@ TEST(SelfTest, TooLittleMemoryIsWhyNothingDraws) {
     ::getrlimit(RLIMIT_AS, &before);
     const rlimit limit{pages * 4096 + (400U << 20U), before.rlim_max};
     ::setrlimit(RLIMIT_AS, &limit);
-    const std::string message = messageOfBlankPicture();
+    const std::string message = messageOfBlankPicture(), ofThree = memoryShortage(3);
     ::setrlimit(RLIMIT_AS, &before);
     EXPECT_EQ(message,
               "nothing here can draw: a renderer takes 500 MB of memory, and there is less; raise the limit (ulimit "
               "-v)");
+    EXPECT_EQ(ofThree,
+              "a renderer with 3 threads takes 1300 MB of memory, and there is less; raise the limit (ulimit -v) or "
+              "take fewer --threads");
 }
 
 }  // namespace

@@ -197,8 +197,10 @@ TEST(SceneManual, SaysTheKeysOfATableOnce) {
         for (std::size_t at = text.find(line); at != std::string::npos; at = text.find(line, at + 1)) ++times;
         return times;
     };
-    EXPECT_EQ(count("\n    integrator "), 1);  // of the solver of bodies
+    EXPECT_EQ(count("\n  cg_tolerance "), 1);
+    EXPECT_EQ(count("\n    cg_tolerance "), 0);  // of the solver of bodies
     EXPECT_GT(count("\n  solver "), 3);
+    EXPECT_EQ(count("Solver settings of this body. As in [solver]. Its keys: integrator, "), 1);
     EXPECT_EQ(count("\n    roughness "), 1);  // of finish
     EXPECT_GE(count("Its keys are those in [cloth.NAME]."), count("\n  solver ") - 1 + count("\n  finish ") - 1);
 }

@@ -91,10 +91,10 @@ TEST(SceneGltf, SaysWhatIsWrong) {
     EXPECT_EQ(wrong("base64,A", "base64,*"), intro + "a data URI of it is not base64");
     EXPECT_EQ(wrong("\"indices\": 3", "\"indices\": 8"), intro + "accessor[8] invalid bufferView");
     // Compressed parts have accessors without one.
-    EXPECT_EQ(wrong("\"indices\": 3",
-                    "\"indices\": 8}]}],\n\"extensionsRequired\": [\"KHR_draco_mesh_compression\"],\n\"extras\": "
-                    "[{\"a\": [{\"a\": 0"),
-              intro + "it cannot be read without KHR_draco_mesh_compression: export it without that extension");
+    for (const std::string where : {"extensionsRequired", "extensionsUsed"})
+        EXPECT_EQ(wrong("\"indices\": 3", "\"indices\": 8}]}],\n\"" + where +
+                                              "\": [\"KHR_draco_mesh_compression\"],\n\"extras\": [{\"a\": [{\"a\": 0"),
+                  intro + "it cannot be read without KHR_draco_mesh_compression: export it without that extension");
     EXPECT_EQ(wrong("{\n", "{\n\"extensionsRequired\": [\"KHR_draco_mesh_compression\"],\n"),
               intro + "it cannot be read without KHR_draco_mesh_compression: export it without that extension");
     EXPECT_NE(wrong("{\n", "{\n{").find(intro), std::string::npos);

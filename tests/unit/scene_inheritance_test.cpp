@@ -197,11 +197,10 @@ TEST(SceneInheritance, ALongChainAndTheErrorsOfATextHaveALimit) {
               "         ^ name one nearer to the end of the chain");
     std::string mistyped = "schema = 1\n";
     for (int i = 0; i < 20'000; ++i) mistyped += fmt::format("[camera.c{}]\nlike = \"cc\"\n", i);
-    for (const std::string& text : {chain(20'000), mistyped}) {
-        const std::string message = folder.messageOf(text);
-        EXPECT_EQ(std::count(message.begin(), message.end(), '^'), 200);
-        EXPECT_TRUE(message.ends_with("\n… and more errors"));
-    }
+    const std::string chained = folder.messageOf(chain(20'000)), many = folder.messageOf(mistyped);
+    EXPECT_EQ(std::count(chained.begin(), chained.end(), '^'), 1) << chained;
+    EXPECT_EQ(std::count(many.begin(), many.end(), '^'), 200);
+    EXPECT_TRUE(many.ends_with("\n… and more errors"));
 }
 
 TEST(SceneInheritance, TheSchemaHasDefaultsInWhichNothingIsRequired) {

@@ -94,9 +94,9 @@ fps = "fast")",
     {"a number for a flag", rope, "collide = 1", R"(4:11: collide must be true, false or "faces", not 1)"},
     {"a word that a flag has not", rope, R"(collide = "face")",
      R"(4:11: collide must be true, false or "faces", not "face" ^ did you mean "faces"?)"},
-    {"a word that is no slip of another", collider, R"(shape = "ball")",
+    {"another word for one", collider, R"(shape = "ball")",
      "3:9: shape must be one of plane, box, sphere, capsule, cylinder, cone, hull, mesh, figure, compound, not "
-     "\"ball\""},
+     "\"ball\" ^ did you mean \"sphere\"?"},
     {"a key that is no slip of another", file, "[defaults.joint]\nreach_m = 0.1",
      "2:11: [defaults] has no key \"joint\" ^ it has material, cloth, rope, block, net, solid, anchor, wind, filling, "
      "collider, camera, lamp, label"},

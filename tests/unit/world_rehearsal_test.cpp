@@ -170,6 +170,18 @@ TEST(Rehearsal, WarnsOfABodyThatLeavesThePictureInTheFirstSecond) {
                                        "hold it in place"});
 }
 
+TEST(Rehearsal, WarnsOfAFastBodyInAShortRunWithoutCameras) {
+    SceneSpec scene;
+    scene.run.seconds = 0.5;
+    scene.world.gravity = dvec3(0.0);
+    scene.bodies.add(support::rope("line", {0, 1, 0}, {1, 1, 0}, 4));
+    EXPECT_EQ(printed(rehearse(scene).warnings), std::vector<std::string>());
+    scene.bodies[0].velocity = {40, 0, 0};
+    EXPECT_EQ(printed(rehearse(scene).warnings),
+              std::vector<std::string>{"rope.line leaves the picture in the first second: move the camera, or "
+                                       "hold it in place"});
+}
+
 // A mass of 1 kg that hangs by a spring of 1e6 N/m: ω = 1000 /s, of which leap-frog stands steps of 2 ms.
 SceneSpec stiffPair() {
     SceneSpec scene;

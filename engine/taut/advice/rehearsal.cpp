@@ -159,18 +159,18 @@ class EnergyWatch {
 
 // Plays the first second. Bodies that start in the picture and are outside after it; energy that comes from nowhere.
 void watchFirstSecond(const SceneSpec& scene, double end, Rehearsal& rehearsal) {
-    constexpr double seconds = 1, mostOf = 0.5;  // of its points, to be in the picture
+    constexpr double mostOf = 0.5;  // of its points, to be in the picture
+    const double seconds = std::min(1.0, scene.run.seconds);
     constexpr std::size_t most = 8;
     const bool watchesEnergy = isLeftAlone(scene);
-    if (scene.run.seconds < seconds || scene.run.startState != nullptr) return;
-    if (scene.cameras.empty() && !watchesEnergy) return;
+    if (scene.run.startState != nullptr) return;
     if (core::processorSeconds() > end) return;
     World world(scene);
     WorldImpl& w = WorldAccess::of(world);
     const auto shareOf = [&](const Body& body) { return world.shareInPicture(world.points(body.fullName()).x); };
     std::map<std::string, const Body*> inside;
     for (const Body* body : bodiesOf(w))
-        if (!scene.cameras.empty() && shareOf(*body) >= mostOf) inside[body->fullName()] = body;
+        if (shareOf(*body) >= mostOf) inside[body->fullName()] = body;
     EnergyWatch energy;
     try {
         while (world.time() < seconds) {

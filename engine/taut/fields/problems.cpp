@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <tuple>
 #include <utility>
@@ -182,10 +183,28 @@ core::Finding Problems::finding(const Problem& problem, core::Severity severity)
             line + "\n  " + std::string(caret, ' ') + "^"};
 }
 
+namespace {
+
+// Other words for those of scenes, of which a candidate is meant however it is spelt.
+constexpr std::array<std::array<std::string_view, 2>, 9> synonyms{{{"ball", "sphere"},
+                                                                   {"cube", "box"},
+                                                                   {"cuboid", "box"},
+                                                                   {"floor", "plane"},
+                                                                   {"ground", "plane"},
+                                                                   {"pill", "capsule"},
+                                                                   {"rod", "cylinder"},
+                                                                   {"tube", "cylinder"},
+                                                                   {"wall", "box"}}};
+
+}  // namespace
+
 std::string likelyWord(std::string_view word, const std::vector<std::string>& candidates) {
     // A short word must match better; very long ones are not worth the time.
     if (word.empty() || word.size() > 60) return {};
     const std::string lower = lowerCase(word);
+    for (const auto& [other, meant] : synonyms)
+        if (lower == other && std::find(candidates.begin(), candidates.end(), meant) != candidates.end())
+            return std::string(meant);
     std::string best;
     int bestDistance = 1 + static_cast<int>(word.size() < 3 ? 1 : word.size() < 8 ? 2 : 3);
     for (const std::string& candidate : candidates) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -92,13 +93,17 @@ TestDrawing drawTest(render::Renderer& renderer, int times) {
     return drawing;
 }
 
-// Libraries of OpenGL do not report it: they give no context, or one that draws nothing.
-std::string memoryShortage() {
-    constexpr std::size_t needed = 500U << 20U;  // [bytes] llvmpipe takes 450 MB of addresses for a small picture
+std::string memoryShortage(int threads) {
+    // [bytes] of addresses that llvmpipe takes, with the heaps of its threads: 450 MB for one and a small picture.
+    constexpr std::size_t first = std::size_t{500} << 20U, more = std::size_t{400} << 20U;
+    ::rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) threads = 1;
+    const std::size_t needed = first + more * static_cast<std::size_t>(std::max(threads, 1) - 1);
     void* const memory = ::mmap(nullptr, needed, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED)
-        return fmt::format("a renderer takes {} MB of memory, and there is less; raise the limit (ulimit -v)",
-                           needed >> 20U);
+        return fmt::format("a renderer{} takes {} MB of memory, and there is less; raise the limit (ulimit -v){}",
+                           threads > 1 ? fmt::format(" with {} threads", threads) : "", needed >> 20U,
+                           threads > 1 ? " or take fewer --threads" : "");
     ::munmap(memory, needed);
     return "";
 }

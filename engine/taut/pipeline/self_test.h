@@ -26,8 +26,9 @@ TestDrawing drawTest(render::Renderer& renderer, int times);
 std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions options,
                                                   const std::vector<render::Backend>& backends);
 
-// Why nothing draws if this process cannot have the memory that a software renderer takes; empty: it can.
-std::string memoryShortage();
+// Why nothing draws if this process may not have the addresses that a software renderer with that number of threads
+// takes; empty: it may. To be asked first: libraries of OpenGL crash where they get none.
+std::string memoryShortage(int threads = 1);
 
 std::string nameOf(render::Backend backend);  // as in the flag --gl
 

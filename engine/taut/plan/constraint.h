@@ -41,7 +41,8 @@ class Constraint {
         // (ties) Adds to this the pull of each tie on its first end: mass times change of x [kg m] or of v [kg m/s]. A
         // constraint of one tie may omit it; it follows from its points.
         std::span<dvec3> pull;
-        double time = 0;  // [s] of x and v
+        double time = 0;       // [s] of x and v
+        bool isOfStep = true;  // a change of x changes v; after contact it does not
     };
 
     virtual ~Constraint() = default;

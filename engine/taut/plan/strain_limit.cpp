@@ -8,10 +8,10 @@
 namespace taut::world {
 namespace {
 
-constexpr double relaxation = 1.7;
-constexpr int turnsOfPlaces = 60, turnsOfVelocities = 6;  // places alone keep the limit
+constexpr int turnsOfPlaces = 10000, turnsOfVelocities = 6;  // places alone keep the limit
 constexpr int turnsOfSome = 10;
-constexpr double nearly = 0.98;  // of the longest length
+constexpr double straight = 0.995;  // cosine of the largest turn in a step that does not change a direction
+constexpr double nearly = 0.98;     // of the longest length
 // Of the longest length: by so much less springs are stopped, and by so much more a state may be off.
 constexpr double margin = 1e-3;
 constexpr double settledSpeed = 1e-3;  // of the speeds of the two ends
@@ -25,6 +25,11 @@ std::optional<double> limitOf(const IslandPlan& plan, std::size_t s) {
     const int body = plan.origins[s].body;
     if (body < 0 || plan.springs[s].kind == mechanics::SpringKind::bend) return std::nullopt;
     return plan.bodies[body]->plasticity.strainLimit;
+}
+
+// Of projections. Below 2 each of them takes energy; the longer the chain, the nearer to 2 converges fastest.
+double relaxationOf(int turn) {
+    return 2.0 - 0.3 / (1.0 + 0.03 * turn);
 }
 
 }  // namespace
@@ -58,9 +63,11 @@ void StrainLimit::follow(const IslandPlan& plan) {
 
 template <class Project>
 bool StrainLimit::takeTurns(std::span<const dvec3> x, int mostTurns, const Project& project) {
-    bool any = false;
-    for (int turn = 0; turn < mostTurns; ++turn) {
-        if (turn % turnsOfSome == 0) {
+    bool any = false, isOfAll = false;
+    for (int turn = 0, left = 0; turn < mostTurns; ++turn, --left) {
+        isOfAll = left == 0;
+        if (isOfAll) {
+            left = turnsOfSome;
             long_.clear();
             for (const Link& link : links_) {
                 const dvec3 d = x[link.b] - x[link.a];
@@ -70,9 +77,10 @@ bool StrainLimit::takeTurns(std::span<const dvec3> x, int mostTurns, const Proje
         bool moves = false;
         // Forwards and backwards, so that a correction spreads in both directions.
         for (std::size_t k = 0; k < long_.size(); ++k)
-            if (project(long_[turn % 2 == 0 ? k : long_.size() - 1 - k])) moves = true;
-        if (!moves) break;
-        any = true;
+            if (project(long_[turn % 2 == 0 ? k : long_.size() - 1 - k], relaxationOf(turn))) moves = true;
+        if (!moves && isOfAll) break;
+        if (!moves) left = 1;  // look at all of them next
+        any = any || moves;
     }
     return any;
 }
@@ -80,17 +88,18 @@ bool StrainLimit::takeTurns(std::span<const dvec3> x, int mostTurns, const Proje
 bool StrainLimit::projectPositions(const Moment& moment) {
     return takeTurns(
         moment.x, turnsOfPlaces,
-        [&](const Link& link) {
+        [&](const Link& link, double relaxation) {
             const auto a = static_cast<std::size_t>(link.a), b = static_cast<std::size_t>(link.b);
             const dvec3 d = moment.x[b] - moment.x[a];
-            if (!(glm::dot(d, d) > link.most * link.most)) return false;
+            const double bearable = (1.0 + margin) * link.most;
+            if (!(glm::dot(d, d) > bearable * bearable)) return false;
             const dvec3 before = moment.from[b] - moment.from[a];
             const double length = sizeOf(d), was = sizeOf(before),
-                         weight = moment.inverseMass[a] + moment.inverseMass[b];
-            const double most = std::max(link.most, std::min(was, (1.0 + margin) * link.most));
-            const double along = glm::dot(before, d) / (was * length);
-            if (!(length > most) || !(weight > 0) || !(along > 0.5)) return false;
-            const dvec3 impulse = relaxation * (length - most) / (weight * along * was) * before;
+                         weight = moment.inverseMass[a] + moment.inverseMass[b],
+                         most = moment.isOfStep ? std::max(link.most, was) : link.most;
+            if (!(length > most) || !(weight > 0)) return false;
+            const bool isStraight = glm::dot(before, d) > straight * was * length;
+            const dvec3 impulse = relaxation * (length - most) / weight * (isStraight ? before / was : d / length);
             moment.x[a] += moment.inverseMass[a] * impulse;
             moment.x[b] -= moment.inverseMass[b] * impulse;
             return true;
@@ -100,7 +109,7 @@ bool StrainLimit::projectPositions(const Moment& moment) {
 bool StrainLimit::projectVelocities(const Moment& moment) {
     return takeTurns(
         moment.x, turnsOfVelocities,
-        [&](const Link& link) {
+        [&](const Link& link, double relaxation) {
             const auto a = static_cast<std::size_t>(link.a), b = static_cast<std::size_t>(link.b);
             const dvec3 d = moment.x[b] - moment.x[a];
             const double square = glm::dot(d, d), weight = moment.inverseMass[a] + moment.inverseMass[b];

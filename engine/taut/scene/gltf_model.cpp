@@ -102,6 +102,9 @@ void GltfModel::parse(std::string& bytes) {
                          [&](std::string_view known) { return extension.starts_with(known); }))
             fail(fmt::format("it cannot be read without {}: export it without that extension", extension));
     if (!isRead) {
+        for (const std::string_view packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"})
+            if (bytes.find(packed) != std::string::npos)  // tinygltf stops before the extensions that are only used
+                fail(fmt::format("it cannot be read without {}: export it without that extension", packed));
         std::string why = errors.empty() ? warnings : errors;
         why.erase(std::find(why.begin(), why.end(), '\n'), why.end());
         fail(why.empty() ? "this is not a glTF file" : why);

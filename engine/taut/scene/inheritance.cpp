@@ -96,7 +96,7 @@ class Elements {
             // Each element of a circle reports it; one that leads into it reports nothing.
             if (next == chain.front())
                 reportCircle(chain);
-            else if (isNew)
+            else if (isNew && !std::exchange(hasLongChain_, true))
                 problems_.addError(element.value.at("like")->place,
                                    fmt::format("{} is the first of more than {} that are like one another",
                                                titleOf(element), longestChain),
@@ -154,6 +154,7 @@ class Elements {
     Node& table_;
     std::map<std::string, const Member*> byName_;
     std::size_t& taken_;
+    bool hasLongChain_ = false;  // once a section
     Problems& problems_;
 };
 

@@ -1,6 +1,7 @@
 // The manual of the scene format, made from the field table.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "taut/check/check.h"
@@ -37,10 +38,15 @@ void writeFields(const Section& section, const std::string& title, void* target,
         if (!field.only.empty()) help += fmt::format(" Only for {}.", joined(field.only));
         bool isFirst = true;
         if (!field.inside.empty()) {
-            const std::string table = fmt::format("{}: {}", field.key, joined(field.inside.front().keys()));
-            const auto [known, isNew] = titles.try_emplace(table, title);
+            const std::string keys = joined(field.inside.front().keys()),
+                              elsewhere = fmt::format("As in [{}].", field.key);
+            const auto [known, isNew] = titles.try_emplace(fmt::format("{}: {}", field.key, keys), title);
             isFirst = isNew || known->second == title;
+            const bool isElsewhere = std::ranges::all_of(field.inside.front().fields,
+                                                         [&](const Field& own) { return own.help == elsewhere; });
             if (!isFirst) help += fmt::format(" Its keys are those in {}.", known->second);
+            if (isFirst && isElsewhere) help += fmt::format(" {} Its keys: {}.", elsewhere, keys);
+            isFirst = isFirst && !isElsewhere;
         }
         out += fmt::format("{:<27}{}\n", "", help);
         const bool isRepeated = section.name == "material" && field.inside.size() == 1 &&

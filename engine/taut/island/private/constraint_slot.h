@@ -156,7 +156,7 @@ class ConstraintSlot {
         for (std::size_t i = 0; i < points_.size(); ++i) isSame = isSame && x_[i] == placed_[i] && v_[i] == stored_[i];
         if (isSame) return false;
         from_ = x_;
-        takeTurns(&Constraint::projectPositions);
+        takeTurns(&Constraint::projectPositions, false);
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const dvec3 change = v_[i] - stored_[i];
             stored_[i] = v_[i];
@@ -387,8 +387,9 @@ class ConstraintSlot {
                 addImpulses(1.0 / h);
             }
     }
-    // Joined bodies are solved together first; turns that move their points by less than that leaves end.
-    void takeTurns(bool (Constraint::*projection)(const Constraint::Moment&)) {
+    // Joined bodies are solved together first; turns that move their points by less than that leaves end. isOfStep: as
+    // in Moment.
+    void takeTurns(bool (Constraint::*projection)(const Constraint::Moment&), bool isOfStep = true) {
         constexpr int mostRounds = 50;
         std::fill(pull_.begin(), pull_.end(), dvec3(0.0));
         const bool isJoined = ties_.size() > 1 && joinBodies(projection);
@@ -401,7 +402,7 @@ class ConstraintSlot {
                 const auto size = static_cast<std::size_t>(tie.constraint->size());
                 const bool isOne = size == 1;
                 const std::span<dvec3> pull = isOne ? std::span(ignored) : std::span(pull_).subspan(tie.first, size);
-                if (!((*tie.constraint).*projection)({tie.w, tie.from, tie.x, tie.v, pull, time_})) continue;
+                if (!((*tie.constraint).*projection)({tie.w, tie.from, tie.x, tie.v, pull, time_, isOfStep})) continue;
                 moves = moves || !isJoined || hasMoved(tie, isOfPlaces);
                 if (isOne) isOfPlaces ? seePull(tie, tie.x, x_) : seePull(tie, tie.v, v_);
                 for (std::size_t k = 0; k < tie.constraint->points().size(); ++k) {

@@ -1,11 +1,12 @@
 // Keeps springs of bodies with a strain_limit from being longer than that allows. It only ever stops them:
 //
-//     n·(x_b - x_a) <= l_most      or the length when the step began, if that is more by rounding
+//     |x_b - x_a| <= l_most      or the length when the step began, if that is more
 //
-// along the line n of the ends when the step began, so that impulses keep momentum and angular momentum (rods.h). Each
-// of these sets holds the state in which nothing moves, so a projection onto any of them, over-relaxed or not, takes
-// kinetic energy and never adds any, in any order and number (Agmon 1954). Springs take turns until none is
-// too long: all of them now and then, in between only springs near their longest length.
+// Each of these sets is convex and holds the state in which nothing moves. So a projection onto any of them,
+// over-relaxed by less than 2, takes kinetic energy and never adds any, in any order and number (Agmon 1954). Impulses
+// of a spring are equal and opposite, so momentum stays. They act along the line of the ends when the step began, which
+// keeps angular momentum (rods.h), unless the spring turns too far in a step. Springs take turns until none is too
+// long: all of them now and then, in between only springs near their longest length.
 #pragma once
 
 #include "taut/plan/constraint.h"

@@ -37,7 +37,8 @@ struct Posed {
 
 // Whether the boxes around both are further apart than `reach` [m] along an axis of one of them. Of 1000 boxes in a
 // heap, 3900 pairs are near each other, 2100 are left here, and 2000 touch. Half of their 2.7 ms is Bullet's search, a
-// seventh the broad phase.
+// seventh the broad phase. btBoxBoxDetector would take half as long as the search, which is 1 % of a tick. It has no
+// places for boxes that are apart; of boxes that are grown to meet, its gaps at corners are below the truth.
 bool areApart(const Posed& a, const Posed& b, double reach) {
     const dvec3 way = b.middle() - a.middle(), halfA = a.shape.bounds()->halfSize(),
                 halfB = b.shape.bounds()->halfSize();

@@ -30,7 +30,7 @@ Nearest distanceTo(const ClosedShape& shape, const dvec3& place) {
 
 // The distance falls from a and falls from b: in between its gradient along the edge has a zero, which regula falsi
 // with the halves of Illinois finds. Inside a shape the gradient may jump over zero where two sides of the shape are
-// equally near. The normal there is the mean of both normals that is across the edge.
+// equally near. The normal there is the mean of the two at right angles to the edge.
 std::optional<ElementNear> nearestInEdge(const ClosedShape& shape, const dvec3& a, const dvec3& b, const Nearest& atA,
                                          const Nearest& atB) {
     constexpr int mostRounds = 60;

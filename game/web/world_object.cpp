@@ -107,7 +107,8 @@ Json WorldObject::hashes(std::int64_t ticks) {
 
 world::Selection WorldObject::select(const std::string& target) const {
     world::Selection selection = world_.world().select(target);
-    const bool isEmpty = std::ranges::all_of(selection.parts, [](const auto& part) { return part.points.empty(); });
+    const bool isEmpty = std::all_of(selection.parts.begin(), selection.parts.end(),
+                                     [](const auto& part) { return part.points.empty(); });
     if (!isEmpty) return selection;
     const std::string fault = scene::targetFault(world_.spec(), target, true);
     refuse(!fault.empty() ? fault : fmt::format("{} is not there, or not yet", target));

@@ -211,22 +211,26 @@ TEST(SolidCone, RollsAroundItsTip) {
     EXPECT_NEAR(centre.y, 0.75 * height * std::sin(half), 1e-4);
 }
 
-// A brick with edges rounded by r tips over where tan θ is above (b/2 - r) / (h/2).
+// A brick with edges rounded by r tips over where tan θ is above (b/2 - r) / (h/2), and a can over any place of its
+// rim. The can rocks until one place bears it: from 0.005 to 0.01 rad below the angle on it tips, too.
 TEST(SolidBox, TipsOverAtItsAngle) {
-    for (const double beside : {-0.005, 0.005}) {  // [rad]
-        SolidSpec brick = box("brick", dvec3(0.0), {0.1, 0.2, 0.1});
-        brick.thickness = 0.001;
-        const double angle = std::atan((0.05 - 0.001) / 0.1) + beside;
-        brick.position = 0.1 * dvec3(std::sin(angle), std::cos(angle), 0.0);
-        brick.rotation.z = -angle;
-        world::SceneSpec spec = scene();
-        spec.colliders = {slope(angle, 2.0)};
-        spec.bodies.add(brick);
-        World world(spec);
-        advanceBy(world, 1.5);
-        const double height = glm::dot(motionOf(world, "solid.brick").centre, spec.colliders[0].normal);
-        EXPECT_NEAR(height, beside < 0 ? 0.1 : 0.05, 0.002);
-    }
+    for (const std::string shape : {"box", "cylinder"})
+        for (const double beside : {shape == "box" ? -0.005 : -0.015, 0.005}) {  // [rad]
+            SolidSpec brick = round(shape, "brick", dvec3(0.0), 0.05, 0.2);
+            brick.size = {0.1, 0.2, 0.1};
+            brick.thickness = 0.001;
+            const double angle = std::atan((0.05 - 0.001) / 0.1) + beside;
+            brick.position = 0.1 * dvec3(std::sin(angle), std::cos(angle), 0.0);
+            brick.rotation.z = -angle;
+            if (shape == "cylinder") brick.rotation.y = core::radians(22.5);  // between two corners of its octagon
+            world::SceneSpec spec = scene();
+            spec.colliders = {slope(angle, 2.0)};
+            spec.bodies.add(brick);
+            World world(spec);
+            advanceBy(world, 1.5);
+            const double height = glm::dot(motionOf(world, "solid.brick").centre, spec.colliders[0].normal);
+            EXPECT_NEAR(height, beside < 0 ? 0.1 : 0.05, 0.002) << shape << ' ' << beside;
+        }
 }
 
 // An incoming ball leaves at the other end: a row of five that touch, without loss.

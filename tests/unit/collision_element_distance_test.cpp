@@ -38,8 +38,8 @@ std::vector<SizedShape> shapes() {
 }
 
 // The nearest of corners, edges and face is the nearest place of the triangle, 1e-7 m of a metre, and a triangle that
-// goes through a shape between its corners is below 0. An edge is level, and has no place of its own, where the distance
-// falls from an end by less than 1e-3 of the way: by that it may come nearer.
+// goes through a shape between its corners is below 0. An edge is level, and has no place of its own, where the
+// distance falls from an end by less than 1e-3 of the way: by that it may come nearer.
 TEST(ElementDistance, OfATriangleIsThatOfItsNearestPlace) {
     Numbers numbers;
     for (const SizedShape& sized : shapes()) {
@@ -83,6 +83,20 @@ TEST(ElementDistance, OfATriangleIsThatOfItsNearestPlace) {
         }
         EXPECT_GT(std::min(apart, pierced), 100) << sized.kind;
     }
+}
+
+// Deep in a shape two sides are equally near. Through a corner an edge is pushed across itself, through a plate to a
+// side.
+TEST(ElementDistance, OfAnEdgeThroughAShapePushesItOut) {
+    const auto nearest = [](const glm::dvec3& half, const glm::dvec3& a, const glm::dvec3& b) {
+        const ClosedShape box = builtInShapes().find("box")->convex(boxShape(half), 0.0)->closed();
+        return *nearestInEdge(box, a, b, distanceTo(box, a), distanceTo(box, b));
+    };
+    const ElementNear corner = nearest(glm::dvec3(0.5), {0.2, 0.7, 0.0}, {0.7, 0.2, 0.0});
+    EXPECT_NEAR(corner.distance, -0.05, 1e-9);
+    EXPECT_NEAR(glm::length(corner.normal - std::sqrt(0.5) * glm::dvec3(1.0, 1.0, 0.0)), 0.0, 1e-9);
+    const ElementNear plate = nearest({0.5, 0.01, 0.5}, {0.0, 0.3, 0.0}, {0.01, -0.3, 0.0});
+    EXPECT_EQ(std::abs(plate.normal.y), 1.0);
 }
 
 }  // namespace

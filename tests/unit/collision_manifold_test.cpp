@@ -98,6 +98,26 @@ TEST(Manifold, HasThePlacesAndGapsOfGeometry) {
         }
 }
 
+// An edge that leans on a log, or on an edge, along its whole length: no face is across the normal.
+TEST(Manifold, OfEdgesThatLieAlongEachOtherHasBothEnds) {
+    const double s = 0.1, gap = 1e-3 * s;
+    const glm::dquat leaning = turned({0, 0, 1}, 0.25 * core::pi), lying = turned({1, 0, 0}, 0.5 * core::pi);
+    // The rounded edge reaches down by this.
+    const double low = std::sqrt(0.5) * (1.0 - 2.0 * rounding) * s + rounding * s;
+    const Frame at = frameOf(leaning, {0, low + gap, 0});
+    const Ground log{"log", roundShape("cylinder", 0.5 * s, 10 * s), frameOf(lying, {0, -0.5 * s, 0}), 0.0};
+    const Ground edge{"edge", boxShape({0.5 * s, 0.5 * s, 5 * s}), frameOf(leaning, {0, -low, 0}), rounding * s};
+    for (const Ground& below : {log, edge})
+        for (const SizedShape& shape : {boxShape(glm::dvec3(0.5 * s)), boxHull(glm::dvec3((0.5 - rounding) * s))}) {
+            const std::string what = shape.kind + " on " + below.name;
+            const Manifold found = manifoldOf(*convexOf(shape, rounding * s), at,
+                                              *convexOf(below.shape, below.rounding), below.at, 0.01 * s);
+            ASSERT_EQ(found.count, 2) << what;
+            EXPECT_NEAR(std::abs(found.of[0].onA.z - found.of[1].onA.z), (1.0 - 2.0 * rounding) * s, 1e-12 * s) << what;
+            for (const Manifold::Place& place : found.places()) EXPECT_NEAR(place.gap, gap, 1e-8 * s) << what;
+        }
+}
+
 // A plane is no Bullet shape with a supporting face: each corner of a body on it has its own height.
 TEST(Manifold, OnAPlaneIsItsCornersHeights) {
     const auto plane = convexOf(planeShape(), 0.0);

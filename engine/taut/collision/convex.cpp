@@ -71,6 +71,7 @@ dvec3 acrossAxis(const dvec3& direction) {
 
 void addRim(double radius, double height, const dvec3& direction, bool isFromAbove, SupportingFace& face) {
     constexpr int sides = 8;
+    face.isRim = true;
     const dvec3 first = acrossAxis(direction), second(first.z, 0.0, -first.x);
     for (int k = 0; k < sides; ++k) {
         const double angle = (isFromAbove ? 2.0 : -2.0) * core::pi * k / sides;

@@ -27,6 +27,7 @@ class Form;
 class SupportingFace {
   public:
     static constexpr int most = 32;
+    bool isRim = false;  // its edges stand for a circle
     void add(const dvec3& corner) {
         if (count_ < most) corners_[count_++] = corner;
     }

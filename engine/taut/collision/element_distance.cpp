@@ -29,28 +29,38 @@ Nearest distanceTo(const ClosedShape& shape, const dvec3& place) {
 }
 
 // The distance falls from a and falls from b: in between its gradient along the edge has a zero, which regula falsi
-// with the halves of Illinois finds.
+// with the halves of Illinois finds. Inside a shape the gradient may jump over zero where two sides of the shape are
+// equally near. The normal there is the mean of the two at right angles to the edge.
 std::optional<ElementNear> nearestInEdge(const ClosedShape& shape, const dvec3& a, const dvec3& b, const Nearest& atA,
                                          const Nearest& atB) {
     constexpr int mostRounds = 60;
-    constexpr double flat = 1e-9;  // sine
+    constexpr double flat = 1e-9;      // sine
+    constexpr double leastMean = 0.4;  // length; below it, both sides of a plate are as near
     const dvec3 edge = b - a;
     const double size = std::sqrt(glm::dot(edge, edge));
     double low = 0, high = 1, riseAtLow = glm::dot(atA.normal, edge), riseAtHigh = glm::dot(atB.normal, edge);
     if (!(riseAtLow < -level * size && riseAtHigh > level * size)) return std::nullopt;
     ElementNear found;
+    dvec3 normalAtLow = atA.normal, normalAtHigh = atB.normal;
+    bool isFlat = false;
     for (int round = 0, last = 0; round < mostRounds; ++round) {
         const double share = (low * riseAtHigh - high * riseAtLow) / (riseAtHigh - riseAtLow);
         const Nearest near = distanceTo(shape, a + share * edge);
         found = {near.distance, near.normal, {1.0 - share, share, 0.0}};
         const double rise = glm::dot(near.normal, edge);
-        if (std::abs(rise) < flat * size) break;
+        isFlat = std::abs(rise) < flat * size;
+        if (isFlat) break;
         const int sign = rise < 0 ? -1 : 1;
         (sign < 0 ? low : high) = share;
         (sign < 0 ? riseAtLow : riseAtHigh) = rise;
+        (sign < 0 ? normalAtLow : normalAtHigh) = near.normal;
         if (sign == last) (sign < 0 ? riseAtHigh : riseAtLow) *= 0.5;
         last = sign;
     }
+    if (isFlat) return found;
+    const double fall = -glm::dot(normalAtLow, edge), rise = glm::dot(normalAtHigh, edge);
+    const dvec3 mean = (rise * normalAtLow + fall * normalAtHigh) / (rise + fall);
+    if (const double length = std::sqrt(glm::dot(mean, mean)); length > leastMean) found.normal = mean / length;
     return found;
 }
 

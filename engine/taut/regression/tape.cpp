@@ -52,7 +52,7 @@ void index(Tape& tape) {
 void visit(core::Bytes& bytes, TapeBodies& cast) {
     bytes(cast.names, cast.points);
     bytes.require(cast.points.size() == cast.names.size() &&
-                  std::ranges::none_of(cast.points, [](int count) { return count < 0; }));
+                  std::none_of(cast.points.begin(), cast.points.end(), [](int count) { return count < 0; }));
 }
 
 void visit(core::Bytes& bytes, Tape& tape) {

@@ -261,6 +261,28 @@ TEST(ContactBroadPhase, LeavesOutNoPairThatComesWithinReachOnItsWay) {
     EXPECT_LT(found.size(), elements.triangles().size() * static_cast<std::size_t>(elements.pointCount()) / 4);
 }
 
+// A wall that stood still comes to a ball that it was far from.
+TEST(ContactBroadPhase, FindsWhatBeginsToMove) {
+    Flight flight;
+    flight.addBall({0.0, 0.0, 0.0}, dvec3(0.0), 1.0, 0.005);
+    flight.addTriangle({dvec3(-1, -1, 1), dvec3(1, -1, 1), dvec3(0, 1, 1)}, dvec3(0.0), 0.0, 0.005);
+    Elements elements(flight.surfaces, flight.x);
+    BroadPhase near(elements);
+    std::vector<dvec3> x = flight.x;
+    for (const bool isStill : {true, false, true}) {
+        elements.setStill(1, isStill);
+        std::vector<dvec3> after = x;
+        if (!isStill)
+            for (std::size_t i = 1; i < 4; ++i) after[i].z = 0.0;
+        near.find(x, after);
+        x = after;
+        BoxQuery query;
+        std::vector<CandidatePair> candidates;
+        for (const LeafPair pair : near.near()) near.addPoints(pair, query, candidates);
+        EXPECT_EQ(candidates.empty(), x[1].z == 1.0);
+    }
+}
+
 // So nothing of it is in contact as it was built, however thick it is.
 TEST(ContactDistance, LeavesAThickSheetAsItWasBuilt) {
     Flight flight;

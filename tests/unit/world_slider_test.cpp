@@ -66,7 +66,7 @@ TEST(Slider, AMassFallsAndSwingsAlongItsLine) {
                             block() + slider() +
                                 (stiffness > 0 ? "[collider.hook]\nshape = \"sphere\"\nradius = 0.01\nposition = [" +
                                                      std::to_string(-10 * std::cos(pi / 6)) +
-                                                     ", 7, 0.3]\n[[joint]]\na = \"solid.block\"\nb = "
+                                                     ", 7, 0.3]\n[[joint]]\na = \"solid.block@centre\"\nb = "
                                                      "\"collider.hook\"\nkind = \"spring\"\nplace = [0, 0, 0]\n"
                                                      "stiffness_N_per_m = 40\ndamping_time_s = 0\nrest_length_m = 10\n"
                                                : "")));
@@ -134,7 +134,8 @@ TEST(Slider, LimitsFrictionDampingAndMotorAreTheirForces) {
         World world(sceneOf("[0, -9.81, 0]", block() + slider(more)));
         run(world, 200);
         EXPECT_NEAR(wayOf(world).along, wanted, 1e-4) << more;
-        EXPECT_LT(world.metrics().kinetic, 1e-9) << more;
+        run(world, 50);
+        EXPECT_NEAR(wayOf(world).along, wanted, 1e-4) << more;
     }
 }
 

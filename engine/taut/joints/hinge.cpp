@@ -116,8 +116,9 @@ void HingeJoint::carry(IslandPlan&, const Spot&, Grip) const {
     failMount(*this);
 }
 
+// As no body turns against the other, the axis may go through any place: the centre of one, where spots are exact.
 void SliderJoint::mount(IslandPlan& plan, const Mounting& at) const {
-    const dvec3& middle = at.at.position;
+    const dvec3& middle = at.centre;
     const dvec3 along = glm::normalize(at.at.rotation * axis);
     const dvec3 half = (0.5 * at.size) * along, arm = at.size * core::acrossOf(along);
     expectAxes(*this, at, middle + half, "");
@@ -167,8 +168,8 @@ Kind<JointSpec> hingeKind() {
 
 Kind<JointSpec> sliderKind() {
     Kind<JointSpec> kind = mountedKind<SliderJoint>(
-        "A slider holds two rigid bodies, or one and a collider, so that b slides along an axis through `place` of a, "
-        "without turning. Sides collide with each other only if `touch` is set.",
+        "A slider holds two rigid bodies, or one and a collider, so that b slides along an axis of a, without turning. "
+        "`place` is in the axes of `axis`, and may be anywhere. Sides collide with each other only if `touch` is set.",
         fields::FieldList<SliderJoint>()
             .vector("limits_m", &SliderJoint::limits, "m", placeRange,
                     "Least and largest way of b along the axis since the start; any if not given. It stops there "

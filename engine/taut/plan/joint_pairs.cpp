@@ -117,6 +117,7 @@ Mounting mountingOf(const JointPair& pair, const ScenePoints& scene) {
     mounting.b = end(pair.b);
     const Spot& placed = placedSide(*pair.spec, scene).isA ? pair.a : pair.b;
     mounting.at = frameOf(*pair.spec, scene.refOf(placed.nearest()).body, scene);
+    mounting.centre = scene.body(scene.refOf(pair.b.nearest()).body).axes.position;
     mounting.size = 0.5 * sizeOf(scene.body(scene.refOf(pair.a.nearest()).body));
     return mounting;
 }

@@ -159,6 +159,7 @@ class Tying {
         mounting.at = frameOf(joint, body);
         // Turns are those of b: as seen from the body, a collider that is a turns the other way.
         if (isCollider(joint.a)) mounting.at.rotation *= -1.0;
+        mounting.centre = body.axes.position;
         mounting.size = 0.5 * sizeOf(body);
         joint.mount(plan_, mounting);
         carryBy(plan_, grip.holder, grip.path);

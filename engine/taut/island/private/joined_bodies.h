@@ -36,7 +36,7 @@ class JoinedBodies {
         // Two spots of a's body: b is held on the line through them, and a is the place on it where b was.
         std::optional<Line> line{};
         dvec3 free{0.0};  // unit, along the line
-        // What is missing between a and b. values (points): places [m] or velocities.
+        // The gap from a to b. values (points): places [m] or velocities.
         dvec3 open(std::span<const dvec3> values, bool arePlaces) const;
     };
     // The place on a line that is nearest to b, x (points) [m].

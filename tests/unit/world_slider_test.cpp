@@ -139,6 +139,13 @@ TEST(Slider, LimitsFrictionDampingAndMotorAreTheirForces) {
     }
 }
 
+// A held solid is a rail like any other.
+TEST(Slider, MayHoldAHeldSolid) {
+    World world(sceneOf("[0, -9.81, 0]", block("hold = [\"all\"]\n") + slider()));
+    run(world, 5);
+    EXPECT_NEAR(wayOf(world).along, 0.0, 1e-12);
+}
+
 TEST(Slider, GoesOnWithTheSameBitsAndIsLetGo) {
     const SceneSpec scene =
         sceneOf("[0, -9.81, 0]", block() +

@@ -33,7 +33,7 @@ Slide::Slide(Drive drive, const Mounting& at, const std::array<dvec3, 3>& places
         for (auto* spots : {&drive_.a, &drive_.b}) std::swap((*spots)[0], (*spots)[1]);
     }
     pairs_ = {{drive_.a[0], drive_.b[0], 0, 0.0, false, drive_.a[1]},
-              {drive_.a[0], drive_.b[1], 0, 0.0, false, drive_.a[1]},
+              {drive_.a[1], drive_.b[1], 0, 0.0, false, drive_.a[0]},
               {drive_.a[2], drive_.b[2], 0, 0.0, false, beside}};
 }
 

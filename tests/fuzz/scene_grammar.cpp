@@ -227,7 +227,7 @@ class Growing {
 
     // A joint at a place of a solid.
     void addMounted(const std::string& solid, const std::string& other, bool isRigid) {
-        const std::string kind = isRigid ? choices_.of({"hinge", "ball"}) : "ball";
+        const std::string kind = isRigid ? choices_.of({"hinge", "ball", "slider"}) : "ball";
         add({"[[joint]]\na = \"{}\"\nb = \"{}\"\nkind = \"{}\"\nplace = {}\naxis = {}\n", solid, other, kind,
              choices_.vector(0.2), choices_.vector(1)});
         if (choices_.oneIn(3)) add({"touch = true\n"});
@@ -235,14 +235,20 @@ class Growing {
             if (isRigid && choices_.oneIn(2)) add({"cone_deg = {:.6g}\n", choices_.between(1, 170)});
             return;
         }
+        const bool slides = kind == "slider";
+        const auto keyOf = [&](const char* ofHinge, const char* ofSlider) { return slides ? ofSlider : ofHinge; };
+        const double most = slides ? 1.0 : 170.0;
         if (choices_.oneIn(2))
-            add({"limits_deg = [{:.6g}, {:.6g}]\n", choices_.between(-170, 0), choices_.between(1, 170)});
-        if (choices_.oneIn(3)) add({"friction_N_m = {:.6g}\n", choices_.magnitude(1e-3, 100)});
-        if (choices_.oneIn(3)) add({"damping_N_m_s = {:.6g}\n", choices_.magnitude(1e-3, 100)});
+            add({"{} = [{:.6g}, {:.6g}]\n", keyOf("limits_deg", "limits_m"), choices_.between(-most, 0),
+                 choices_.between(most / 170.0, most)});
+        if (choices_.oneIn(3))
+            add({"{} = {:.6g}\n", keyOf("friction_N_m", "friction_N"), choices_.magnitude(1e-3, 100)});
+        if (choices_.oneIn(3))
+            add({"{} = {:.6g}\n", keyOf("damping_N_m_s", "damping_N_s_per_m"), choices_.magnitude(1e-3, 100)});
         if (choices_.oneIn(3)) {
             isClosed_ = false;
-            add({"motor_rad_per_s = {:.6g}\nmotor_N_m = {:.6g}\n", choices_.between(-20, 20),
-                 choices_.magnitude(1e-3, 100)});
+            add({"{} = {:.6g}\n{} = {:.6g}\n", keyOf("motor_rad_per_s", "motor_m_per_s"), choices_.between(-20, 20),
+                 keyOf("motor_N_m", "motor_N"), choices_.magnitude(1e-3, 100)});
         }
     }
 

@@ -35,10 +35,26 @@ INSTANTIATE_TEST_SUITE_P(Seeds, GrownScenes, testing::Range(0U, 60U));
 
 // Every construct of the grammar is in some of a thousand scenes.
 TEST(SceneGrammar, EveryKindGrows) {
-    for (const std::string kind :
-         {"[cloth.", "[rope.", "[block.", "[solid.", "[net.", "[[joint]]", "[[seam]]", "[wind.", "[anchor.",
-          "[filling.", "shape = \"figure\"", "collider.f.upper", "kind = \"hinge\"", "kind = \"ball\"",
-          "motor_rad_per_s", "cone_deg", "do = \"cut\"", "do = \"spawn\"", "break_strain"}) {
+    for (const std::string kind : {"[cloth.",
+                                   "[rope.",
+                                   "[block.",
+                                   "[solid.",
+                                   "[net.",
+                                   "[[joint]]",
+                                   "[[seam]]",
+                                   "[wind.",
+                                   "[anchor.",
+                                   "[filling.",
+                                   "shape = \"figure\"",
+                                   "collider.f.upper",
+                                   "kind = \"hinge\"",
+                                   "kind = \"ball\"",
+                                   "kind = \"slider\"",
+                                   "motor_rad_per_s",
+                                   "cone_deg",
+                                   "do = \"cut\"",
+                                   "do = \"spawn\"",
+                                   "break_strain"}) {
         unsigned count = 0;
         for (unsigned seed = 0; seed < 1000; ++seed) count += grownFrom(seed).text.find(kind) != std::string::npos;
         EXPECT_GT(count, 0U) << kind;

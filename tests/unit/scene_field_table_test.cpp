@@ -186,7 +186,7 @@ TEST(SceneSchema, ListsEveryFieldWithItsHelpAndDefault) {
     EXPECT_EQ(schemaOf(root, "rope.segments")->at("minimum"), 1);
     EXPECT_EQ(schemaOf(root, "picture.samples")->at("enum"), nlohmann::json({1, 4, 8, 16}));
     EXPECT_EQ(schemaOf(root, "picture.shadow_size")->at("multipleOf"), 128);
-    EXPECT_EQ(schemaOf(root, "joint.kind")->at("enum"), nlohmann::json({"weld", "spring", "rod", "hinge", "ball"}));
+    EXPECT_EQ(schemaOf(root, "joint.kind")->at("enum"), nlohmann::json({"weld", "spring", "rod", "hinge", "ball", "slider"}));
     EXPECT_FALSE(schemaOf(root, "need.horizon_s")->contains("default"));
 }
 

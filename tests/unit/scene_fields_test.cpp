@@ -300,9 +300,9 @@ TEST(SceneFields, SolidsLandInTheirMembers) {
 
 TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
-    ASSERT_EQ(scene.joints.size(), 6U);
+    ASSERT_EQ(scene.joints.size(), 7U);
     EXPECT_EQ(scene.joints.of<world::SeamJoint>().at(0).over, 2.0);
-    EXPECT_EQ(scene.joints[5].breakForce, 13.0);
+    EXPECT_EQ(scene.joints[6].breakForce, 13.0);
     const world::JointSpec& spring = scene.joints[0];
     EXPECT_EQ(spring.a.targets, std::vector<std::string>{"rope.rail@end"});
     EXPECT_EQ(spring.b.targets, std::vector<std::string>{"net.cradle@b"});
@@ -331,6 +331,14 @@ TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     EXPECT_EQ(hinge.motorMost, 6.0);
     EXPECT_TRUE(hinge.touch);
     EXPECT_NEAR(*scene.joints.of<world::BallJoint>().at(0).cone, 0.5 * core::pi, 1e-15);
+    EXPECT_EQ(scene.joints.of<world::RodJoint>().at(0).placeIn, world::JointSpec::PlaceIn::world);
+    EXPECT_EQ(hinge.placeIn, world::JointSpec::PlaceIn::side);
+    const world::SliderJoint& slider = scene.joints.of<world::SliderJoint>().at(0);
+    EXPECT_EQ(*slider.limits, glm::dvec2(-1, 2));
+    EXPECT_EQ(slider.friction, 0.5);
+    EXPECT_EQ(slider.damping, 0.6);
+    EXPECT_EQ(slider.motorSpeed, -0.7);
+    EXPECT_EQ(slider.motorMost, 8.0);
     ASSERT_EQ(scene.masses.size(), 1U);
     EXPECT_EQ(scene.masses[0].target, "block.jelly@corners");
     EXPECT_EQ(scene.masses[0].mass, 1.5);

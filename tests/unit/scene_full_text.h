@@ -211,6 +211,7 @@ a = "net.cradle@a"
 b = "collider.ball"
 kind = "rod"
 place = [0, 1, 2.5]
+place_in = "world"
 [[joint]]
 a = "solid.crate"
 b = "solid.pill"
@@ -230,6 +231,17 @@ kind = "ball"
 place = [0, 1, 2]
 axis = [1, 0, 0]
 cone_deg = 90
+[[joint]]
+a = "solid.hammer"
+b = "solid.pill"
+kind = "slider"
+place = [0, 1, 0]
+axis = [1, 0, 0]
+limits_m = [-1, 2]
+friction_N = 0.5
+damping_N_s_per_m = 0.6
+motor_m_per_s = -0.7
+motor_N = 8
 [[seam]]
 a = "cloth.flag.0@left"
 b = "cloth.flag.1@right"

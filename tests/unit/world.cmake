@@ -38,6 +38,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_hinge_test.cpp
   world_seam_test.cpp
   world_sleep_test.cpp
+  world_slider_test.cpp
   world_solid_test.cpp
   world_start_doubts_test.cpp
   world_start_test.cpp

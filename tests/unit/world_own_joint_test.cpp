@@ -173,7 +173,7 @@ TEST(OwnJoint, IsReleasedByNameAndBreaksByTheForceThroughIt) {
 TEST(OwnJoint, IsInTheManualAndRefusedByNameWhereItIsNotKnown) {
     EXPECT_NE(scene::manual(*withOwn()).find("A leash keeps points from going apart."), std::string::npos);
     const scene::AssetFolder folder;
-    EXPECT_NE(folder.messageOf(pair + leash).find("kind must be one of weld, spring, rod, hinge, ball, not \"leash\""),
+    EXPECT_NE(folder.messageOf(pair + leash).find("kind must be one of weld, spring, rod, hinge, ball, slider, not \"leash\""),
               std::string::npos)
         << folder.messageOf(pair + leash);
     const std::string reach = folder.messageOf(pair + leash + "reach_m = 1\n", {.kinds = withOwn()});

@@ -173,6 +173,7 @@ class DynamicsOf final : public Dynamics {
     double turning(double t, double seconds) override {
         return constraints_.isEmpty() ? 0.0 : constraints_.turning(t, seconds);
     }
+    std::span<const HeldPair> heldPairs(double t) override { return constraints_.heldPairs(t); }
     void watchContacts(bool isOn) override { contacts_.watch(isOn); }
     ContactWork takeContactWork() override { return contacts_.takeWork(); }
     dvec3 gravity(double t) const override {

@@ -6,7 +6,7 @@
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island.h"
 #include "taut/island/private/rest_bound.h"
-#include "taut/plan/constraint.h"
+#include "taut/plan/held_pair.h"
 
 namespace taut::world {
 namespace {
@@ -64,8 +64,8 @@ bool staysPut(std::span<const Island::Foothold> footholds, std::span<const dvec3
 
 // Whether all bodies of an island are solids that stay: each is pressed, or pinned to a place that stays, where it has
 // to be. x (points) [m].
-bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Foothold> footholds,
-                std::span<const dvec3> x) {
+bool allStayPut(const IslandPlan& plan, double t, std::span<const HeldPair> pairs,
+                std::span<const Island::Foothold> footholds, std::span<const dvec3> x) {
     constexpr double tautFrom = 1.0 - 1e-9;  // of the length of a leash
     const std::vector<bool> isHeld = heldPointsOf(plan);
     std::vector<int> solidOf(plan.points.size(), -1);
@@ -84,23 +84,11 @@ bool allStayPut(const IslandPlan& plan, double t, std::span<const Island::Footho
         dvec3 place;
     };
     std::vector<Pin> pins;
-    for (const auto& constraint : plan.constraints) {
-        const std::span<const int> own = constraint->points();
-        std::vector<dvec3> at;  // as in Constraint::Moment
-        for (const int point : own) at.push_back(x[point]);
-        for (const Constraint::Place& place : constraint->places()) {
-            const mechanics::PosePath::Frame frame = pathOf(plan, place.collider).at(t);
-            at.push_back(frame.place + frame.arm(place.offset));
-        }
-        const auto solidAt = [&](const Spot& end) {
-            const auto number = static_cast<std::size_t>(end.nearest());
-            return number < own.size() ? solidOf[own[number]] : -1;
-        };
-        for (const Constraint::Pair& pair : constraint->copy()->pairs(t))
-            if (pair.length == 0 ||
-                (pair.isMost && glm::distance(pair.a.of(at), pair.b.of(at)) > tautFrom * pair.length))
-                pins.push_back({{solidAt(pair.a), solidAt(pair.b)}, pair.a.of(at)});
-    }
+    const auto solidAt = [&](const HeldPair::End& end) { return end.place != nullptr ? -1 : solidOf[end.point()]; };
+    for (const HeldPair& pair : pairs)
+        if ((pair.length == 0 && !pair.line) ||
+            (pair.isMost && glm::distance(pair.a.at(plan, x, t), pair.b.at(plan, x, t)) > tautFrom * pair.length))
+            pins.push_back({{solidAt(pair.a), solidAt(pair.b)}, pair.a.at(plan, x, t)});
     std::vector<bool> stays(plan.solids.size(), false);
     for (bool isAny = true; isAny;) {
         isAny = false;
@@ -145,7 +133,8 @@ bool Island::isCalm() {
 }
 
 // Points that constraints hold in one place move as one. Points that they hold otherwise have no stiffness, so they
-// stay awake, but for solids that stay where they are.
+// stay awake, but for solids that stay where they are, and for joined solids whose motion dies out: of a lamp on its
+// chain, which friction, damping or drag bring to rest. If it were about to tip, the motion would grow.
 bool Island::rests(double t, double seconds, std::vector<Support> supports, std::span<const Foothold> footholds) {
     const double error = plan_.solver.sleepError, still = stillShare * error / seconds;
     const std::size_t n = plan_.points.size();
@@ -153,7 +142,11 @@ bool Island::rests(double t, double seconds, std::vector<Support> supports, std:
     if (!plan_.solids.empty()) {
         for (std::size_t i = 0; i < n; ++i)
             if (const dvec3 v = rest_.velocity(i, x_[i], seconds); !(glm::dot(v, v) <= still * still)) return false;
-        return allStayPut(plan_, t, footholds, x_);
+        if (allStayPut(plan_, t, dynamics_->heldPairs(t), footholds, x_)) return true;
+        const bool areSolids = std::all_of(plan_.bodies.begin(), plan_.bodies.end(),
+                                           [](const Body* body) { return body->spec->isRigid(); });
+        return areSolids && plan_.constraints.size() > plan_.solids.size() &&
+               rest_.wayLeft(x_, stillShare * error) <= error / 3;
     }
     const auto leaders = leadersOf(plan_, t);
     if (leaders.empty()) return false;

@@ -30,6 +30,32 @@ void JoinedBodies::addBody(const core::RigidMotion& body, std::span<const std::s
     bodies_.push_back(body);
 }
 
+Spot JoinedBodies::footOf(const Line& line, const Spot& b, std::span<const dvec3> x) {
+    const dvec3 low = line[0].of(x), way = line[1].of(x) - low;
+    const double share = glm::dot(b.of(x) - low, way) / glm::dot(way, way);
+    std::array<Spot::Share, 4> shares{};  // both spots are of the same points, or each is one
+    std::size_t count = 0;
+    for (const auto& [spot, part] : {std::pair(&line[0], 1.0 - share), std::pair(&line[1], share)})
+        for (const auto& [point, weight] : spot->shares()) {
+            const auto same = std::find_if(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count),
+                                           [&, own = point](const Spot::Share& other) { return other.point == own; });
+            if (same == shares.begin() + static_cast<std::ptrdiff_t>(count)) shares[count++] = {point, 0.0};
+            same->weight += part * weight;
+        }
+    return Spot(std::span(shares).first(count));
+}
+
+void JoinedBodies::addSliding(const Line& line, const Spot& b, std::size_t pull, std::span<const dvec3> x) {
+    pairs_.push_back({footOf(line, b, x), b, pull, 0.0, false, line, glm::normalize(line[1].of(x) - line[0].of(x))});
+}
+
+dvec3 JoinedBodies::Pair::open(std::span<const dvec3> values, bool arePlaces) const {
+    if (!line || !arePlaces) return b.of(values) - a.of(values);
+    const dvec3 low = (*line)[0].of(values), along = glm::normalize((*line)[1].of(values) - low),
+                between = b.of(values) - low;
+    return between - glm::dot(between, along) * along;
+}
+
 // The part of a difference that a pair rules.
 dvec3 JoinedBodies::held(std::size_t pair, const dvec3& difference) const {
     if (pairs_[pair].length > 0) return glm::dot(difference, along_[pair]) * along_[pair];
@@ -50,8 +76,9 @@ void JoinedBodies::findGiven(std::span<const dvec3> at, std::span<const double> 
     std::vector<std::pair<std::array<int, 2>, std::size_t>> earlier;  // bodies, pair
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
         const std::array<int, 2> bodies{bodyAt(pairs_[k].a), bodyAt(pairs_[k].b)};
-        if (pairs_[k].length > 0 || bodies[0] == loose || bodies[1] == loose) continue;
         auto next = given_[k].begin();
+        if (pairs_[k].line) *next++ = pairs_[k].free;
+        if (pairs_[k].length > 0 || bodies[0] == loose || bodies[1] == loose) continue;
         for (const auto& [others, other] : earlier) {
             if (others != bodies || next == given_[k].end()) continue;
             const dvec3 way = held(k, pairs_[k].a.of(at) - pairs_[other].a.of(at));
@@ -147,7 +174,7 @@ bool JoinedBodies::solveTaut(std::span<const dvec3> at, std::span<const double> 
     double furthest = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const Pair& pair = pairs_[k];
-        left_[k] = pair.b.of(values) - pair.a.of(values);
+        left_[k] = pair.open(values, arePlaces);
         if (pair.length > 0) {
             const dvec3 between = pair.a.of(at) - pair.b.of(at);
             const double size = std::sqrt(glm::dot(between, between));

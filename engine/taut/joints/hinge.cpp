@@ -1,5 +1,6 @@
-// Joints at a place between two rigid bodies, made of pins: a ball joint is one, a hinge two on its axis. What limits
-// them is a leash between two spots that the bodies carry, so that one row ends a turn at either limit:
+// Joints at a place between two rigid bodies, made of pins: a ball joint is one, a hinge two on its axis; a slider is
+// three that hold across its axis only (private/slide.h). Their limit is a leash between two spots that the bodies
+// carry, so that one row ends a turn or a slide at either limit:
 //
 //          a         arm r of a at the middle of the limits, arm of b at the turn: the spots are
 //         /          2 r sin(|turn - middle| / 2) apart
@@ -16,6 +17,7 @@
 #include "taut/joints/private/axles.h"
 #include "taut/joints/private/only_constraint.h"
 #include "taut/joints/private/rods.h"
+#include "taut/joints/private/slide.h"
 #include "taut/plan/island_plan.h"
 #include "taut/plan/mounting.h"
 #include "taut/plan/private/pins.h"
@@ -64,6 +66,19 @@ Kind<JointSpec> mountedKind(std::string help, fields::FieldList<Own> own) {
     return kind;
 }
 
+// Adds checks of the limits and of the motor: the key, the error and an example of each.
+template <class Own>
+void checkDrive(Kind<JointSpec>& kind, const char* limits, const char* notBetween, const char* pair, const char* motor,
+                const char* noMost, const char* most) {
+    kind.section.check = [=, rest = kind.section.check](const fields::CheckInput& input, void* target) {
+        rest(input, target);
+        const Own& own = *static_cast<const Own*>(target);
+        if (own.limits && !(own.limits->x <= 0 && own.limits->y >= 0 && own.limits->x < own.limits->y))
+            input.problems.addError(input.at(limits), notBetween, pair);
+        if (own.motorSpeed != 0 && !(own.motorMost > 0)) input.problems.addError(input.at(motor), noMost, most);
+    };
+}
+
 }  // namespace
 
 void BallJoint::mount(IslandPlan& plan, const Mounting& at) const {
@@ -101,6 +116,23 @@ void HingeJoint::carry(IslandPlan&, const Spot&, Grip) const {
     failMount(*this);
 }
 
+// As no body turns against the other, the axis may go through any place: the centre of one, where spots are exact.
+void SliderJoint::mount(IslandPlan& plan, const Mounting& at) const {
+    const dvec3& middle = at.centre;
+    const dvec3 along = glm::normalize(at.at.rotation * axis);
+    const dvec3 half = (0.5 * at.size) * along, arm = at.size * core::acrossOf(along);
+    expectAxes(*this, at, middle + half, "");
+    plan.constraints.push_back(
+        std::make_shared<Slide>(Constraint::Drive{{0, 0, 0}, {0, 0, 0}, damping, friction, motorSpeed, motorMost}, at,
+                                std::array{middle - half, middle + half, middle + arm}));
+    if (limits)
+        leash(plan, at, middle + 0.5 * (limits->x + limits->y) * along, middle, 0.5 * (limits->y - limits->x), source);
+}
+
+void SliderJoint::carry(IslandPlan&, const Spot&, Grip) const {
+    failMount(*this);
+}
+
 Kind<JointSpec> ballKind() {
     return mountedKind<BallJoint>(
         "A ball joint holds two bodies together at `place`, about which they turn in any way. One or both are "
@@ -128,16 +160,30 @@ Kind<JointSpec> hingeKind() {
                     "Speed of b's turn that a motor seeks, with up to motor_N_m; 0: it holds.")
             .number("motor_N_m", &HingeJoint::motorMost, "N m", fields::notNegative,
                     "Largest torque of the motor; 0: there is none."));
-    kind.section.check = [rest = kind.section.check](const fields::CheckInput& input, void* target) {
-        rest(input, target);
-        const auto& hinge = *static_cast<const HingeJoint*>(target);
-        if (hinge.limits && !(hinge.limits->x <= 0 && hinge.limits->y >= 0 && hinge.limits->x < hinge.limits->y))
-            input.problems.addError(input.at("limits_deg"),
-                                    "the limits are turns since the start, which is 0 and between them",
-                                    "e.g. limits_deg = [0, 90]");
-        if (hinge.motorSpeed != 0 && !(hinge.motorMost > 0))
-            input.problems.addError(input.at("motor_rad_per_s"), "a motor has a torque", "e.g. motor_N_m = 10");
-    };
+    checkDrive<HingeJoint>(kind, "limits_deg", "the limits are turns since the start, which is 0 and between them",
+                           "e.g. limits_deg = [0, 90]", "motor_rad_per_s", "a motor has a torque",
+                           "e.g. motor_N_m = 10");
+    return kind;
+}
+
+Kind<JointSpec> sliderKind() {
+    Kind<JointSpec> kind = mountedKind<SliderJoint>(
+        "A slider holds two rigid bodies, or one and a collider, so that b slides along an axis of a, without turning. "
+        "`place` is in the axes of `axis`, and may be anywhere. Sides collide with each other only if `touch` is set.",
+        fields::FieldList<SliderJoint>()
+            .vector("limits_m", &SliderJoint::limits, "m", placeRange,
+                    "Least and largest way of b along the axis since the start; any if not given. It stops there "
+                    "without a bounce.")
+            .number("friction_N", &SliderJoint::friction, "N", fields::notNegative,
+                    "Largest force with which friction slows the slide, and holds.")
+            .number("damping_N_s_per_m", &SliderJoint::damping, "N s/m", fields::notNegative,
+                    "Force against the slide over its speed.")
+            .number("motor_m_per_s", &SliderJoint::motorSpeed, "m/s", fields::Range{-1e3, 1e3},
+                    "Speed of b along the axis that a motor seeks, with up to motor_N; 0: it holds.")
+            .number("motor_N", &SliderJoint::motorMost, "N", fields::notNegative,
+                    "Largest force of the motor; 0: there is none."));
+    checkDrive<SliderJoint>(kind, "limits_m", "the limits are ways since the start, which is 0 and between them",
+                            "e.g. limits_m = [0, 0.2]", "motor_m_per_s", "a motor has a force", "e.g. motor_N = 10");
     return kind;
 }
 

@@ -74,6 +74,21 @@ struct HingeJoint final : SpecOf<HingeJoint, JointSpec> {
     void carry(IslandPlan&, const Spot&, Grip) const override;
 };
 
+// Holds two bodies together so that the second slides along an axis of the first, without turning.
+struct SliderJoint final : SpecOf<SliderJoint, JointSpec> {
+    static constexpr std::string_view kindName = "slider";
+    dvec3 axis{0.0, 1.0, 0.0};             // in the axes of `place`
+    std::optional<glm::dvec2> limits;      // [m] of the second body's way along it since the start
+    double friction = 0, damping = 0;      // [N], [N s/m]
+    double motorSpeed = 0, motorMost = 0;  // [m/s], [N]; 0: no motor
+
+    std::string_view title() const override { return "a slider"; }
+    bool isMounted() const override { return true; }
+    void mount(IslandPlan& plan, const Mounting& at) const override;
+    void tie(IslandPlan&, const Spot&, const Spot&, double) const override {}
+    void carry(IslandPlan&, const Spot&, Grip) const override;
+};
+
 // Draws two edges together, then keeps them together.
 struct SeamJoint final : SpecOf<SeamJoint, JointSpec> {
     static constexpr std::string_view kindName = "seam";

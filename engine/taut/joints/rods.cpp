@@ -27,11 +27,13 @@ void Rods::tie(const Spot& a, const Spot& b, double length, const Source& source
     for (const Rod& rod : rods_)
         if ((rod.a == first && rod.b == second) || (rod.a == second && rod.b == first)) return;
     rods_.push_back({first, second, length, source, isMost});
+    pairs_.clear();
 }
 
 void Rods::tie(const Spot& a, const Place& b, double length, const Source& source, bool isMost) {
     const Spot first = ends_.of(a, rods_);
     rods_.push_back({first, ends_.of(b), length, source, isMost});
+    pairs_.clear();
 }
 
 double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) const {
@@ -48,13 +50,11 @@ double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) c
     return most;
 }
 
-std::vector<Constraint::Pair> Rods::pairs(double /*t*/) {
-    std::vector<Pair> all;
-    for (int r = 0; r < size(); ++r) {
-        const Rod& rod = rods_[static_cast<std::size_t>(r)];
-        if (holds(r)) all.push_back({rod.a, rod.b, r, rod.length, rod.isMost});
-    }
-    return all;
+std::span<const Constraint::Pair> Rods::pairs(double /*t*/) {
+    for (int r = 0; r < size() && std::ssize(pairs_) < count(); ++r)
+        if (const Rod& rod = rods_[static_cast<std::size_t>(r)]; holds(r))
+            pairs_.push_back({rod.a, rod.b, r, rod.length, rod.isMost});
+    return pairs_;
 }
 
 // A rod under a tension T draws its ends back across, like a spring of T/L. Bounded by Gershgorin's theorem.

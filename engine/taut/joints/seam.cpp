@@ -36,8 +36,9 @@ Kind<JointSpec> seamKind() {
                 "starts.")
             .number("start_s", &SeamJoint::start, "s", fields::notNegative,
                     "When it begins to close; before, nothing draws its points."));
-    std::erase_if(kind.section.fields,
-                  [](const fields::Field& row) { return row.key == "place" || row.key == "touch"; });
+    std::erase_if(kind.section.fields, [](const fields::Field& row) {
+        return row.key == "place" || row.key == "place_in" || row.key == "touch";
+    });
     for (fields::Field& row : kind.section.fields)
         if (row.key == "a" || row.key == "b") {
             row.role = fields::Role::points;

@@ -55,13 +55,14 @@ class Constraint {
     // The same for v. Afterwards v has no component along the gradients at x.
     virtual bool projectVelocities(const Moment& moment) = 0;
 
-    // Torques between two bodies about an axis that both share, once a step. The axis goes through the first two spots
-    // of a body, the third is beside it; at the start the spots of a and b are the same places.
+    // Torques between two bodies about an axis that both share, or forces along it, once a step. The axis goes through
+    // the first two spots of a body, the third is beside it; at the start the spots of a and b are the same places.
     struct Drive {
         std::array<Spot, 3> a, b;    // numbers as in Moment
-        double damping = 0;          // [N m s]
+        double damping = 0;          // [N m s]; all numbers for an axis along which b slides: [N s/m], [N], [m/s], [N]
         double friction = 0;         // [N m] largest torque that slows the turn
         double speed = 0, most = 0;  // [rad/s] of b against a that a motor seeks, [N m] its largest torque; 0: none
+        bool slides = false;
     };
     virtual std::vector<Drive> drives() const { return {}; }
     // A spring between two places, a force that holds nothing.
@@ -82,8 +83,10 @@ class Constraint {
         int tie;
         double length = 0;    // [m]
         bool isMost = false;  // of the length: they may be nearer
+        // b is held on the line from a through this spot of the same body, and not along it.
+        std::optional<Spot> line{};
     };
-    virtual std::vector<Pair> pairs(double /*t*/) { return {}; }
+    virtual std::span<const Pair> pairs(double /*t*/) { return {}; }
     // Its pairs, if from t [s] on all that it does is to hold each a, a point, in the place of b: in such an order that
     // no b is the a of a later pair. None if it holds nothing.
     virtual std::optional<std::vector<Pair>> joinedFrom(double /*t*/) const { return std::nullopt; }

@@ -1,6 +1,7 @@
 // The plan from which an island is built: the bodies that move together, with their points and springs.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -67,6 +68,11 @@ struct JointTie {
     };
     std::vector<Part> parts{};
     bool isGrip = false;  // it is a grip or part of one
+    bool has(const Part& part) const {
+        return std::any_of(
+            parts.begin(), parts.end(),
+            [&](const Part& own) { return own.constraint == part.constraint && own.tie == part.tie; });
+    }
 };
 
 // Points have the island's own numbers: body by body, welded points once.

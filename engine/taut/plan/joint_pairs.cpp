@@ -44,7 +44,8 @@ PlacedSide placedSide(const JointSpec& joint, const ScenePoints& scene) {
 
 // The place of a joint on a body of its placed side, and the axes of that.
 collision::Frame frameOf(const JointSpec& joint, int number, const ScenePoints& scene) {
-    collision::Frame frame = scene.body(number).axes;
+    const bool isInWorld = joint.placeIn == JointSpec::PlaceIn::world;
+    collision::Frame frame = isInWorld ? collision::Frame() : scene.body(number).axes;
     frame.position = frame.toWorld(*joint.place);
     return frame;
 }
@@ -116,6 +117,7 @@ Mounting mountingOf(const JointPair& pair, const ScenePoints& scene) {
     mounting.b = end(pair.b);
     const Spot& placed = placedSide(*pair.spec, scene).isA ? pair.a : pair.b;
     mounting.at = frameOf(*pair.spec, scene.refOf(placed.nearest()).body, scene);
+    mounting.centre = scene.body(scene.refOf(pair.b.nearest()).body).axes.position;
     mounting.size = 0.5 * sizeOf(scene.body(scene.refOf(pair.a.nearest()).body));
     return mounting;
 }
@@ -127,10 +129,10 @@ void addJoint(const JointSpec& joint, int ofScene, const ScenePoints& scene, Cou
     std::optional<dvec3> place;
     if (joint.place) {
         const PlacedSide placed = placedSide(joint, scene);
-        if (placed.bodies.size() > 1)
+        if (placed.bodies.size() > 1 && joint.placeIn == JointSpec::PlaceIn::side)
             throw Error(ErrorKind::badContent, at(joint.source) + "\"" + (placed.isA ? joint.a : joint.b).text() +
                                                    "\" names several bodies, and place is in the axes of one; "
-                                                   "write a [[joint]] for each");
+                                                   "write a [[joint]] for each, or set place_in = \"world\"");
         place = frameOf(joint, placed.bodies.front(), scene).position;
     }
     std::vector<JointEnd> as = endsOf(joint.a, joint, place, scene), bs = endsOf(joint.b, joint, place, scene);

@@ -17,6 +17,7 @@ struct Mounting {
     std::function<End(const dvec3&)> b;
     collision::Frame at;  // the place, and the axes of the side whose own they are
     double size = 1;      // [m] of the bodies
+    dvec3 centre{0.0};    // [m] of b, or of a if b is a collider
 };
 
 }  // namespace taut::world

@@ -98,6 +98,7 @@ void Pins::layOut(double t) {
     }
     sum_.resize(nodes_.size());
     layOutRows(rows);
+    listPairs();
 }
 
 // In the order of the pins, so that neighbours of a seam are neighbours here.
@@ -129,6 +130,14 @@ void Pins::layOutRows(std::span<const int> pins) {
     diagonal_.resize(rows_.size());
     pull_.resize(rows_.size());
     ease_.resize(clusters_.size());
+}
+
+void Pins::listPairs() {
+    pairs_.clear();
+    for (const Cluster& cluster : clusters_)
+        for (int n = cluster.first + 1; n < cluster.last; ++n)
+            pairs_.push_back({nodes_[n].number, nodes_[nodes_[n].parent].number, nodes_[n].pin});
+    for (const Row& row : rows_) pairs_.push_back({pins_[row.pin].a, pins_[row.pin].b, row.pin});
 }
 
 // Points of solids stay, as the solids would lose their shape; points tied to them come.
@@ -165,19 +174,9 @@ std::vector<int> Pins::clusterOf(int point) const {
     return all;
 }
 
-std::vector<Constraint::Pair> Pins::pairs(double t) {
+std::span<const Constraint::Pair> Pins::pairs(double t) {
     if (t < from_ || t >= until_) layOut(t);
-    std::vector<Pair> all;
-    for (const Cluster& cluster : clusters_)
-        for (int n = cluster.first + 1; n < cluster.last; ++n) {
-            const Node& node = nodes_[n];
-            all.push_back({node.number, nodes_[node.parent].number, node.pin});
-        }
-    for (const Row& row : rows_) {
-        const Pin& pin = pins_[row.pin];
-        all.push_back({pin.a, pin.b, row.pin});
-    }
-    return all;
+    return pairs_;
 }
 
 // Roots of clusters between points come first, then the points that are one with each.

@@ -26,6 +26,15 @@ dvec3 placeOn(const collision::Pose& pose, const dvec3& offset) {
     return pose.position + mechanics::PosePath::rotated(pose.rotation, offset);
 }
 
+bool isInWorld(const JointSpec& joint) {
+    return joint.placeIn == JointSpec::PlaceIn::world;
+}
+
+// [m] In the scene; pose: of the joint's collider.
+dvec3 placeOf(const JointSpec& joint, const collision::Pose& pose) {
+    return isInWorld(joint) ? *joint.place : placeOn(pose, *joint.place);
+}
+
 // Points of the body's model, each once.
 std::vector<int> namedPoints(const JointSide& side, const Body& body) {
     std::vector<int> points;
@@ -114,10 +123,13 @@ class Tying {
     }
 
   private:
-    // The place of a joint and the axes that its own are in: of a body that is its first side, else of its collider.
+    // The place of a joint and the axes that its own are in: of a body that is its first side, else of its collider, or
+    // of the scene.
     collision::Frame frameOf(const JointSpec& joint, const Body& body) const {
         collision::Frame frame;
-        if (isCollider(joint.a) || !endsAtPlace(joint, body)) {
+        if (isInWorld(joint)) {
+            frame = {};
+        } else if (isCollider(joint.a) || !endsAtPlace(joint, body)) {
             const collision::Pose pose = *holders_.poseOf(holders_.nearest(colliderOf(joint), body.axes.position));
             frame = {glm::mat3_cast(pose.rotation), pose.position, true};
         } else {
@@ -133,7 +145,8 @@ class Tying {
     // [m] On the holder, of the place to which a point is tied.
     dvec3 offsetOf(const JointSpec& joint, int point, const std::string& holder) const {
         const Body& body = *authored(plan_, point).first;
-        return endsAtPlace(joint, body) ? inHolder(holder, frameOf(joint, body).position) : *joint.place;
+        const bool isOnHolder = !endsAtPlace(joint, body) && !isInWorld(joint);
+        return isOnHolder ? *joint.place : inHolder(holder, frameOf(joint, body).position);
     }
     void mount(const JointSpec& joint, const Spot& end, const Grip& grip) {
         const Body& body = *authored(plan_, end.nearest()).first;
@@ -146,6 +159,7 @@ class Tying {
         mounting.at = frameOf(joint, body);
         // Turns are those of b: as seen from the body, a collider that is a turns the other way.
         if (isCollider(joint.a)) mounting.at.rotation *= -1.0;
+        mounting.centre = body.axes.position;
         mounting.size = 0.5 * sizeOf(body);
         joint.mount(plan_, mounting);
         carryBy(plan_, grip.holder, grip.path);
@@ -161,7 +175,7 @@ class Tying {
         for (const int point : points) {
             dvec3& x = plan_.positions[point];
             const collision::Pose pose = *holders_.poseOf(holders_.nearest(colliderOf(joint), x));
-            const dvec3 place = placeOn(pose, *joint.place);
+            const dvec3 place = placeOf(joint, pose);
             if (const double away = glm::distance(x, place); away > joint.reach())
                 fail(joint.source, "place is " + std::to_string(away) + " m from " + nameOf(point) +
                                        ", further than a weld reaches, " + std::to_string(joint.reach()) +
@@ -297,10 +311,10 @@ void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const Holde
                         *holders.poseOf(holders.nearest(colliderOf(joint), body->axes.position));
                     const std::optional<dvec3> named = placeNamed(*body, parseTarget(target).selector);
                     for (const int i : namedPoints(one, *body))
-                        expectAtPlace(joint, one,
-                                      glm::distance(body->model.positions[static_cast<std::size_t>(i)],
-                                                    placeOn(pose, *joint.place)));
-                    if (named) expectAtPlace(joint, one, glm::distance(*named, placeOn(pose, *joint.place)));
+                        expectAtPlace(
+                            joint, one,
+                            glm::distance(body->model.positions[static_cast<std::size_t>(i)], placeOf(joint, pose)));
+                    if (named) expectAtPlace(joint, one, glm::distance(*named, placeOf(joint, pose)));
                 }
             if (std::all_of(bodies.begin(), bodies.end(),
                             [&](const Body* body) { return countTied(joint, one, *body) == 0; }))

@@ -43,6 +43,8 @@ void checkJoint(const fields::CheckInput& input, const JointSpec& joint) {
         input.problems.addError(input.at("place"),
                                 "place is on a side that is a whole solid or a collider, and both sides name points",
                                 "leave the selector of one out, or leave place out");
+    if (joint.placeIn != JointSpec::PlaceIn::side && !joint.place)
+        input.problems.addError(input.at("place_in"), "place_in needs a place", "e.g. place = [0, 1, 0]");
     if (joint.isDrawn()) return;
     for (const char* key : {"radius", "turns", "coil_radius"})
         if (input.table.find(key) != nullptr)

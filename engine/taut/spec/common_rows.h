@@ -124,7 +124,9 @@ template <class Own>
 std::vector<fields::Field> everyJointsRows() {
     return fields::FieldList<Own>()
         .vector("place", &JointSpec::place, "m", placeRange,
-                "End of its ties on the first side that is a whole solid or collider, in the own axes of that side.")
+                "End of its ties on the first side that is a whole solid or collider.")
+        .choice("place_in", &JointSpec::placeIn, {"side", "world"},
+                "Axes of `place` and `axis`: the own ones of that side, or those of the scene as it starts.")
         .text("name", &JointSpec::name, fields::Role::none,
               "Name for the action release; it releases all joints of the name.")
         .number("break_N", &JointSpec::breakForce, "N", fields::positive,

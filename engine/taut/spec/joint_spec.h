@@ -55,9 +55,10 @@ struct JointSpec {
     std::string name;                  // several joints may share a name; empty: none
     std::optional<double> breakForce;  // [N] at which a tie breaks
     bool touch = false;                // whether the rigid bodies that it joins collide with each other
-    // [m] In the axes of the first side that is a whole body or a collider, of a body that is not rigid in those of the
-    // scene as it starts; none: as the kind says.
+    // [m] Where the scene starts; none: as the kind says.
     std::optional<dvec3> place;
+    // The axes of `place`: of the first side that is a whole body or a collider, or of the scene.
+    enum class PlaceIn { side, world } placeIn = PlaceIn::side;
     JointLook look;
     Source source;
 

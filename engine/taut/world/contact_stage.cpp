@@ -338,6 +338,7 @@ int ContactStage::openBlock(const TickTime& time, int step, int steps, int usual
     if (!wholes_.empty()) addWholeContacts(h, (steps - 1) * h);
     const double from = static_cast<double>(step) / steps_;
     findTouches(x0_, ahead_, from, std::min(1.0, from + static_cast<double>(steps) / steps_));
+    placePivots(time.at(step, steps_));
     addTouches();
     addJoints(time.at(step, steps_));
     const int longest = steps;

@@ -5,8 +5,7 @@
 #include <numeric>
 
 #include "taut/bodies/private/carried_surface.h"
-#include "taut/plan/constraint.h"
-#include "taut/plan/private/pins.h"
+#include "taut/plan/held_pair.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {
@@ -163,7 +162,10 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
     for (const Part& part : parts_)
         for (const JointTie& tie : part.island->plan().ties)
             if (tie.isSeam) group_->elements().sew(part.first + tie.a, part.first + tie.b);
-    keepJoinedApart(offsets, touched);
+    solidOf_.assign(x1_.size(), -1);
+    for (std::size_t s = 0; s < solids_.size(); ++s)
+        for (const int point : solids_[s]) solidOf_[static_cast<std::size_t>(point)] = static_cast<int>(s);
+    keepJoinedApart(offsets, touched, now.start());
     colliders_.placeAll(x1_);
     x0_ = x1_;
 }
@@ -185,7 +187,7 @@ void ContactStage::addPiece(const Body& body, contact::ContactSurface& surface, 
 // Excludes pairs of rigid bodies that a joint holds together, and of bodies and the colliders that carry them: contact
 // would work against the joint.
 // offsets: (surfaces) of their island's points.
-void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched) {
+void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched, double t) {
     std::vector<std::vector<int>> rigidAt(x1_.size());  // (points) bodies, by their first surface
     const auto surfacesFrom = [&](int first) {
         std::vector<int> all;
@@ -210,14 +212,14 @@ void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const
     for (const Part& part : parts_) {
         const IslandPlan& plan = part.island->plan();
         for (int i = part.first; i < part.last; ++i) join(i, i);  // a merged point
+        const std::span<const HeldPair> held = part.island->heldPairs(t);
         for (const JointTie& tie : plan.ties) {
-            if (tie.touch || !holds(plan, tie)) continue;
+            if (!holds(plan, tie)) continue;
+            if (tie.touch) addPivot(part, static_cast<std::size_t>(&tie - plan.ties.data()), touched);
+            if (tie.touch) continue;
             if (tie.b >= 0) join(part.first + tie.a, part.first + tie.b);
-            const auto pins = [&](const JointTie::Part& own) {
-                const Constraint* constraint = plan.constraints[static_cast<std::size_t>(own.constraint)].get();
-                return dynamic_cast<const Pins*>(constraint) != nullptr;
-            };
-            if (!tie.collider.empty() && std::any_of(tie.parts.begin(), tie.parts.end(), pins))
+            const auto pins = [&](const HeldPair& pair) { return pair.length == 0 && tie.has(pair.by); };
+            if (!tie.collider.empty() && std::any_of(held.begin(), held.end(), pins))
                 mount(part.first + tie.a, tie.collider);
         }
         for (const Grip& grip : plan.grips)
@@ -233,6 +235,18 @@ void ContactStage::keepJoinedApart(std::span<const int> offsets, std::span<const
                 if (touched[c].name == collider) mountedOn_.emplace(own, static_cast<int>(c));
             for (const int other : colliders_.surfacesOf(collider)) group_->elements().keepApart(own, other);
         }
+}
+
+// Where sides of a joint touch that hold a solid.
+void ContactStage::addPivot(const Part& part, std::size_t tie, std::span<const TouchedCollider> touched) {
+    const JointTie& own = part.island->plan().ties[tie];
+    const auto solidAt = [&](int point) {
+        return point < 0 ? -1 : solidOf_[static_cast<std::size_t>(part.first + point)];
+    };
+    Pivot pivot{solidAt(own.a), solidAt(own.b), -1, &part, tie, {}, 0};
+    for (std::size_t c = 0; c < touched.size() && !own.collider.empty(); ++c)
+        if (touched[c].name == parseCollider(own.collider).collider) pivot.collider = static_cast<int>(c);
+    if (pivot.solid >= 0 && (pivot.other >= 0 || pivot.collider >= 0)) pivots_.push_back(pivot);
 }
 
 // Takes over which triangles and edges damage has removed since the last time.

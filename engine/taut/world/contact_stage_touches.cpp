@@ -5,7 +5,8 @@
 
 #include "taut/contact/penetration.h"
 #include "taut/contact/rigid_side.h"
-#include "taut/plan/constraint.h"
+#include "taut/core/across.h"
+#include "taut/plan/held_pair.h"
 
 namespace taut::world {
 namespace {
@@ -170,7 +171,10 @@ void ContactStage::addTouches() {
         pair.isPoint = pair.isActive = true;
         return pair;
     };
+    constexpr double pivotReach = 4.0;  // of the thickness
     for (const RigidTouch& touch : rigidTouches_) {
+        if (isAtPivot(touch.surface, touch.other, touch.collider, touch.onFirst, pivotReach * touch.thickness))
+            continue;
         const int a = pointOf(touch.surface);
         if (touch.other < 0) {
             add(touch.collider, a, touch.normal, touch.onFirst, touch.velocity, touch.spin, touch.gap);
@@ -187,6 +191,7 @@ void ContactStage::addTouches() {
     }
     for (const ElementTouch& touch : elementTouches_) {
         const contact::ContactSurface& surface = elements().surface(touch.surface);
+        if (isAtPivot(touch.surface, touch.solid, touch.collider, touch.place, pivotReach * touch.thickness)) continue;
         if (touch.solid >= 0) {
             // Both are pressed where the element is.
             contact::ContactConstraint& pair = addPair(touch.solid, touch.surface, touch.gap, touch.thickness);
@@ -212,72 +217,98 @@ void ContactStage::addTouches() {
     }
 }
 
-// Rows of the joints of solids at t [s], where their block begins -> rigidPairs_. A pin has one along each axis. Joints
-// of sides that touch have none: beside the axle of a lid, contact that overlaps by rounding would hold it open.
-void ContactStage::addJoints(double t) {
-    using Kind = contact::ContactConstraint::Kind;
-    const auto isOfSolid = [&](int point) {
-        return std::any_of(solids_.begin(), solids_.end(), [&](const std::vector<int>& points) {
-            return std::binary_search(points.begin(), points.end(), point);
-        });
-    };
-    int number = 0;
-    for (const Part& part : parts_) {
-        const IslandPlan& plan = part.island->plan();
-        if (plan.solids.empty() || plan.ties.empty() || part.island->isStill()) continue;
-        std::set<std::pair<int, int>> touching;  // constraint and tie
-        for (const JointTie& tie : plan.ties)
-            for (const JointTie::Part& own : tie.parts)
-                if (tie.touch) touching.emplace(own.constraint, own.tie);
-        for (std::size_t c = 0; c < plan.constraints.size(); ++c) {
-            const auto& constraint = plan.constraints[c];
-            for (const Constraint::Pair& tie : constraint->copy()->pairs(t)) {
-                if (touching.contains({static_cast<int>(c), tie.tie})) continue;
-                // An end has a place, and points of the group if anything may move it.
-                struct End {
-                    dvec3 place{0.0};
-                    std::vector<Spot::Share> shares{};
-                    bool isOfSolid = false;
-                };
-                const auto endOf = [&](const Spot& spot) {
-                    const int count = static_cast<int>(constraint->points().size());
-                    if (const int own = spot.nearest(); own >= count) {
-                        const Constraint::Place& place = constraint->places()[static_cast<std::size_t>(own - count)];
-                        const auto frame = pathOf(plan, place.collider).at(t);
-                        return End{frame.place + frame.arm(place.offset)};
-                    }
-                    const Spot here = spot.renumbered(
-                        [&](int own) { return part.first + constraint->points()[static_cast<std::size_t>(own)]; });
-                    End end{here.of(xStart_), {here.shares().begin(), here.shares().end()}, isOfSolid(here.nearest())};
-                    if (end.isOfSolid) end.shares = {{here.nearest(), 1.0}};
-                    return end;
-                };
-                End first = endOf(tie.a), second = endOf(tie.b);
-                if (!first.isOfSolid) std::swap(first, second);
-                if (!first.isOfSolid || second.shares.size() > 3) continue;
-                contact::ContactConstraint row{};
-                row.points.fill(first.shares.front().point);
-                row.weights = {1.0, 0.0, 0.0, 0.0};
-                for (std::size_t k = 0; k < second.shares.size(); ++k) {
-                    row.points[k + 1] = second.shares[k].point;
-                    row.weights[k + 1] = -second.shares[k].weight;
-                }
-                row.isPoint = row.isActive = true;
-                row.places = {{first.place, second.place}};
-                row.a = ofJoint | number++;
-                const dvec3 between = second.place - first.place;
-                const double length = std::sqrt(glm::dot(between, between));
-                row.kind = tie.isMost ? Kind::leash : Kind::joint;
-                row.distance = tie.length - length;
-                for (row.b = 0; row.b < (tie.length > 0 ? 1 : 3); ++row.b) {
-                    row.normal = dvec3(0.0);
-                    row.normal[row.b] = 1.0;
-                    if (tie.length > 0 && length > 0) row.normal = between / length;
-                    rigidPairs_.push_back(row);
-                }
-            }
-        }
+// Where the pins of joints are whose sides touch -> pivots_.
+void ContactStage::placePivots(double t) {
+    for (Pivot& pivot : pivots_) {
+        const IslandPlan& plan = pivot.part->island->plan();
+        const auto x = std::span<const dvec3>(xStart_).subspan(static_cast<std::size_t>(pivot.part->first));
+        pivot.pins = 0;
+        for (const HeldPair& pair : pivot.part->island->heldPairs(t))
+            if (pair.length == 0 && !pair.line && pivot.pins < 2 && plan.ties[pivot.tie].has(pair.by))
+                pivot.at[static_cast<std::size_t>(pivot.pins++)] = pair.a.at(plan, x, t);
     }
+}
+
+// Whether a joint holds two sides together within this reach [m] of a place. What touches there turns nothing, but it
+// overlaps by rounding, and an overlap δ beside the axle would open a lid by δ over the distance. The joint keeps these
+// places apart better, and contact the others.
+bool ContactStage::isAtPivot(int surface, int other, int collider, const dvec3& place, double reach) const {
+    const auto solidAt = [&](int own) {
+        return own < 0 ? -1 : solidOf_[static_cast<std::size_t>(elements().surface(own).points.front())];
+    };
+    return std::any_of(pivots_.begin(), pivots_.end(), [&](const Pivot& pivot) {
+        if (pivot.pins == 0 || pivot.collider != collider) return false;
+        const int a = solidAt(surface), b = solidAt(other);
+        if (!(a == pivot.solid && b == pivot.other) && !(b == pivot.solid && a == pivot.other)) return false;
+        dvec3 way = place - pivot.at[0];
+        if (pivot.pins == 2) {
+            const dvec3 axle = pivot.at[1] - pivot.at[0];
+            way -= glm::dot(way, axle) / glm::dot(axle, axle) * axle;
+        }
+        return glm::dot(way, way) < reach * reach;
+    });
+}
+
+// Rows of the joints of solids at t [s], where their block begins -> rigidPairs_.
+void ContactStage::addJoints(double t) {
+    int name = ofJoint;
+    for (const Part& part : parts_) {
+        if (part.island->plan().solids.empty() || part.island->isStill()) continue;
+        for (const HeldPair& pair : part.island->heldPairs(t))
+            if (addJoint(part, pair, t, name)) ++name;
+    }
+}
+
+// A row for the pair along its length, along each axis if its ends are in one place, or across its line. Returns
+// whether one of them is of a solid and both move with few enough points for a row.
+bool ContactStage::addJoint(const Part& part, const HeldPair& pair, double t, int name) {
+    using Kind = contact::ContactConstraint::Kind;
+    const auto isSolid = [&](const HeldPair::End& end) {
+        return end.place == nullptr && solidOf_[static_cast<std::size_t>(part.first + end.point())] >= 0;
+    };
+    const bool isTurned = !isSolid(pair.a);
+    const HeldPair::End &first = isTurned ? pair.b : pair.a, &second = isTurned ? pair.a : pair.b;
+    const bool areFew = second.place != nullptr || isSolid(second) || second.spot.shares().size() <= 3;
+    if (!isSolid(first) || !areFew) return false;
+    contact::ContactConstraint row{};
+    row.points.fill(part.first + first.point());
+    row.weights = {1.0, 0.0, 0.0, 0.0};
+    const auto take = [&](std::size_t k, int point, double weight) {
+        row.points[k] = part.first + point;
+        row.weights[k] = -weight;
+    };
+    if (isSolid(second))
+        take(1, second.point(), 1.0);
+    else if (second.place == nullptr)
+        for (std::size_t k = 0; k < second.spot.shares().size(); ++k)
+            take(k + 1, second.spot.shares()[k].point, second.spot.shares()[k].weight);
+    const IslandPlan& plan = part.island->plan();
+    const auto x = std::span<const dvec3>(xStart_).subspan(static_cast<std::size_t>(part.first));
+    auto [here, there] = pair.ends(plan, x, t);
+    if (isTurned) std::swap(here, there);
+    const dvec3 between = there - here;
+    const double length = std::sqrt(glm::dot(between, between));
+    row.isPoint = row.isActive = true;
+    row.places = {{here, there}};
+    row.a = name;
+    row.kind = pair.isMost ? Kind::leash : Kind::joint;
+    row.distance = pair.length - length;
+    std::array<dvec3, 3> normals{dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), dvec3(0.0, 0.0, 1.0)};
+    int count = 3;
+    if (pair.length > 0) {
+        count = 1;
+        if (length > 0) normals[0] = between / length;
+    } else if (pair.line) {
+        count = 2;
+        const dvec3 along = pair.along(plan, x, t);
+        normals[0] = core::acrossOf(along);
+        normals[1] = glm::cross(along, normals[0]);
+    }
+    for (row.b = 0; row.b < count; ++row.b) {
+        row.normal = normals[static_cast<std::size_t>(row.b)];
+        rigidPairs_.push_back(row);
+    }
+    return true;
 }
 
 }  // namespace taut::world

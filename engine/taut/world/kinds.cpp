@@ -13,6 +13,7 @@
     KIND(JointSpec, joints, rodKind)       \
     KIND(JointSpec, joints, hingeKind)     \
     KIND(JointSpec, joints, ballKind)      \
+    KIND(JointSpec, joints, sliderKind)    \
     KIND(ForceSpec, forces, anchorKind)    \
     KIND(ForceSpec, forces, windKind)      \
     KIND(ForceSpec, forces, fillingKind)   \

@@ -17,8 +17,7 @@
 #include "taut/island/private/planar.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/ode/method.h"
-#include "taut/plan/constraint.h"
-#include "taut/plan/island_plan.h"
+#include "taut/plan/held_pair.h"
 
 namespace taut::world {
 
@@ -72,6 +71,25 @@ class ConstraintSlot {
     // Lengths of springs of the plan have changed, or some are broken.
     void follow() {
         for (Tie& tie : ties_) tie.constraint->follow(plan_);
+    }
+
+    // Pairs that the ties hold at t [s].
+    std::span<const HeldPair> heldPairs(double t) {
+        held_.clear();
+        for (int constraint = 0; constraint < static_cast<int>(ties_.size()); ++constraint) {
+            Tie& tie = ties_[constraint];
+            const auto endOf = [&](const Spot& end) {
+                const auto count = tie.constraint->points().size();
+                if (const auto own = static_cast<std::size_t>(end.nearest()); own >= count)
+                    return HeldPair::End{-1, &tie.constraint->places()[own - count]};
+                return HeldPair::End{end.renumbered([&](int own) { return tie.constraint->points()[own]; })};
+            };
+            for (const auto& [a, b, number, length, isMost, line] : tie.constraint->pairs(t)) {
+                held_.push_back({endOf(a), endOf(b), {constraint, number}, length, isMost});
+                if (line) held_.back().line = endOf(*line);
+            }
+        }
+        return held_;
     }
 
     // [N s] The impulse by which a tie has pulled its first end since forgetImpulses(). Some constraints give it in
@@ -277,10 +295,14 @@ class ConstraintSlot {
         }
         if (bodies.empty()) return bodies;
         for (Tie& tie : ties_)
-            for (const auto& [a, b, number, length, isMost] : tie.constraint->pairs(time_)) {
+            for (const auto& [a, b, number, length, isMost, line] : tie.constraint->pairs(time_)) {
                 const auto numberOf = [&](int end) { return static_cast<int>(tie.numbers[end]); };
-                joined_.addPair({a.renumbered(numberOf), b.renumbered(numberOf),
-                                 static_cast<std::size_t>(tie.first + number), length, isMost});
+                const auto pull = static_cast<std::size_t>(tie.first + number);
+                const Spot first = a.renumbered(numberOf), second = b.renumbered(numberOf);
+                if (line)
+                    joined_.addSliding({first, line->renumbered(numberOf)}, second, pull, at);
+                else
+                    joined_.addPair({first, second, pull, length, isMost});
             }
         return bodies;
     }
@@ -306,11 +328,12 @@ class ConstraintSlot {
             const std::vector<dvec3>& at = isOfPlaces ? from_ : x_;
             if (!joined_.solve(at, inverseMass_, values, isOfPlaces, settled)) break;
             for (std::size_t k = 0; k < joined_.pairs().size(); ++k) {
-                const auto& [a, b, pull, length, isMost] = joined_.pairs()[k];
+                const JoinedBodies::Pair& pair = joined_.pairs()[k];
                 const dvec3& impulse = joined_.impulses()[k];
-                a.push(values, inverseMass_, impulse);
-                b.push(values, inverseMass_, -impulse);
-                pull_[pull] += length > 0 ? dvec3(joined_.tension(k), 0.0, 0.0) : impulse;  // of a rod as Rods gives it
+                pair.a.push(values, inverseMass_, impulse);
+                pair.b.push(values, inverseMass_, -impulse);
+                // Of a rod as Rods gives it.
+                pull_[pair.pull] += pair.length > 0 ? dvec3(joined_.tension(k), 0.0, 0.0) : impulse;
             }
             makeRigid();
         }
@@ -328,16 +351,19 @@ class ConstraintSlot {
     // A drive where its bodies are before a step.
     struct Couple {
         std::array<Spot, 3> a, b;     // numbers of the slot
-        std::array<dvec3, 2> across;  // [1/m] of a and b, into the turn about the axis
+        bool slides;                  // along the axis: of a, the first spot is where the first of b is
+        std::array<dvec3, 2> across;  // [1/m] of a and b, into the turn about the axis; [1] of a slide: along it
         // Of b against a, about the axis: (points) ways [m] or velocities [m/s].
         double turn(std::span<const dvec3> of) const {
             const auto own = [&](const std::array<Spot, 3>& s, const dvec3& by) {
+                if (slides) return glm::dot(s[0].of(of), by);
                 return glm::dot(s[2].of(of) - 0.5 * (s[0].of(of) + s[1].of(of)), by);
             };
             return own(b, across[1]) - own(a, across[0]);
         }
         void push(std::span<dvec3> values, std::span<const double> inverseMass, double impulse) const {
             const auto own = [&](const std::array<Spot, 3>& s, const dvec3& p) {
+                if (slides) return s[0].push(values, inverseMass, p);
                 s[2].push(values, inverseMass, p);
                 s[0].push(values, inverseMass, -0.5 * p);
                 s[1].push(values, inverseMass, -0.5 * p);
@@ -348,18 +374,24 @@ class ConstraintSlot {
     };
     Couple coupleOf(const Tie& tie, const Constraint::Drive& drive) const {
         const auto numberOf = [&](int end) { return static_cast<int>(tie.numbers[end]); };
-        Couple couple{drive.a, drive.b, {}};
+        Couple couple{drive.a, drive.b, drive.slides, {}};
         for (auto* spots : {&couple.a, &couple.b})
             for (Spot& spot : *spots) spot = spot.renumbered(numberOf);
         const auto acrossOf = [&](const std::array<Spot, 3>& s) {
             const dvec3 low = s[0].of(from_), high = s[1].of(from_), arm = s[2].of(from_) - 0.5 * (low + high);
             return glm::cross(glm::normalize(high - low), arm) / glm::dot(arm, arm);
         };
-        couple.across = {acrossOf(couple.a), acrossOf(couple.b)};
+        if (drive.slides) {
+            couple.a[0] = JoinedBodies::footOf({couple.a[0], couple.a[1]}, couple.b[0], from_);
+            couple.across.fill(glm::normalize(couple.a[1].of(from_) - drive.a[0].renumbered(numberOf).of(from_)));
+        } else {
+            couple.across = {acrossOf(couple.a), acrossOf(couple.b)};
+        }
         return couple;
     }
-    // Torques of hinges during a step of h [s] change its result. The inertia of a hinge with its load is measured by
-    // an impulse of 1 N m s. Expects in from_ the places on colliders at the start of the step.
+    // Torques of hinges and forces of sliders during a step of h [s] change its result. The inertia of a joint with its
+    // load is measured by an impulse of 1 N m s, or 1 N s. Expects in from_ the places on colliders at the start of the
+    // step.
     void drive(double h) {
         for (const Tie& tie : ties_)
             for (const Constraint::Drive& own : tie.constraint->drives()) {
@@ -429,6 +461,7 @@ class ConstraintSlot {
     std::vector<dvec3> placed_, stored_;
     std::vector<dvec3> pull_, impulse_;  // (ties of all constraints)
     JoinedBodies joined_;                // of the last turns
+    std::vector<HeldPair> held_;         // as of heldPairs()
 };
 
 }  // namespace taut::world

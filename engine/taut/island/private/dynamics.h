@@ -14,7 +14,7 @@
 #include "taut/mechanics/private/state_bound.h"
 #include "taut/mechanics/private/volume.h"
 #include "taut/ode/method.h"
-#include "taut/plan/island_plan.h"
+#include "taut/plan/held_pair.h"
 #include "taut/plan/state_bytes.h"
 
 namespace taut::world {
@@ -106,6 +106,8 @@ class Dynamics {
     virtual void forgetImpulses() = 0;
     virtual dvec3 impulse(const JointTie::Part& part) const = 0;
     virtual double turning(double t, double seconds) = 0;
+    // Pairs that constraints hold at t [s]; until the next call.
+    virtual std::span<const HeldPair> heldPairs(double t) = 0;
     // Whether collide() sums up how it changes the energy. takeContactWork() returns that sum and resets it.
     virtual void watchContacts(bool isOn) = 0;
     virtual ContactWork takeContactWork() = 0;

@@ -106,6 +106,8 @@ class Island {
     void place(std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v);
     // After place(): constraints share its changes. Returns whether any point of the island moved.
     bool settle() { return !isStill() && dynamics_->settle(); }
+    // Pairs that constraints hold at t [s]; until the next call.
+    std::span<const HeldPair> heldPairs(double t) const { return dynamics_->heldPairs(t); }
     // After the last part: takes over the accelerations by contact with other bodies in the last step.
     void bear(std::span<const ContactAcceleration> pressed) { now_.pressed.assign(pressed.begin(), pressed.end()); }
     std::span<const ContactAcceleration> pressed() const { return now_.pressed; }

@@ -7,13 +7,15 @@
 // In turns a pin would move one point of little mass, and its body by that share alone: chains and heavy loads do not
 // settle so. Here the impulses p of all pairs solve one symmetric system, A p = x_b - x_a, by conjugate gradients. It
 // is the linear part of the motion, so a few solves follow each other. A pin of two bodies already fixes the
-// distance of any other place from it, so the second pin of a hinge acts across the axle only. Points get p
-// over their own mass, from which their bodies find theirs. This adds no momentum.
+// distance of any other place from it, so the second pin of a hinge acts across the axle only. A slider is pins that
+// never act along its axis: two on it and one beside it leave five rows. Points get p over their own mass, from which
+// their bodies find theirs. This adds no momentum.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,18 +26,29 @@ namespace taut::world {
 
 class JoinedBodies {
   public:
+    using dvec3 = glm::dvec3;
+    using Line = std::array<Spot, 2>;
     struct Pair {
         Spot a, b;
         std::size_t pull;  // for the owner
         double length;     // [m] of a rod; 0: both are in one place
         bool isMost;       // of the length: it is a rod only if it is too long
+        // Two spots of a's body: b is held on the line through them, and a is the place on it where b was.
+        std::optional<Line> line{};
+        dvec3 free{0.0};  // unit, along the line
+        // The gap from a to b. values (points): places [m] or velocities.
+        dvec3 open(std::span<const dvec3> values, bool arePlaces) const;
     };
+    // The place on a line that is nearest to b, x (points) [m].
+    static Spot footOf(const Line& line, const Spot& b, std::span<const dvec3> x);
 
     // points: how many there are.
     void begin(std::size_t points);
     // Points that are of several bodies count for the first.
     void addBody(const core::RigidMotion& body, std::span<const std::size_t> points);
     void addPair(const Pair& pair) { pairs_.push_back(pair); }
+    // Holds b on a line, where impulses act at x (points) [m].
+    void addSliding(const Line& line, const Spot& b, std::size_t pull, std::span<const dvec3> x);
     bool isEmpty() const;  // no pair holds a body
     bool hasLeash() const {
         return std::any_of(

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -57,6 +58,18 @@ class RestWatch {
     dvec3 velocity(std::size_t i, const dvec3& x, double seconds) const { return (x - first_[i]) / seconds; }
     dvec3 acceleration(std::size_t i, const dvec3& x, double seconds) const {
         return (x - 2.0 * middle_[i] + first_[i]) / (0.25 * seconds * seconds);
+    }
+
+    // [m] How far any point still goes from x, where a window ends, if all motion goes on to shrink from one half of a
+    // window to the next as it did in this one; infinite if it did not, or was more than `most` in one.
+    double wayLeft(std::span<const dvec3> x, double most) const {
+        double before = 0, after = 0;
+        for (std::size_t i = 0; i < first_.size(); ++i) {
+            before = std::max(before, glm::distance(first_[i], middle_[i]));
+            after = std::max(after, glm::distance(middle_[i], x[i]));
+        }
+        if (after == 0) return 0;
+        return after < before && before <= most ? after * after / (before - after) : HUGE_VAL;
     }
 
     template <class Bytes>

@@ -33,7 +33,7 @@ class Rods final : public ConstraintOf<Rods> {
     double strain(std::span<const dvec3> x, const std::vector<bool>& counts) const override;
     double turning(std::span<const dvec3> x, std::span<const double> inverseMass,
                    std::span<const dvec3> forces) const override;
-    std::vector<Pair> pairs(double t) override;
+    std::span<const Pair> pairs(double t) override;
     void check() const override;
 
   private:
@@ -51,6 +51,7 @@ class Rods final : public ConstraintOf<Rods> {
 
     static dvec3 between(const Rod& rod, std::span<const dvec3> x) { return rod.b.of(x) - rod.a.of(x); }
     void layOut();
+    void tiesChanged() override { pairs_.clear(); }
     bool slacken();
     void findTaut(const Moment& moment, bool ofPlaces);
     bool mayPull(int rod) const { return holds(rod) && isTaut_[static_cast<std::size_t>(rod)]; }
@@ -59,6 +60,7 @@ class Rods final : public ConstraintOf<Rods> {
 
     TieEnds ends_;
     std::vector<Rod> rods_;
+    std::vector<Pair> pairs_;  // made when first asked for
 
     // Made when first asked for.
     std::vector<int> order_;           // (rows) rods

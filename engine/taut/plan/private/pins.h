@@ -47,7 +47,7 @@ class Pins final : public ConstraintOf<Pins> {
     int size() const override { return static_cast<int>(pins_.size()); }
     bool projectPositions(const Moment& moment) override { return project(moment.x, moment); }
     bool projectVelocities(const Moment& moment) override { return project(moment.v, moment); }
-    std::vector<Pair> pairs(double t) override;
+    std::span<const Pair> pairs(double t) override;
     std::optional<std::vector<Pair>> joinedFrom(double t) const override;
     bool carries(int point) const override;
     void check() const override;
@@ -90,6 +90,7 @@ class Pins final : public ConstraintOf<Pins> {
     bool join(std::span<dvec3> values, const Moment& moment);
     bool joinBetween(std::span<dvec3> values, const Moment& moment);
     void layOutRows(std::span<const int> rows);
+    void listPairs();
     void bear(const Cluster& cluster, const Moment& moment);
 
     TieEnds ends_;
@@ -97,6 +98,7 @@ class Pins final : public ConstraintOf<Pins> {
     std::vector<Node> nodes_;
     std::vector<Cluster> clusters_;
     std::vector<Row> rows_;
+    std::vector<Pair> pairs_;
     std::vector<Coupling> couplings_;
     EnvelopeMatrix matrix_;  // (rows)
     std::vector<int> open_;  // pins that are not closed yet at time_ [s]

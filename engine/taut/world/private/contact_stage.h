@@ -121,7 +121,6 @@ class ContactStage {
     const std::string& colliderName(int collider) const { return colliderNames_[static_cast<std::size_t>(collider)]; }
     // Of the last block.
     std::span<const ElementTouch> elementTouches() const { return elementTouches_; }
-    void keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched);
     // The surfaces of a crossing: two of bodies in their order, or of a body and then of a figure; none: an edge of a
     // rigid collider sticks out of a face, which is no crossing.
     std::optional<std::pair<int, int>> sidesOf(const contact::Crossing& crossing) const;
@@ -144,6 +143,8 @@ class ContactStage {
         Island* island;
         int first, last;  // points of the group
     };
+    void keepJoinedApart(std::span<const int> offsets, std::span<const TouchedCollider> touched, double t);
+    void addPivot(const Part& part, std::size_t tie, std::span<const TouchedCollider> touched);
     void beginTick(const TickTime& time, std::span<const ColliderMotion> moving);
     void takeDamage();
     void takeMasses();
@@ -157,6 +158,9 @@ class ContactStage {
     void findPresentTouches();
     void addTouches();
     void addJoints(double t);
+    void placePivots(double t);
+    bool isAtPivot(int surface, int other, int collider, const dvec3& place, double reach) const;
+    bool addJoint(const Part& part, const HeldPair& pair, double t, int name);
     template <class Each>
     void forEachNearCollider(double past, double ahead, const Each& each,
                              const std::function<bool(int surface)>& isWanted = nullptr) const;
@@ -200,12 +204,22 @@ class ContactStage {
     std::vector<Part> parts_;               // (islands)
     std::vector<const Body*> bodies_;       // (surfaces)
     std::vector<std::vector<int>> solids_;  // their points in the group, ascending
+    std::vector<int> solidOf_;              // (points) which; -1: none
     struct Whole {
         int surface;
         double thickness;         // [m] without its sag
         std::vector<int> points;  // of the surface, those that are near each other together
     };
     std::vector<Whole> wholes_;  // of bodies that meet colliders as a whole
+    // Where a joint holds two solids, or a solid and a collider, whose sides touch each other.
+    struct Pivot {
+        int solid, other, collider;  // -1: none
+        const Part* part;
+        std::size_t tie;          // of its plan
+        std::array<dvec3, 2> at;  // [m] pins of it, as the block begins: one, or two on an axle
+        int pins;
+    };
+    std::vector<Pivot> pivots_;
     // Surfaces and numbers of colliders that carry points of them: they do not touch.
     std::set<std::pair<int, int>> mountedOn_;
     std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements

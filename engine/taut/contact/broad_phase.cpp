@@ -26,7 +26,8 @@ void appendIf(std::span<const ElementPair> pairs, std::vector<CandidatePair>& ca
 
 BroadPhase::BroadPhase(const Elements& elements) : elements_(elements), bvh_(elements) {
     for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s)
-        if (!elements.isRigid(s)) shortest_ = std::min(shortest_, elements.shortestEdge(s));
+        if (const double own = elements.shortestEdge(s); own > 0 && !elements.isRigid(s))
+            shortest_ = std::min(shortest_, own);
 }
 
 void BroadPhase::refresh() {
@@ -54,9 +55,9 @@ void BroadPhase::findAstray(std::span<const dvec3> expected, std::span<const dve
         const double thickness = elements_.surface(bvh_[leaf].surface).thickness;
         return astray_[static_cast<std::size_t>(leaf)] > leewayShare * std::min(thickness, 0.5 * shortest_);
     };
-    bool areAny = false;
-    for (int leaf = 0; leaf < bvh_.count(); ++leaf) areAny = areAny || isAstray(leaf);
-    if (!areAny) return;
+    int first = 0;
+    while (first < bvh_.count() && !isAstray(first)) ++first;
+    if (first == bvh_.count()) return;
     bvh_.fit(x0, x1);
     bvh_.findNear(near_);
     std::erase_if(near_, [&](LeafPair pair) {

@@ -2,6 +2,7 @@
 // that overlap in truth are apart here. A kernel tests one box against all boxes of a leaf at once.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -41,7 +42,7 @@ class ElementBoxes {
     template <class BoxOf>
     void fill(const std::vector<int>& items, const BoxOf& boxOf) {
         items_ = items;
-        stride_ = (items.size() + boxesAtOnce - 1) / boxesAtOnce * boxesAtOnce;
+        stride_ = std::max<std::size_t>(1, (items.size() + boxesAtOnce - 1) / boxesAtOnce) * boxesAtOnce;
         rows_.resize(6 * stride_ / boxesAtOnce);
         for (std::size_t i = 0; i < stride_; ++i) set(i, i < items.size() ? boxOf(items[i]) : FloatBox::none());
     }

@@ -49,10 +49,10 @@ class Elements {
     }
     bool areNeighbours(int point, const Triangle& triangle) const {
         const std::array<int, 3>& c = triangle.points;
-        return areOne(point, c[0]) | areOne(point, c[1]) | areOne(point, c[2]);
+        return areOne(point, c[0]) + areOne(point, c[1]) + areOne(point, c[2]) > 0;  // without a branch
     }
     bool areNeighbours(const Edge& a, const Edge& b) const {
-        return areOne(a.a, b.a) | areOne(a.a, b.b) | areOne(a.b, b.a) | areOne(a.b, b.b);
+        return areOne(a.a, b.a) + areOne(a.a, b.b) + areOne(a.b, b.a) + areOne(a.b, b.b) > 0;
     }
 
     const std::vector<ContactSurface>& surfaces() const { return surfaces_; }

@@ -53,13 +53,15 @@ class ElementBoxes {
 
   private:
     void set(std::size_t i, const FloatBox& box) {
-        float* at = rows_.data()->of + i;
+        const auto at = [&](std::size_t k) -> float& {
+            return rows_[k * (stride_ / boxesAtOnce) + i / boxesAtOnce].of[i % boxesAtOnce];
+        };
         for (std::size_t k = 0; k < 3; ++k) {
-            at[k * stride_] = box.low[k];
-            at[(k + 3) * stride_] = box.high[k];
+            at(k) = box.low[k];
+            at(k + 3) = box.high[k];
         }
     }
-    const float* row(std::size_t k) const { return rows_.data()->of + k * stride_; }
+    const float* row(std::size_t k) const { return rows_[k * (stride_ / boxesAtOnce)].of; }
 
     std::span<const int> items_;
     struct alignas(64) Some {

@@ -157,8 +157,11 @@ INSTANTIATE_TEST_SUITE_P(Shipped, DrawnFiner,
                                          Played{"twist", 3.0, {"cloth.*.cells=[30, 13]"}},
                                          Played{"hammock", 1.5, {}, 0.2}, Played{"dance", 1.2, {}}),
                          nameOf);
+// Towels of such coarse cells that lie crumpled: of four starts that differ by 0.1 mm two stay below 0.1, the others
+// have 0.17 and 0.21 of 3 mm.
 INSTANTIATE_TEST_SUITE_P(Dear, DrawnFiner,
-                         testing::Values(Played{"laundry", 2.0, {"cloth.*.cells=[20, 16]"}}, Played{"cape", 1.0, {}}),
+                         testing::Values(Played{"laundry", 2.0, {"cloth.*.cells=[20, 16]"}, 0.25},
+                                         Played{"cape", 1.0, {}}),
                          nameOf);
 
 }  // namespace

@@ -61,7 +61,7 @@ class Bvh {
     // Finds the motion of all leaves on straight ways from x0 to x1 (points) [m].
     void fit(std::span<const dvec3> x0, std::span<const dvec3> x1);
     const LeafMotion& motion(int leaf) const { return motions_[static_cast<std::size_t>(leaf)]; }
-    // Whether the last fit() found its motion anew: not of what stands still, and stood still before.
+    // Whether the last fit() computed the motion of the leaf. It skips leaves that stand still, and stood still before.
     bool isRefitted(int leaf) const { return isRefitted_[static_cast<std::size_t>(leaf)] != 0; }
     // Pairs a <= b of leaves that may meet, and whose boxes come within reach of each other; ascending.
     void findNear(std::vector<LeafPair>& pairs);

@@ -101,7 +101,7 @@ inline unsigned overlap(const BoxLanes& boxes, int at, const float* low, const f
     return own;
 }
 
-// Likewise of 64, or of those that there are.
+// A bit for each of the next 64 boxes, or fewer at the end of the row.
 inline std::uint64_t overlapMany(const BoxLanes& boxes, int from, const float* low, const float* high) {
     std::uint64_t bits = 0;
     for (int i = 0; i < 64 && from + i < boxes.n; i += sixteen)

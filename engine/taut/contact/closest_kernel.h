@@ -36,7 +36,7 @@ struct BoxLanes {
 struct ElementPair {
     int first, second;
 };
-// Two sets of boxes, of elements with these numbers. Bits choose those that take part.
+// Two sets of boxes, of elements with these numbers. Bits select the boxes to test.
 struct BoxSets {
     BoxLanes first, second;
     const int *firstItems, *secondItems;

@@ -1,9 +1,8 @@
 // Narrow phase: measures the distance of each candidate pair, and decides which pairs become constraints.
 //
-// Each task has some pairs of leaves. It measures their candidates many at once (closest_kernel.h), and classifies
-// those that come close. A pair is active if its gap is closed, or would close along its normal in this block. Its
-// feature must also be the closest: in a sheet one point is close to several triangles and edges, and only the closest
-// feature of all pushes.
+// Each task has some pairs of leaves. It measures their candidates many at once (closest_kernel.h), and classifies the
+// close ones. A pair is active if its gap is closed, or would close along its normal in this block. Its feature must also
+// be the closest: in a sheet one point is close to several triangles and edges, and only the closest feature pushes.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -207,7 +206,7 @@ double ContactGroup::openWay() const {
     return block_.steps > 1 ? mostOpenWay : 1.0;
 }
 
-// Measures candidates of two leaves, many at once, and classifies those that come close.
+// Measures the candidates of two leaves, many at once, and classifies the close ones.
 void ContactGroup::measure(LeafPair leaves, std::span<const CandidatePair> candidates, bool isPoint, const Ways& ways,
                            const ClosestKernels& kernels, std::vector<ContactConstraint>& pairs) const {
     thread_local ClosestLanes lanes;

@@ -229,9 +229,9 @@ void ContactStage::placePivots(double t) {
     }
 }
 
-// Whether a joint holds two sides together within this reach [m] of a place. What touches there turns nothing, but it
-// overlaps by rounding, and an overlap δ beside the axle would open a lid by δ over the distance. The joint keeps these
-// places apart better, and contact the others.
+// Whether a joint holds two sides together within this reach [m] of a place. A contact so near to the axle has no lever
+// to turn the sides, and an overlap δ by rounding would open a lid by δ over the distance. There the joint alone keeps
+// the sides in place.
 bool ContactStage::isAtPivot(int surface, int other, int collider, const dvec3& place, double reach) const {
     const auto solidAt = [&](int own) {
         return own < 0 ? -1 : solidOf_[static_cast<std::size_t>(elements().surface(own).points.front())];

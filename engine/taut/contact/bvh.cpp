@@ -228,10 +228,10 @@ void Bvh::fit(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         [&](int leaf) {
             const auto p = static_cast<std::size_t>(leaf);
             const bool isStill = elements_.isStill(leaves_[p].surface);
-        isRefitted_[p] = isStill && wasStill_[p] != 0 ? 0 : 1;
-        wasStill_[p] = isStill ? 1 : 0;
-        if (isRefitted_[p] == 0) return;
-        LeafMotion& motion = motions_[p];
+            isRefitted_[p] = isStill && wasStill_[p] != 0 ? 0 : 1;
+            wasStill_[p] = isStill ? 1 : 0;
+            if (isRefitted_[p] == 0) return;
+            LeafMotion& motion = motions_[p];
             motion = {};
             for (int i : leaves_[p].corners) {
                 const dvec3 &from = x0[static_cast<std::size_t>(i)], &to = x1[static_cast<std::size_t>(i)];

@@ -82,8 +82,8 @@ struct LeafBoxes {
 // Finds the elements of two leaves, or of one with itself, whose boxes come within reach of each other.
 class BoxQuery {
   public:
-    // reach [m]. wholeFirst, wholeSecond: the boxes of the two leaves. way [m]: displacement of the first leaf relative to
-    // the second. If both sets are the same, each pair is found once. The next call overwrites the result.
+    // reach [m]. wholeFirst, wholeSecond: the boxes of the two leaves. way [m]: displacement of the first leaf relative
+    // to the second. If both sets are the same, each pair is found once. The next call overwrites the result.
     std::span<const ElementPair> find(double reach, const ElementBoxes& first, const core::Aabb& wholeFirst,
                                       const ElementBoxes& second, const core::Aabb& wholeSecond, const dvec3& way);
 

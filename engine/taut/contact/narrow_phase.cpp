@@ -1,8 +1,9 @@
 // Narrow phase: measures the distance of each candidate pair, and decides which pairs become constraints.
 //
 // Each task has some pairs of leaves. It measures their candidates many at once (closest_kernel.h), and classifies the
-// close ones. A pair is active if its gap is closed, or would close along its normal in this block. Its feature must also
-// be the closest: in a sheet one point is close to several triangles and edges, and only the closest feature pushes.
+// close ones. A pair is active if its gap is closed, or would close along its normal in this block. Its feature must
+// also be the closest: in a sheet one point is close to several triangles and edges, and only the closest feature
+// pushes.
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -7,6 +7,7 @@
 #include "support/timelines.h"
 #include "taut/world/world.h"
 #include "unit/scene_support.h"
+#include "unit/world_places.h"
 
 namespace taut::world::hinges {
 namespace {
@@ -38,18 +39,6 @@ std::string link(const std::string& name, double degrees, const std::string& mor
 
 std::string hinge(const std::string& a, const std::string& b, const std::string& more = "") {
     return "[[joint]]\na = \"" + a + "\"\nb = \"" + b + "\"\nkind = \"hinge\"\n" + more;
-}
-
-double lengthOf(const dvec3& d) {
-    return std::sqrt(glm::dot(d, d));
-}
-
-// [m] Between the middles of two opposite faces, from four corners each.
-dvec3 middle(const World& world, const std::string& target) {
-    dvec3 sum(0.0);
-    const std::vector<dvec3> x = world.points(target).x;
-    for (const dvec3& own : x) sum += own;
-    return sum / static_cast<double>(x.size());
 }
 
 // Complete elliptic integral of the first kind by the arithmetic-geometric mean.
@@ -395,12 +384,17 @@ TEST(Hinge, JointedSolidsThatStayFallAsleepTogether) {
         "[[joint]]\nkind = \"ball\"\na = \"collider.post\"\nb = \"solid.bob\"\nplace = [0, 0, 0]\n";
     EXPECT_EQ(asleepAfter(link("bob", 0) + ball, 300), 14);
     EXPECT_EQ(asleepAfter(link("bob", 0, "spin_rad_per_s = [0, 1e-3, 0]\n") + ball, 300), 0);
-    World lamp(
+    const SceneSpec hanging =
         sceneOf(head("[0, -9.81, 0]", solver) + post + link("bob", 20) +
-                hinge("collider.post", "solid.bob", "place = [0, 0, 0]\naxis = [0, 0, 1]\ndamping_N_m_s = 0.5\n")));
+                hinge("collider.post", "solid.bob", "place = [0, 0, 0]\naxis = [0, 0, 1]\ndamping_N_m_s = 0.5\n"));
+    World lamp(hanging), resumed(hanging);
     run(lamp, 600);
     EXPECT_EQ(lamp.metrics().asleep, 14);
     EXPECT_LT(std::abs(middle(lamp, "solid.bob@bottom").x), 1e-3);  // its error
+    resumed.restore(lamp.save());
+    run(lamp, 10);
+    run(resumed, 10);
+    EXPECT_EQ(lamp.save(), resumed.save());
 
     // Asleep, it goes on with the same bits after a restart. Released, both wake.
     const SceneSpec scene =

@@ -6,6 +6,7 @@
 #include "support/timelines.h"
 #include "taut/world/world.h"
 #include "unit/scene_support.h"
+#include "unit/world_places.h"
 
 namespace taut::world::sliders {
 namespace {
@@ -34,17 +35,6 @@ std::string slider(const std::string& more = "") {
     return "[[joint]]\na = \"collider.post\"\nb = \"solid.block\"\nkind = \"slider\"\nplace = [0, 0, 0]\n"
            "axis = [" +
            std::to_string(std::cos(pi / 6)) + ", -0.5, 0]\n" + more;
-}
-
-double lengthOf(const dvec3& d) {
-    return std::sqrt(glm::dot(d, d));
-}
-
-dvec3 middle(const World& world, const std::string& target) {
-    dvec3 sum(0.0);
-    const std::vector<dvec3> x = world.points(target).x;
-    for (const dvec3& own : x) sum += own;
-    return sum / static_cast<double>(x.size());
 }
 
 // [m] Along and across the line, and [rad] the turn.

@@ -14,6 +14,7 @@ constexpr double longestStep = 1.1e-3;  // [s] of contact with deformable bodies
 constexpr int stepsOfBlock = 2;         // of the longest ones, in a block of the usual length
 constexpr int mostStepsForSpeed = 64;   // in a tick
 constexpr int mostGrowth = 2;           // of a block after a calm one, times the usual length
+constexpr int freeGrowth = 4;           // likewise, after one without rows
 // Of two sides from one another or past, times their thickness:
 constexpr double mostWay = 3.0;  // in a block, and in a step
 constexpr double calmWay = 1.0;  // in a block of which the next one is longer, and in any block where something bounces
@@ -266,7 +267,7 @@ void ContactStage::takeBlocks(const TickTime& time, std::span<const ColliderMoti
 // far too many pairs.
 int ContactStage::nextLength(int steps, int usual) const {
     const double way = group_->wayOfStep();
-    const int calm = mostGrowth * usual;
+    const int calm = (group_->hasRows() ? mostGrowth : freeGrowth) * usual;
     if (!spec_.detections && !mayRoll() && way * calm < calmWay) return calm;
     const int most = std::min(usual, 2 * steps);
     return way * most > mostWayOfPair() ? std::max(1, static_cast<int>(mostWayOfPair() / way)) : most;

@@ -8,7 +8,7 @@ namespace taut::world {
 
 // A commit that changes any result of any scene, even in the last bit, raises it by one. Results without this number
 // come from bits 1.
-inline constexpr int resultBits = 14;
+inline constexpr int resultBits = 15;
 
 inline constexpr int mostBits = 999'999'999;  // valid numbers are 1 … this
 

@@ -11,9 +11,9 @@
 // three thicknesses in one.
 //
 // How many blocks. As few as possible, because detection is expensive: eight in a sixtieth of a second, or one a step
-// if these are fewer. After a block without rows the next one may have four times the usual length, and after a calm one
-// in which nothing may roll twice the usual length. A block in which two sides would go further than three thicknesses
-// from one another or past is shorter, and it ends with a step in which something bounced.
+// if these are fewer. After a block without rows the next one may have four times the usual length, and after a calm
+// one in which nothing may roll twice the usual length. A block in which two sides would go further than three
+// thicknesses from one another or past is shorter, and it ends with a step in which something bounced.
 //
 // A tick is never tried and undone for contact. It is repeated if an island asks for it (its step was too long), if one
 // diverged and is frozen, and where something that sleeps was reached. The other islands then go on, and the frozen one

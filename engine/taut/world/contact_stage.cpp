@@ -14,7 +14,7 @@ constexpr double longestStep = 1.1e-3;  // [s] of contact with deformable bodies
 constexpr int stepsOfBlock = 2;         // of the longest ones, in a block of the usual length
 constexpr int mostStepsForSpeed = 64;   // in a tick
 constexpr int mostGrowth = 2;           // of a block after a calm one, times the usual length
-constexpr int freeGrowth = 4;           // likewise, after one without rows
+constexpr int freeGrowth = 4;           // of a block after one without rows, times the usual length
 // Of two sides from one another or past, times their thickness:
 constexpr double mostWay = 3.0;  // in a block, and in a step
 constexpr double calmWay = 1.0;  // in a block of which the next one is longer, and in any block where something bounces
